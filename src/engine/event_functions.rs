@@ -1,4 +1,4 @@
-//! Changes of sign of watched quantities inside steps.
+//! Sign changes of event functions inside an accepted step, located by sampling, parabolas and Brent's root finder.
 
 use super::step::Step;
 use super::{Motion, PIECES};
@@ -6,28 +6,28 @@ use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, maximum, root};
 
-/// A step is looked at in pieces of this travel, rad, but at least in [`PIECES`]. Between them parabolas tell where a
-/// quantity may leave its sign and come back.
+/// Largest crank travel between two samples of a step, rad; a step has at least [`PIECES`] pieces. Parabolas between
+/// the samples detect double sign changes.
 const PIECE_TRAVEL: f64 = 0.1;
 
-/// The quantities whose signs are watched, at time t (s), angle and speed.
+/// Event functions of time t (s), angle and speed (rad/s), whose sign changes are located.
 pub trait EventFunction<const N: usize> {
-    /// Their values.
+    /// Returns the N values.
     fn values(&self, t: f64, angle: Angle, speed: f64) -> [f64; N];
 }
 
-/// A quantity that left the sign it had.
+/// Sign change of one event function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// Which of the quantities.
+    /// Index of the event function.
     pub index: usize,
 }
 
-/// All changes inside a step in the order of time. `signs` are the signs that the quantities have at its start,
-/// which rounding may hide there, and after the call those at its end. A step that `follows` another begins with the
-/// values at the end of that one, unless a load jumps there. A step in which something changes is refined.
+/// Returns all sign changes inside a step in time order. `signs` holds the signs at the start of the step, where
+/// rounding may hide them, and on return those at its end. `follows`: the step continues another; a different sign at
+/// its start is then a jump of a load. A step with a sign change is refined.
 pub fn changes<const N: usize>(
     step: &mut Step,
     motion: &dyn Motion,
@@ -54,7 +54,7 @@ pub fn changes<const N: usize>(
     for (index, sign) in signs.iter_mut().enumerate() {
         let value = |t: f64| look(step, watched, t).values[index];
         if follows && has_jumped(&fine, index, *sign) {
-            // Not at the start itself, so that the motion goes on.
+            // Just after the start of the step: the run has to advance.
             let t = step.start.t * (1.0 + 4.0 * f64::EPSILON);
             found.push(Change { t, index });
             *sign = -*sign;
@@ -78,14 +78,14 @@ pub fn changes<const N: usize>(
     found
 }
 
-/// Whether a quantity has jumped where the step starts.
+/// True if the function has the opposite sign at the start of the step by more than rounding.
 fn has_jumped<const N: usize>(looks: &[EventValues<N>], index: usize, sign: f64) -> bool {
     let values = looks.iter().map(|look| look.values[index].abs());
     let largest = values.fold(0.0, f64::max);
     looks[0].values[index] * sign < -SUM_ROUNDING * largest
 }
 
-/// Times and values of one quantity, and those of the lowest points of its dips between them.
+/// Returns times and values of one function: the samples and the minima of its dips between them.
 fn with_dips<const N: usize>(
     looks: &[EventValues<N>],
     index: usize,
@@ -107,18 +107,18 @@ fn with_dips<const N: usize>(
     all
 }
 
-/// Whether a quantity of one sign may have the other for a while between three times.
+/// True if a function of one sign at three times may have the other sign between them.
 fn may_dip<const N: usize>(three: &[EventValues<N>], index: usize) -> bool {
     let values = [0, 1, 2].map(|i| three[i].values[index] * three[1].values[index].signum());
     values.iter().all(|value| *value >= 0.0) && dip::may_dip([0, 1, 2].map(|i| three[i].t), values)
 }
 
-/// When a value becomes negative that is not positive at `from`, where rounding may hide what it is, and negative at
-/// `to`. If it does not show that it was positive, it left at `from`; next to it where that is the start of a step,
-/// so that the motion goes on.
+/// Returns the time at which a value becomes negative that is negative at `to` and not positive at `from`, where
+/// rounding may hide its sign. If no sample is positive, this is `from`, or just after `from` at the start of a step:
+/// the run has to advance.
 fn left_early(value: impl Fn(f64) -> f64, from: f64, to: f64, inside: bool) -> f64 {
     let mut after = to;
-    // Half of the digits of the piece: a quantity is as exact as the square of the time beside an extreme.
+    // Half the digits of the piece: next to an extreme the value changes with the square of the time.
     while after - from > f64::EPSILON.sqrt() * (to - from) {
         let t = from + 0.5 * (after - from);
         if t <= from || t >= after {
@@ -132,7 +132,7 @@ fn left_early(value: impl Fn(f64) -> f64, from: f64, to: f64, inside: bool) -> f
     if inside { from } else { after }
 }
 
-/// The quantities at a time.
+/// Values of the event functions at a time, s.
 struct EventValues<const N: usize> {
     t: f64,
     values: [f64; N],
@@ -146,8 +146,8 @@ fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> 
     }
 }
 
-/// Steps end at jumps of loads. The first and the last look are this part of the step beside its ends, so that they show the
-/// values inside.
+/// Distance of the first and last sample from the ends of a step, as a fraction of its length: steps end at jumps of
+/// loads, and the samples are to show the values inside.
 const BESIDE_END: f64 = 1e-9;
 
 fn time(step: &Step, piece: usize, pieces: usize) -> f64 {

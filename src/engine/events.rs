@@ -1,4 +1,4 @@
-//! Passages of given angles and turning points, located inside the steps.
+//! Passages of given angles, turning points and extremes inside an accepted step, by root finding on its interpolant.
 
 use std::f64::consts::TAU;
 
@@ -7,22 +7,22 @@ use super::{Motion, NODES, PIECES};
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::root;
 
-/// What happened.
+/// Kind of a located event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
-    /// The angle passed the watched angle of this index.
+    /// Passage of the watched angle with this index.
     Angle(usize),
-    /// The speed changed its sign.
+    /// Sign change of the speed.
     Turning,
 }
 
-/// Most turning points that are found in a step.
+/// Most turning points located in one step.
 const TURNINGS: usize = 6;
 
-/// An angle in its turn, and one that is watched, are rounded by less than this together, rad.
+/// Bound of the joint rounding error of an angle reduced to one turn and a watched angle, rad.
 pub const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
 
-/// All crossings inside a step, in the order of time, as (time, what). `watched` are angles in [0, 2π).
+/// Finds all crossings inside a step, in time order, as (time, kind). `watched`: angles in [0, 2π), rad.
 pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>) {
     found.clear();
     let mut cuts = [step.start.t; TURNINGS + 2];
@@ -44,7 +44,7 @@ pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>)
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
 }
 
-/// Intervals in which the speed changes sign; none for the usual step whose speed stays clear of zero.
+/// Finds intervals in which the speed changes sign; none for the usual step whose speed stays clear of zero.
 fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     let (w0, w1) = (step.start.omega, step.end.omega);
     let change = step.length() * step.start.alpha.abs().max(step.end.alpha.abs());
@@ -58,14 +58,14 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
             _ => step.start.t + step.length() * i as f64 / PIECES as f64,
         };
         let after = SpeedAt::at(step, t);
-        // A speed that comes nearer to zero at first, and then leaves again.
+        // The speed approaches zero and recedes again.
         let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;
         let lowest = if dips {
             root::bracketed(|t| step.acceleration_at(t), before.t, t)
         } else {
             None
         };
-        // From rest a speed may be rounding first.
+        // Just after rest the speed may be mere rounding.
         let lowest = lowest
             .map(|t| SpeedAt::at(step, t))
             .filter(|turn| turn.speed.abs() > SUM_ROUNDING * w0.abs().max(w1.abs()));
@@ -80,7 +80,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     }
 }
 
-/// Speed at a time, and how fast its size grows.
+/// Speed, rad/s, at a time, s, and half the time derivative of its square, rad²/s³.
 #[derive(Clone, Copy)]
 struct SpeedAt {
     t: f64,
@@ -99,8 +99,8 @@ impl SpeedAt {
     }
 }
 
-/// Passages of watched angles on a piece where the angle is monotone. The angle of the start does not count, that of the end
-/// does, and what rounding does not tell from either is the same: steps that end at a watched angle pass it once.
+/// Finds the passages of watched angles on an interval with monotone angle. The angle at the start is excluded, the one
+/// at the end included, both with a margin of [`ROUNDED`]: steps that end at a watched angle pass it once.
 fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f64, Crossing)>) {
     let (a, b) = (step.at(from).0, step.at(to).0);
     let direction = (b - a).signum();
@@ -120,11 +120,11 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Pieces of a step without a polynomial of its own, in which an extreme is looked for.
+/// Intervals between the samples in the search for extremes of a step without its own polynomial.
 const PIECES_BETWEEN_ENDS: usize = 2;
 
-/// How the acceleration of a step goes at equally spaced times; a polynomial of its own may go up and down as often as it has
-/// nodes.
+/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals; a collocation
+/// polynomial may oscillate as often as it has nodes.
 fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
     let mut all = [0.0; NODES + 1];
     if step.has_polynomial() {
@@ -135,7 +135,7 @@ fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
     (all, PIECES_BETWEEN_ENDS)
 }
 
-/// Widens a range of speeds by those of a step.
+/// Widens a range of speeds, rad/s, by the extremes on a step.
 pub fn speed_range(step: &Step, known: (f64, f64)) -> (f64, f64) {
     let (rates, pieces) = accelerations(step);
     let value = |t: f64| step.at(t).1;
@@ -143,13 +143,13 @@ pub fn speed_range(step: &Step, known: (f64, f64)) -> (f64, f64) {
     widened(step, known, &rates[..=pieces], value, rate)
 }
 
-/// Least and largest speed over a step; where a new extreme may lie inside, the step is refined first.
+/// Widens a range of speeds, rad/s, by the extremes on a step, which is refined first if a new extreme may lie inside.
 pub fn follow_speed(step: &mut Step, motion: &dyn Motion, known: (f64, f64)) -> (f64, f64) {
     refine_for(step, motion, known, |step, t| step.at(t).1, speed_range);
     speed_range(step, known)
 }
 
-/// Least and largest of any value, given with its rate of change at a time in the step.
+/// Widens the range of any quantity by its extremes on a step; `at` returns value and time derivative at a time.
 pub fn follow(
     step: &mut Step,
     motion: &dyn Motion,
@@ -164,7 +164,7 @@ pub fn follow(
     look(step, known)
 }
 
-/// Refines a step that may hold more inside than at its ends.
+/// Refines a step on which the quantity may go beyond `known` between the ends.
 fn refine_for(
     step: &mut Step,
     motion: &dyn Motion,
@@ -175,7 +175,7 @@ fn refine_for(
     if step.is_refined() {
         return;
     }
-    // What the ends alone tell of the inside may be off by this much.
+    // Error bound of the extremes estimated from the ends alone.
     let margin = 1e-3 * known.0.abs().max(known.1.abs());
     let (a, b) = (value(step, step.start.t), value(step, step.end.t));
     let near = (
@@ -187,7 +187,7 @@ fn refine_for(
     }
 }
 
-/// The time at which the piece of this index begins.
+/// Returns the time at which the piece with this index begins, s.
 fn part(step: &Step, index: usize, pieces: usize) -> f64 {
     if index == pieces {
         step.end.t
@@ -196,7 +196,7 @@ fn part(step: &Step, index: usize, pieces: usize) -> f64 {
     }
 }
 
-/// Widens a range by the values at the ends and where `rate`, given at equally spaced times, changes its sign.
+/// Widens a range by the values at the ends and at the zeros of `rate`; `rates` samples it at equally spaced times.
 fn widened(
     step: &Step,
     mut range: (f64, f64),
@@ -210,7 +210,7 @@ fn widened(
     let pieces = rates.len() - 1;
     for (i, pair) in rates.windows(2).enumerate() {
         if pair[0] * pair[1] >= 0.0 {
-            // An extreme at one of the times itself.
+            // Extreme exactly at a sample.
             if pair[1] == 0.0 {
                 widen(value(part(step, i + 1, pieces)));
             }

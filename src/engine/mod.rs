@@ -1,4 +1,4 @@
-//! Integrators. They see a motion with one coordinate, its acceleration and power; no mechanics.
+//! Integrators for a motion with one coordinate, given by its acceleration and power; they contain no mechanics.
 
 pub mod angle;
 pub mod collocation;

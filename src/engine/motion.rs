@@ -1,48 +1,48 @@
-//! The motion that integrators see.
+//! Equation of motion as the integrators see it.
 
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 
-/// An equation of motion θ̈ = f(t, θ, θ̇) and a power whose integral is wanted beside it.
+/// Equation of motion θ̈ = f(t, θ, θ̇) with a power to be integrated along the motion.
 pub trait Motion {
-    /// θ̈, rad/s². Not finite means: not possible here.
+    /// Returns θ̈, rad/s²; not finite where no motion is possible.
     fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64;
 
-    /// θ̈, and the power (W) to be integrated.
+    /// Returns θ̈, rad/s², and the power to be integrated, W.
     fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64);
 
-    /// Whether time occurs in the acceleration or the power.
+    /// True if the acceleration or the power depends on time explicitly.
     fn depends_on_time(&self) -> bool;
 
-    /// Whether there is a power to be integrated.
+    /// True if there is a power to be integrated.
     fn has_power(&self) -> bool;
 
-    /// The next time after `t` at which the acceleration is not smooth in time; steps end there.
+    /// Returns the next time after `t`, s, at which the acceleration is not smooth in time; steps end there.
     fn next_corner(&self, t: f64) -> f64;
 
-    /// Whether the acceleration may do something between the nodes of a step that its decay does not tell.
+    /// True if the acceleration may vary between the nodes of a step without a trace in the decay of its series.
     fn has_detail(&self) -> bool {
         false
     }
 
-    /// What the acceleration, rad/s², does on a piece of the motion, and in a Bernstein ellipse of this size around it.
+    /// Returns the variation of the acceleration, rad/s², on a piece and in its Bernstein ellipse, ρ = `ellipse`.
     fn detail(&self, _reach: &Reach, _ellipse: f64) -> Detail {
         Detail::NONE
     }
 
-    /// The first coordinate, rad, after `from` on the way to `to` at which the acceleration is known not to be smooth.
+    /// Returns the first coordinate, rad, between `from` and `to` at which the acceleration is known not to be smooth.
     fn corner_on_way(&self, _from: f64, _to: f64) -> Option<f64> {
         None
     }
 
-    /// What the motion takes from the time alone: computed once for each instant of a [`Batch`].
+    /// Returns the quantities that depend on time alone, computed once per instant of a [`Batch`].
     fn of_time(&self, _t: f64) -> [f64; 2] {
         [0.0; 2]
     }
 
-    /// Accelerations and powers of a batch.
+    /// Computes accelerations and powers of a batch.
     fn fill(&self, batch: &mut Batch) {
         for i in 0..NODES {
             let angle = Angle::new(batch.turns, batch.theta[i]);
@@ -52,32 +52,32 @@ pub trait Motion {
     }
 }
 
-/// Pieces of a step in each of which a quantity changes its sign at most once, and the speed has one extreme at most.
+/// Subintervals of a step; a quantity is taken to change sign, and the speed to have an extreme, at most once in each.
 pub const PIECES: usize = 8;
 
-/// Instants in a batch.
+/// Number of instants in a batch: the nodes of the collocation.
 pub const NODES: usize = 12;
 
-/// Instants whose accelerations are asked for together.
+/// Instants evaluated together.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Batch {
-    /// s
+    /// Times, s.
     pub t: [f64; NODES],
-    /// [`Motion::of_time`] at these times.
+    /// Values of [`Motion::of_time`] at these times.
     pub of_time: [[f64; 2]; NODES],
-    /// Whole turns beside the angles.
+    /// Whole turns to be added to the angles.
     pub turns: f64,
-    /// rad
+    /// Angles without the whole turns, rad.
     pub theta: [f64; NODES],
-    /// rad/s
+    /// Speeds, rad/s.
     pub omega: [f64; NODES],
-    /// θ̈, rad/s²
+    /// Accelerations θ̈, rad/s².
     pub alpha: [f64; NODES],
-    /// W
+    /// Powers, W.
     pub power: [f64; NODES],
 }
 
-/// A motion that counts its evaluations and remembers where one was not possible.
+/// Wrapper of a motion that counts evaluations and keeps the last state without a finite acceleration.
 pub struct Counted<'a> {
     motion: &'a dyn Motion,
     evaluations: Cell<u64>,
@@ -85,7 +85,7 @@ pub struct Counted<'a> {
 }
 
 impl<'a> Counted<'a> {
-    /// Counts from zero.
+    /// Wraps a motion, with the count at zero.
     pub fn new(motion: &'a dyn Motion) -> Counted<'a> {
         Counted {
             motion,
@@ -94,12 +94,12 @@ impl<'a> Counted<'a> {
         }
     }
 
-    /// Evaluations so far.
+    /// Number of evaluations.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
     }
 
-    /// Time, angle and speed of the last evaluation without a finite result.
+    /// Time (s), angle and speed (rad/s) of the last evaluation without a finite acceleration.
     pub fn impossible(&self) -> Option<(f64, Angle, f64)> {
         self.impossible.get()
     }
@@ -110,7 +110,7 @@ impl<'a> Counted<'a> {
     }
 
     fn remember(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
-        // A state that is not finite itself comes from an impossible evaluation before it.
+        // A non-finite state results from an earlier non-finite evaluation.
         let asked = angle.rest.is_finite() && speed.is_finite();
         if asked && !acceleration.is_finite() {
             self.impossible.set(Some((t, angle, speed)));

@@ -1,40 +1,40 @@
-//! A run in time: its start, how it is integrated, where and how it ends.
+//! Start, settings and end of an integration in time.
 
 use super::runge_kutta;
 use super::step::Step;
 use crate::numeric::angle::Angle;
 use crate::numeric::stop::Stop;
 
-/// The methods.
+/// Integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Gauss collocation of order 24 by sweeps.
+    /// Gauss collocation of order 24, solved by Picard iteration (sweeps).
     Picard,
-    /// One of ode_solvers.
+    /// Explicit Runge-Kutta method of the crate ode_solvers.
     Library(runge_kutta::RungeKutta),
 }
 
-/// How to integrate.
+/// Settings of an integration in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings<'a> {
-    /// The method.
+    /// Integration method.
     pub method: Method,
-    /// Local error target, relative and absolute.
+    /// Tolerance of the local error, relative and absolute.
     pub tolerance: f64,
     /// Last time, s.
     pub t_end: f64,
-    /// How far (rad) the crank has to turn, if the run ends with that; else infinite.
+    /// Crank rotation, rad, that ends the run; infinite if there is none.
     pub way: f64,
-    /// The run ends there with [`Finish::WorkLimit`].
+    /// Evaluation limit; at it the run ends with [`Finish::WorkLimit`].
     pub limit: WorkLimit<'a>,
-    /// Unit of work, J, in which its error is measured.
+    /// Unit of work, J, for the local error of the work.
     pub work_unit: f64,
-    /// First steps of a run from the same start, from which this one sets out.
+    /// Leading steps of another run from the same start, used as first guess.
     pub guide: &'a [Step],
 }
 
 impl Settings<'_> {
-    /// Where a run ends.
+    /// Returns the conditions that end the run.
     pub fn ends(&self) -> Ends<'_> {
         Ends {
             t: self.t_end,
@@ -44,61 +44,61 @@ impl Settings<'_> {
     }
 }
 
-/// How a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Finish {
-    /// At the last time.
+    /// Last time reached.
     AtEnd,
-    /// Where the sink wanted it to end.
+    /// Stopped by the sink.
     Stopped,
-    /// The work limit is reached.
+    /// Work limit reached.
     WorkLimit,
-    /// At the pace of the last steps it would be reached long before the end.
+    /// Forecast: at the present progress the work limit comes long before the end.
     WorkLimitAhead,
-    /// At the speed of the last turns it would be.
+    /// Forecast: at the present, lasting speed of rotation the work limit comes long before the end.
     TooManyTurns,
-    /// The step size became too small for the time to move on: a singularity.
+    /// Step size below the resolution of the time: a singularity.
     StepTooSmall,
-    /// There is no acceleration at the start.
+    /// No finite acceleration at the start.
     NoStart,
 }
 
-/// A run's start.
+/// Initial state of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Start {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// rad
+    /// Crank angle.
     pub angle: Angle,
-    /// rad/s
+    /// Speed, rad/s.
     pub speed: f64,
 }
 
-/// A last time (s) from which on a run has none of its own.
+/// Last time, s, from which on a run counts as unlimited in time.
 pub const FAR: f64 = 1e9;
 
-/// Where a run ends.
+/// Conditions that end a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ends<'a> {
     /// Last time, s.
     pub t: f64,
-    /// How far (rad) the crank turns, or infinite.
+    /// Crank rotation, rad; infinite if unlimited.
     pub way: f64,
-    /// The work limit.
+    /// Evaluation limit.
     pub limit: WorkLimit<'a>,
 }
 
-/// A computation ends after so many evaluations, or where somebody asks it to stop.
+/// Limit of a computation: a number of evaluations, or a request to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorkLimit<'a> {
     /// Most evaluations.
     pub evaluations: u64,
-    /// The request to stop, if there may be one.
+    /// Request to stop, if there may be one.
     pub stop: Option<&'a Stop>,
 }
 
 impl WorkLimit<'static> {
-    /// As long as it takes.
+    /// No limit.
     pub const NONE: WorkLimit<'static> = WorkLimit {
         evaluations: u64::MAX,
         stop: None,
@@ -106,12 +106,12 @@ impl WorkLimit<'static> {
 }
 
 impl WorkLimit<'_> {
-    /// Whether it ends after so many evaluations.
+    /// True if the limit is reached after `spent` evaluations, or a stop is requested.
     pub fn is_reached(&self, spent: u64) -> bool {
         spent >= self.evaluations || self.stop.is_some_and(Stop::is_requested)
     }
 
-    /// What is left of it after so many evaluations.
+    /// Returns the remaining limit after `spent` evaluations.
     pub fn after(self, spent: u64) -> Self {
         WorkLimit {
             evaluations: self.evaluations.saturating_sub(spent),

@@ -1,8 +1,8 @@
-//! Dop853 and Dopri5 of the crate ode_solvers: the only file that names it.
+//! Adapter to the explicit Runge-Kutta methods of the crate ode_solvers; no other file names the crate.
 //!
-//! Guards against version 0.6.2: sparse output only (dense output extrapolates its last point); time is a
-//! state, so that the stage times of Dop853, two of which are wrong, are never used; each call starts at
-//! zero and runs forward; its stiffness test is off; short calls keep its result vectors small.
+//! Precautions against version 0.6.2: sparse output only (dense output extrapolates its last point); time is a state,
+//! which avoids the stage times of Dop853, two of which are wrong; each call starts at zero and runs forward; its
+//! stiffness test is off; short calls keep its result vectors small.
 
 use std::cell::Cell;
 
@@ -14,7 +14,7 @@ use super::run_in_time::Finish;
 use super::step::{Node, Step};
 use crate::numeric::angle::Angle;
 
-/// The methods.
+/// Runge-Kutta method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RungeKutta {
     /// Dormand and Prince, order 8(5,3).
@@ -24,7 +24,7 @@ pub enum RungeKutta {
 }
 
 impl RungeKutta {
-    /// Evaluations in a step that is tried.
+    /// Evaluations per attempted step.
     pub fn evaluations_in_a_step(self) -> u64 {
         match self {
             RungeKutta::Dop853 => 12,
@@ -32,7 +32,7 @@ impl RungeKutta {
         }
     }
 
-    /// The order of its steps.
+    /// Order of the method.
     pub fn order(self) -> usize {
         match self {
             RungeKutta::Dop853 => 8,
@@ -41,31 +41,31 @@ impl RungeKutta {
     }
 }
 
-/// What a call is given.
+/// Arguments of [`integrate`].
 pub struct Call<'a> {
-    /// The motion.
+    /// Equation of motion.
     pub motion: &'a dyn Motion,
-    /// The method.
+    /// Method.
     pub method: RungeKutta,
-    /// Relative and absolute.
+    /// Tolerance of the local error, relative and absolute.
     pub tolerance: f64,
-    /// Whole turns beside the start's angle.
+    /// Whole turns to be added to the angles of the call.
     pub turns: f64,
-    /// Start.
+    /// Initial state.
     pub start: Node,
-    /// End, s.
+    /// Last time, s.
     pub t_end: f64,
-    /// First step to try, s; 0: found by the method.
+    /// First step to try, s; 0: chosen by the method.
     pub first_step: f64,
-    /// Most steps to try.
+    /// Most attempted steps.
     pub max_steps: u32,
-    /// Unit of work, J, in which its error is measured.
+    /// Unit of work, J, for the local error of the work.
     pub work_unit: f64,
-    /// Called after each accepted step; true ends the call.
+    /// Observer of each accepted step; returning true ends the call.
     pub observer: &'a mut dyn FnMut(&Step) -> bool,
 }
 
-/// One call of the method.
+/// Integrates one call and returns the reason for its end.
 pub fn integrate(call: Call<'_>) -> Finish {
     match (call.motion.has_power(), call.motion.depends_on_time()) {
         (false, false) => run::<2>(call, None, None),
@@ -142,7 +142,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
     }
 }
 
-/// Our motion as ode_solvers wants to see it. Work is counted from the start of the call, in its unit.
+/// Motion in the form that ode_solvers takes; work counts from the start of the call, in units of `work_unit`.
 struct Adapter<'a, 's> {
     call: Call<'a>,
     last: Node,

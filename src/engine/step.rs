@@ -1,4 +1,4 @@
-//! One accepted step and the motion inside it.
+//! Accepted step with a polynomial for the motion between its ends.
 
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
@@ -6,24 +6,24 @@ use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::interpolate::quintic;
 use crate::numeric::root;
 
-/// The state at one end of a step.
+/// State at one end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Node {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// rad, beside the turns of the step
+    /// Angle without the whole turns of the step, rad.
     pub theta: f64,
-    /// rad/s
+    /// Speed, rad/s.
     pub omega: f64,
-    /// rad/s²
+    /// Acceleration, rad/s².
     pub alpha: f64,
-    /// Integral of the power so far, J
+    /// Integral of the power from the start of the run, J.
     pub work: f64,
 }
 
-/// A step from `start` to `end`. Between them θ is the quintic through angle, speed and acceleration of
-/// both ends; [`Step::refine`] adds three terms that make θ̈ right inside the step too (Hermite-Birkhoff
-/// interpolation of degree eight). A step may also come with a polynomial of its own.
+/// Step from `start` to `end`. Between them θ is the quintic Hermite interpolant of angle, speed and acceleration at
+/// both ends; [`Step::refine`] adds three terms that satisfy the equation of motion inside (Hermite-Birkhoff
+/// interpolation of degree eight). A collocation step has its own polynomial instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step {
     /// Whole turns to be added to every angle of the step.
@@ -35,26 +35,26 @@ pub struct Step {
     inside: Inside,
 }
 
-/// Terms of the polynomial of a step that came with one.
+/// Number of terms of a collocation polynomial.
 pub const TERMS: usize = NODES + 2;
 
-/// What is known of the motion between the ends.
+/// Representation of the motion between the ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Inside {
-    /// Nothing more than the ends.
+    /// Quintic through the ends alone.
     Ends,
-    /// The three added terms.
+    /// Coefficients of the three added terms.
     Refined([f64; 3]),
-    /// θ minus θ of the start, in powers of x = 2s − 1.
+    /// Coefficients of θ minus θ at the start, in powers of x = 2s − 1.
     Powers([f64; TERMS]),
 }
 
-/// Where inside the step the acceleration is asked for. The nodes of a Lobatto rule would not do: the odd
-/// term has no acceleration there.
+/// Positions s of the conditions on θ̈ inside the step. The inner nodes of the five-point Lobatto rule would not do:
+/// the second derivative of the odd term vanishes there.
 const INNER: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Step {
-    /// The step between two states.
+    /// Makes the step between two states, with the quintic.
     pub fn new(turns: f64, start: Node, end: Node) -> Step {
         Step {
             turns,
@@ -64,8 +64,7 @@ impl Step {
         }
     }
 
-    /// The step between two states with its motion: θ minus θ of the start, in powers of x, which runs from
-    /// −1 to 1.
+    /// Makes the step between two states from a polynomial: θ minus θ at the start, in powers of x in [−1, 1].
     pub fn with_powers(turns: f64, start: Node, end: Node, powers: [f64; TERMS]) -> Step {
         Step {
             turns,
@@ -75,12 +74,12 @@ impl Step {
         }
     }
 
-    /// Whether the motion inside is known as well as it can be.
+    /// True if the step has its own polynomial or has been refined.
     pub fn is_refined(&self) -> bool {
         self.inside != Inside::Ends
     }
 
-    /// Whether it came with a polynomial of its own.
+    /// True if the step has its own polynomial.
     pub fn has_polynomial(&self) -> bool {
         matches!(self.inside, Inside::Powers(_))
     }
@@ -90,12 +89,12 @@ impl Step {
         self.end.t - self.start.t
     }
 
-    /// The whole angle that belongs to `theta` of this step.
+    /// Returns the whole angle of a `theta` (rad) of this step.
     pub fn angle(&self, theta: f64) -> Angle {
         Angle::new(self.turns, theta)
     }
 
-    /// Angle (beside the turns) and speed at time t inside the step.
+    /// Returns angle (without the turns, rad) and speed (rad/s) at time t (s) inside the step.
     pub fn at(&self, t: f64) -> (f64, f64) {
         if t == self.start.t {
             return (self.start.theta, self.start.omega);
@@ -117,7 +116,7 @@ impl Step {
         (theta + bump, (dtheta + dbump) / h)
     }
 
-    /// The second derivative of the angle of [`Self::at`], rad/s².
+    /// Returns the second derivative of the angle of [`Self::at`], rad/s².
     pub fn acceleration_at(&self, t: f64) -> f64 {
         let h = self.length();
         let s = (t - self.start.t) / h;
@@ -132,7 +131,7 @@ impl Step {
         (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
     }
 
-    /// Accelerations at N equally spaced times from the start to the end.
+    /// Returns the accelerations, rad/s², at N equally spaced times from start to end.
     pub fn accelerations<const N: usize>(&self) -> [f64; N] {
         let h = self.length();
         let part = |i: usize| i as f64 / (N - 1) as f64;
@@ -150,7 +149,7 @@ impl Step {
         sums.map(|sum| 4.0 / (h * h) * sum)
     }
 
-    /// Makes the motion inside the step as exact as a method of order eight: six evaluations, once.
+    /// Adds the three terms, which make the motion inside the step accurate to order eight; six evaluations, once.
     pub fn refine(&mut self, motion: &dyn Motion) {
         if self.is_refined() {
             return;
@@ -164,8 +163,8 @@ impl Step {
                 let angle = self.angle(theta + bump);
                 h * h * motion.acceleration(t, angle, (dtheta + dbump) / h) - d2theta
             });
-            // Second derivatives of the three terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd
-            // one -45/256.
+            // Second derivatives of the three terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd one
+            // -45/256.
             let even = 0.5 * (rest[0] + rest[2]);
             let odd = 0.5 * (rest[2] - rest[0]);
             let determinant = 0.375 * 0.140625 - 0.125 * 0.0703125;
@@ -182,7 +181,7 @@ impl Step {
         }
     }
 
-    /// The quintic at s in [0, 1]: value, and derivatives with respect to s.
+    /// Evaluates the quintic at s in [0, 1]: value, and derivatives with respect to s.
     fn quintic(&self, s: f64) -> [f64; 3] {
         let h = self.length();
         let (a, b) = (&self.start, &self.end);
@@ -191,14 +190,14 @@ impl Step {
         let travel = if v0.abs().max(v1.abs()) > SUM_ROUNDING * a.theta.abs() {
             b.theta - a.theta
         } else {
-            // The angles say nothing about so short a way.
+            // The difference of the angles is mere rounding.
             0.5 * (v0 + v1) + (c0 - c1) / 6.0
         };
         let [way, rate, bend] = quintic([v0, c0], [v1, c1], travel, s);
         [a.theta + way, rate, bend]
     }
 
-    /// The added terms s³(1−s)³(b0 + b1 σ + b2 σ²), σ = 2s − 1: value and derivatives.
+    /// Evaluates the added terms s³(1−s)³(b0 + b1 σ + b2 σ²), σ = 2s − 1: value and derivatives.
     fn bump(&self, s: f64) -> [f64; 3] {
         let Inside::Refined([b0, b1, b2]) = self.inside else {
             return [0.0; 3];
@@ -217,8 +216,8 @@ impl Step {
         ]
     }
 
-    /// When the angle passes `theta` between the times `from` and `to`; the angle must lie on different
-    /// sides of it there.
+    /// Returns the time, s, at which the angle passes `theta`; at the times `from` and `to` it must lie on opposite
+    /// sides.
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
     }

@@ -1,4 +1,4 @@
-//! Integration in time: calls of a method joined to one run, with the angle kept small.
+//! Integration in time by collocation or library calls, joined to one run with the angle reduced to one turn.
 
 use std::f64::consts::TAU;
 
@@ -13,15 +13,15 @@ use crate::numeric::angle::Angle;
 
 pub use super::run_in_time::{Ends, FAR, Finish, Method, Settings, Start};
 
-/// Result vectors of the library grow with each step of a call.
+/// Most steps of one library call, whose result vectors grow with each step.
 const STEPS_IN_A_CALL: usize = 256;
 
-/// A longer way (rad) of one step is no motion that its polynomial follows, nor one whose events can be listed: the step
-/// is tried again, as one of a turn.
+/// Largest travel of one step, rad. Beyond it the polynomial does not follow the motion and events cannot be listed:
+/// the step is retried with the length of one turn.
 const LONGEST_STEP: f64 = 2.0 * TAU;
 
-/// Integrates and hands every accepted step to `sink`, which ends the run by returning true.
-/// Returns how the run ended, the last state reached (its angle beside the turns) and the number of steps.
+/// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
+/// end, the last step (angles without the turns) and the number of steps.
 pub fn run(
     motion: &Counted<'_>,
     start: Start,
@@ -128,11 +128,11 @@ fn in_calls(
     }
 }
 
-/// Why an accepted step of the library is made again from its start.
+/// Reason to repeat an accepted library step from its start.
 enum Rejected {
-    /// The crank turns too far in it; the length to try, s.
+    /// Too long a travel; the length to try, s.
     TooLong(f64),
-    /// The step hides part of a load; the time at which it has to end, s.
+    /// Load not resolved by the step; the time at which the step has to end, s.
     Hides(f64),
 }
 
@@ -151,7 +151,7 @@ impl Rejected {
     }
 }
 
-/// The end of a step as the start of a call.
+/// Converts the end of a step to the start of a call.
 fn carried_on(last: &Step) -> (Angle, Node) {
     let angle = last.angle(last.end.theta).reduced();
     let node = Node {
@@ -161,7 +161,7 @@ fn carried_on(last: &Step) -> (Angle, Node) {
     (angle, node)
 }
 
-/// A step ended at the time `t_end` (s) inside it, integrated anew; `sink` sees what it consists of.
+/// Integrates a step anew up to a time `t_end` (s) inside it; `sink` sees the new steps, the last is returned.
 pub fn shortened(
     motion: &Counted<'_>,
     step: &Step,

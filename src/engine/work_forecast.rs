@@ -1,33 +1,33 @@
-//! The forecast whether a run will reach its work limit long before its end, from the progress per evaluation.
+//! Forecast: will the run exceed its evaluation limit long before its end? Extrapolates the progress per evaluation.
 
 use super::run_in_time::{Ends, FAR, Finish};
 
-/// Evaluations over which a pace is taken.
+/// Evaluations in a window over which the progress is measured.
 const WINDOW: u64 = 1_000_000;
-/// A run is given up if at its pace it needs more than the work limit by this factor in two windows in a row, and either
-/// moves by less than so much (rad) with each evaluation, or turns at a speed that lasts.
+/// Ratio of extrapolated to remaining evaluations, twice in a row, that ends a crawling or steadily turning run.
 const BEYOND: f64 = 5.0;
+/// Travel per evaluation, rad, below which a run crawls.
 const CRAWL: f64 = 1e-5;
 
-/// How fast a run proceeds.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct WorkForecast<'a> {
     t: f64,
     evaluations: u64,
     ends: Ends<'a>,
-    /// Whether loads depend on the time: then no speed is known to last.
+    /// True if loads depend on time: then no speed is known to last.
     in_time: bool,
-    /// Way in the window, with sign and without, and since the start, rad.
+    /// Travel in the window with sign (`net`) and without, and net travel before the window, rad.
     net: f64,
     travel: f64,
     turned: f64,
-    /// Speed in the window before, rad/s.
+    /// Mean speed in the window before, rad/s.
     speed: f64,
     slow: bool,
 }
 
 impl<'a> WorkForecast<'a> {
-    /// Of a run that begins at this time (s), with so many evaluations before it; `in_time`: loads depend on the time.
+    /// Starts the forecast of a run at a time (s), after `evaluations`; `in_time`: loads depend on time.
     pub fn new(t: f64, evaluations: u64, ends: Ends<'a>, in_time: bool) -> WorkForecast<'a> {
         WorkForecast {
             t,
@@ -42,8 +42,8 @@ impl<'a> WorkForecast<'a> {
         }
     }
 
-    /// Why the work limit will be reached long before the end, as a run shows that has got to this time (s) with so many
-    /// evaluations in all, and moved by `travel` (rad) since it was last asked.
+    /// Returns the reason to give up a run that has reached time `t` (s) with `evaluations` in all and moved by
+    /// `travel` (rad) since the last call; none while it may reach its end within the work limit.
     pub fn is_hopeless(&mut self, evaluations: u64, t: f64, travel: f64) -> Option<Finish> {
         self.travel += travel.abs();
         self.net += travel;
@@ -67,7 +67,7 @@ impl<'a> WorkForecast<'a> {
         };
         let left = ends.limit.evaluations.saturating_sub(evaluations) as f64;
         let crawls = ends.t < FAR && self.travel < CRAWL * spent;
-        // A crank that loses less than this part of its speed in a window does not come to rest before the limit.
+        // A crank that loses less than `spent / left` of its speed per window does not come to rest before the limit.
         let speed = self.travel / seconds;
         let lasts = turns && !self.in_time && speed >= self.speed * (1.0 - spent / left);
         let slow = windows * spent > BEYOND * left && (crawls || lasts);

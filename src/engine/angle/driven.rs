@@ -1,4 +1,4 @@
-//! What the engine needs of a mechanism.
+//! Interface of the angle engine to a mechanism.
 
 use std::cell::RefCell;
 
@@ -8,24 +8,24 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{Detail, Reach};
 
-/// A state of the crank at a position of a table.
+/// State of the crank at a tabulated position.
 #[derive(Clone, Copy)]
 pub struct State<'a, P> {
     pub place: &'a P,
-    /// s
+    /// Time, s.
     pub t: f64,
     pub angle: Angle,
-    /// rad/s
+    /// Speed, rad/s.
     pub speed: f64,
 }
 
-/// What the engine needs of a mechanism.
+/// Mechanism as the angle engine sees it.
 pub trait Driven {
-    /// What the loads need to know of a position.
+    /// Data of a position that the loads need.
     type Place: Copy;
 
-    /// Fills a table at the first `count` of some angles, rad, beside these whole turns, where the switch has the sign
-    /// `side`, ±1.
+    /// Fills a table at the first `count` angles (rad), to which whole turns are added, on the `side`, ±1, of the
+    /// switch.
     fn tabulate(
         &self,
         turns: f64,
@@ -34,43 +34,43 @@ pub trait Driven {
         table: &mut Table<Self::Place>,
     );
 
-    /// Where the panels of a run are left for the next one from the same angle; none where each run stands alone.
+    /// Returns the store of panels that a run leaves to the next from the same angle; none where each run stands alone.
     fn shared(&self) -> Option<&RefCell<Panels<Self::Place>>>;
 
-    /// How many positions were tabulated so far.
+    /// Returns the number of positions tabulated to date.
     fn positions(&self) -> u64;
 
-    /// Whole turns after which everything that depends on the angle is the same again.
+    /// Returns the number of turns after which everything that depends on the angle repeats.
     fn cycle(&self) -> u32;
 
-    /// Whether there are loads beside those of the table.
+    /// True if there are driven loads: loads evaluated at states, in addition to those of the table.
     fn is_driven(&self) -> bool;
 
-    /// Whether these depend on time.
+    /// True if the driven loads depend on time.
     fn reads_time(&self) -> bool;
 
-    /// Their generalized force, N m, in some states.
+    /// Returns the generalized force of the driven loads, N m, in each state.
     fn drive<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
 
-    /// Whether they may do something between the points of a panel that the decay of their series does not tell.
+    /// True if the driven loads may vary between the points of a panel without a trace in the decay of their series.
     fn has_detail(&self) -> bool;
 
-    /// What their generalized force (N m) does on a piece of the motion, and in a Bernstein ellipse of this size around it.
+    /// Returns the variation of their generalized force, N m, on a piece and in its Bernstein ellipse, ρ = `ellipse`.
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
 
-    /// Their part of the switch.
+    /// Returns the contribution of the driven loads to the switch.
     fn drive_switch(&self, at: &State<'_, Self::Place>) -> f64;
 
-    /// Angles of a cycle from zero on, in rising order, at which panels end.
+    /// Returns the angles of a cycle, rad, from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];
 
-    /// Corners and other angles, at which panels end too where the inertia nearly vanishes there: longer ones would not be
-    /// resolved.
+    /// Returns the corners and further angles of a cycle, rad, at which panels have to end where the inertia nearly
+    /// vanishes: longer panels would not be resolved.
     fn corners_if_light(&self) -> &[f64];
 }
 
-/// The panels of a run, for the next one from the same angle in the same direction: what depends on the position is tabulated,
-/// and the next run sets out from its profiles.
+/// Panels of a run, left to the next run from the same angle in the same direction, which uses the tables and starts
+/// from the profiles.
 pub struct Panels<P>(pub(super) Vec<PanelTable<P>>);
 
 impl<P> Default for Panels<P> {

@@ -1,4 +1,4 @@
-//! A run over the angle: its goal, how fine it is, and where it came to.
+//! Run over the angle: goal, resolution and result.
 
 use super::swept::Spent;
 use super::{Errors, Guide};
@@ -7,33 +7,33 @@ use crate::engine::energy::segment::Segment;
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::numeric::angle::Angle;
 
-/// Where a run ends.
+/// Condition that ends a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
-    /// This long after its start, s.
+    /// Time from the start of the run, s.
     Time(f64),
-    /// When the crank has turned by this, rad, in its direction.
+    /// Crank rotation from the start in the direction of motion, rad.
     Turned(f64),
 }
 
-/// A run, to its goal or to where the angle cannot be the independent variable any more.
+/// Run up to its goal, or to where the angle can no longer be the independent variable.
 pub struct Driving {
-    /// Motion, whose own time begins at 0.
+    /// Motion, with time zero at its start.
     pub orbit: Orbit,
     /// Last time, s.
     pub end: f64,
-    /// Work of the loads without a potential until its end, J.
+    /// Work of the non-conservative loads up to the end, J.
     pub work: f64,
-    /// What rounding does to it.
+    /// Propagated rounding errors.
     pub errors: Errors,
-    /// How often the loads were evaluated.
+    /// Evaluations of the loads.
     pub evaluations: u64,
-    /// What kept it from its goal.
+    /// End before the goal, if there was one.
     pub short: Option<Short>,
 }
 
 impl Driving {
-    /// A whole motion until a time (s), which needed no loads of state or time.
+    /// Makes the result of a complete motion up to a time (s) under loads of the position alone.
     pub fn whole(orbit: Orbit, end: f64, work: f64) -> Driving {
         Driving {
             orbit,
@@ -46,35 +46,35 @@ impl Driving {
     }
 }
 
-/// Where a run ended before its goal.
+/// End of a run before its goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Short {
-    /// Why it did.
+    /// Reason for the end.
     pub why: NotApplicable,
-    /// The angle there.
+    /// Crank angle at the end.
     pub angle: Angle,
-    /// Kinetic energy there, J.
+    /// Kinetic energy at the end, J.
     pub kinetic: f64,
 }
 
-/// How fine the panels are.
+/// Resolution of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolution<'a> {
-    /// Series end where their coefficients have decayed to this.
+    /// Largest tail of a resolved series.
     pub tail: f64,
-    /// Panels are cut unevenly once more from the start, which makes another discretization to compare with.
+    /// True if panels are cut unevenly once more from the start: another discretization, for comparison.
     pub other: bool,
-    /// The run that is compared, if it is known.
+    /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,
-    /// On evaluations of the loads and positions in tables.
+    /// Limit of load evaluations and tabulated positions.
     pub limit: WorkLimit<'a>,
 }
 
-/// Turns that are run through one by one before the map of a cycle takes over, and where it ends; turns between those whose
-/// starts are kept.
+/// Turns computed one by one before the Poincaré map takes over, and at most after its end; turns between two kept
+/// marks.
 pub(super) const FEW_TURNS: f64 = 48.0;
 
-/// Work from the begin of the last panel until a time in it.
+/// Returns the work from the start of the last panel to a time in it, J.
 pub(super) fn work_until(leg: &Segment, until: f64, spent: &Spent) -> f64 {
     let Some((panel, since)) = leg.panel_at(until) else {
         return 0.0;

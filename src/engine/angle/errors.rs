@@ -1,22 +1,22 @@
-//! What errors of the kinetic energy do to a run over the angle.
+//! Propagation of errors of the kinetic energy through a run over the angle.
 
 use crate::engine::energy::piece::Piece;
 
-/// How they go on: an energy that is off makes the motion late, the more the slower it is.
+/// Errors of energy and time: an error of the energy shifts the time, the more the slower the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// How far rounding may have brought the kinetic energy, J,
+    /// Rounding error of the kinetic energy, J.
     pub off: f64,
-    /// and by it the time, s.
+    /// Time error due to rounding of the energy, s.
     pub late: f64,
-    /// What is left of an energy that was off at the start, as part of it: a loss takes its part of an error, too,
+    /// Fraction of an initial error of the kinetic energy that remains at the end: losses reduce it.
     pub kept: f64,
-    /// and how much earlier it made the end, s/J.
+    /// Advance of the end time per initial error of the kinetic energy, s/J.
     pub early: f64,
 }
 
 impl Errors {
-    /// At the start, with this kinetic energy, which may be off beside its rounding, J.
+    /// Returns the errors at the start for a kinetic energy, J, with an error `off` beyond its rounding, J.
     pub(super) fn at(kinetic: f64, off: f64) -> Errors {
         Errors {
             off: off.hypot(0.5 * f64::EPSILON * kinetic),
@@ -26,10 +26,10 @@ impl Errors {
         }
     }
 
-    /// After a panel of some duration (s) that keeps this part of an error and adds some (J). An energy that is off
-    /// makes it earlier by `early` (s/J), the integral of dt/2K; `most` is the larger energy of its ends, J.
+    /// Propagates the errors over a panel of some duration (s), which keeps the fraction `kept` and adds `noise` (J).
+    /// `early` (s/J) is the integral of dt/2K; `most` is the larger kinetic energy of the two ends, J.
     pub(super) fn pass(&mut self, kept: f64, noise: f64, early: f64, duration: f64, most: f64) {
-        // What is added is added where there is more.
+        // The error arises mainly where the energy is large.
         let added = 0.5 * duration / most;
         self.late += (self.off * early).hypot(noise * added);
         self.early += self.kept * early;
@@ -38,8 +38,7 @@ impl Errors {
     }
 }
 
-/// What the rounding of angles may change in the work of these forces (N m) over a piece, in units of the last place,
-/// J.
+/// Returns the error of the work of these forces (N m) over a piece due to rounded angles, over machine epsilon, J.
 pub(super) fn uncertain(piece: &Piece, forces: &[f64]) -> f64 {
     let none = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = forces.iter().fold(none, |(low, high), force| {

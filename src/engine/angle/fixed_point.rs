@@ -1,26 +1,26 @@
-//! The periodic motion itself: the root of the energy that a cycle gains.
+//! Periodic motion as the fixed point of the Poincaré map of the kinetic energy, by bracketing and Brent's method.
 //!
-//! The map of the kinetic energy over a cycle rises, as two motions cannot cross. So a motion approaches the
-//! nearest energy, up where it gains and down where it loses, whose cycle gains nothing.
+//! The map of the kinetic energy over a cycle is monotone, for two motions cannot cross. A motion therefore approaches
+//! the nearest energy at which a cycle gains nothing: upwards where it gains, downwards where it loses.
 
 use super::super::energy::NotApplicable;
 use crate::numeric::root;
 
-/// How far from the first energy it is looked for: ln of the ratio.
+/// Search range from the first energy, as ln of the energy ratio.
 const FARTHEST: f64 = 60.0;
-/// The longest step in the logarithm of the energy.
+/// Largest search step, as ln of the energy ratio.
 const LONGEST_LOG_STEP: f64 = 0.4;
-/// Halvings between an energy at which the crank stops in its turn and one that loses.
+/// Bisections between an energy at which the crank stops within the cycle and one at which it loses energy.
 const HALVINGS: usize = 40;
 
-/// Why there is no periodic motion.
+/// Reason why there is no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCycle {
-    /// The cycle cannot be computed over the angle.
+    /// Cycle that cannot be computed over the angle.
     NotApplicable(NotApplicable),
-    /// Every turn gains energy, up to the largest that was looked at.
+    /// Gain of energy in every cycle, up to the largest energy searched.
     Gains,
-    /// Every turn loses energy, or is not completed.
+    /// Loss of energy in every cycle, or cycles not completed.
     Stops,
 }
 
@@ -30,46 +30,46 @@ impl From<NotApplicable> for NoCycle {
     }
 }
 
-/// The kinetic energy at the end of a cycle, from that at its start.
+/// Poincaré map: gain of kinetic energy over a cycle as a function of the energy at its start.
 pub trait CycleMap {
-    /// The energy that is looked at first, J.
+    /// Returns the energy at which the search starts, J.
     fn first(&self) -> f64;
 
-    /// Energy that a cycle from this one on gains, J.
+    /// Returns the energy gained by a cycle from this one on, J.
     ///
     /// # Errors
-    /// [`NotApplicable`] where the crank does not complete it.
+    /// [`NotApplicable`] where the crank does not complete the cycle.
     fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable>;
 
-    /// Largest kinetic energy in the last cycle, J.
+    /// Returns the largest kinetic energy in the last cycle, J.
     fn largest(&self) -> f64;
 
-    /// Error of a gain, relative to that.
+    /// Returns the error of a gain, relative to [`Self::largest`].
     fn noise(&self) -> f64;
 }
 
-/// An energy whose cycle gains nothing.
+/// Fixed point of the map: an energy whose cycle gains nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedPoint {
-    /// At the start of the cycle, J.
+    /// Kinetic energy at the start of the cycle, J.
     pub kinetic: f64,
-    /// d gain/d energy there.
+    /// Derivative of the gain with respect to the energy.
     pub slope: f64,
-    /// Error of the slope.
+    /// Error bound of the slope.
     pub slope_error: f64,
-    /// Whether the motion from the first energy approaches it.
+    /// True if the motion from the first energy approaches it.
     pub approached: bool,
 }
 
-/// The periodic motion that a motion from the first energy approaches, or the next faster one if it stops; `step` is the
-/// first step in the logarithm of the energy.
+/// Finds the periodic motion that a motion from the first energy approaches, or the next faster one if it stops; `step`
+/// is the first search step in ln of the energy.
 ///
 /// # Errors
 /// [`NoCycle`] with the reason.
 pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCycle> {
     let first = map.first();
     let (low, high, approached) = bracket(map, first, step)?;
-    // Close to the root rounding may give another sign: the values that made the bracket stay.
+    // Close to the root rounding may change a sign: the values that made the bracket are kept.
     let known = |kinetic: f64| {
         let mut ends = [low, high].into_iter();
         ends.find(|end| end.kinetic == kinetic).map(|end| end.gain)
@@ -96,16 +96,16 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     })
 }
 
-/// A cycle that was looked at.
+/// Evaluated cycle.
 #[derive(Clone, Copy, Debug)]
 struct Looked {
-    /// At its start, J.
+    /// Kinetic energy at the start, J.
     kinetic: f64,
-    /// J
+    /// Energy gained, J.
     gain: f64,
 }
 
-/// d gain/d energy, by differences over three distances, and its error.
+/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated.
 fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
     let mut slope = Err(NotApplicable::TooSlow);
     for part in [2.5e-3, 1e-5, 1e-7] {
@@ -130,14 +130,14 @@ fn slope_over(
         *slope = (ahead - map.gain(kinetic - way)?) / (2.0 * way);
         largest = largest.max(map.largest());
     }
-    // Richardson: the errors go with the second and fourth power of the distance.
+    // Richardson: the errors are of second and fourth order in the distance.
     let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);
     let best = (16.0 * better[0] - better[1]) / 15.0;
     let noise = map.noise() * largest / (part * kinetic);
     Ok((best, (best - better[0]).abs() + noise))
 }
 
-/// A cycle; none if the crank does not complete the turn.
+/// Evaluates a cycle; none if the crank does not complete it.
 fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
     match map.gain(kinetic) {
         Ok(gain) => Ok(Some(Looked { kinetic, gain })),
@@ -146,7 +146,7 @@ fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle>
     }
 }
 
-/// A turn that gains, one above it that loses, and whether the motion from the first energy goes there.
+/// Returns a cycle that gains, one above it that loses, and whether the motion from the first energy leads there.
 fn bracket(
     map: &mut dyn CycleMap,
     first: f64,
@@ -163,7 +163,7 @@ fn bracket(
     Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
 }
 
-/// The nearest such turns below one that loses.
+/// Returns the nearest bracket below a cycle that loses.
 fn below(
     map: &mut dyn CycleMap,
     first: Looked,
@@ -185,7 +185,7 @@ fn below(
     Ok(None)
 }
 
-/// The nearest such turns above.
+/// Returns the nearest bracket above the first energy.
 fn above(
     map: &mut dyn CycleMap,
     at_first: Option<Looked>,
@@ -218,12 +218,12 @@ fn above(
     Err(match (gains, turned) {
         (Some(_), _) => NoCycle::Gains,
         (None, true) => NoCycle::Stops,
-        // No energy at all was enough: then it is not for want of energy.
+        // No energy sufficed for a cycle: the reason is not a lack of energy.
         (None, false) => NotApplicable::NotSmooth.into(),
     })
 }
 
-/// Fixed point between an energy whose turn is not completed and a turn that loses.
+/// Returns a bracket between an energy at which the cycle is not completed and a cycle that loses.
 fn near_stop(
     map: &mut dyn CycleMap,
     stops: f64,

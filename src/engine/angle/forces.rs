@@ -1,4 +1,4 @@
-//! The forces at the points of a panel.
+//! Generalized forces at the points of a panel, from the kinetic energy there.
 
 use super::Driven;
 use super::panel::{PanelStart, PanelTable};
@@ -6,15 +6,15 @@ use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
 
-/// Forces at the points of a panel, N m.
+/// Generalized forces at the points of a panel, N m.
 #[derive(Clone)]
 pub(super) struct Forces {
     pub total: Values,
-    /// Forces without a potential.
+    /// Non-conservative forces.
     pub spent: Values,
-    /// rad/s
+    /// Speeds, rad/s.
     speeds: Values,
-    /// s after the start of the panel
+    /// Times after the start of the panel, s.
     times: Values,
 }
 
@@ -29,7 +29,7 @@ impl Forces {
         }
     }
 
-    /// From the kinetic energy there, J. None where they are not known.
+    /// Evaluates the forces from the kinetic energy at the points, J. None where they are not finite.
     pub fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
@@ -72,7 +72,7 @@ impl Forces {
         is_finite(total).then_some(())
     }
 
-    /// Takes the speeds at the points from the kinetic energy there, J.
+    /// Computes the speeds at the points from the kinetic energy there, J.
     pub fn take_speeds<P: Copy>(&mut self, panel: &PanelTable<P>, start: PanelStart, all: &Values) {
         let count = panel.rule.degree() + 1;
         let (kinetic, mobility) = (&all[..count], &panel.mobility[..count]);
@@ -82,18 +82,18 @@ impl Forces {
         }
     }
 
-    /// rad/s, at the points.
+    /// Returns the speeds at the points, rad/s.
     pub fn speeds(&self) -> &Values {
         &self.speeds
     }
 
-    /// Least and largest speed at the first points, rad/s.
+    /// Returns the range of the speed at the first `count` points, rad/s.
     pub fn speed_range(&self, count: usize) -> Interval {
         let points = self.speeds[..count].iter().copied().map(Interval::point);
         points.reduce(Interval::hull).unwrap_or_default()
     }
 
-    /// |dt/dx| at the points.
+    /// Computes |dt/dx| at the points, s; none if it is not finite.
     pub fn fill_slopes<P: Copy>(&self, panel: &PanelTable<P>, slopes: &mut Values) -> Option<()> {
         let half = panel.half();
         let (filled, rest) = slopes.split_at_mut(panel.rule.degree() + 1);
@@ -104,14 +104,14 @@ impl Forces {
         is_finite(filled).then_some(())
     }
 
-    /// What is beyond the points is zero.
+    /// Sets the values beyond the points to zero.
     fn clear_from(&mut self, count: usize) {
         for values in [&mut self.total, &mut self.spent, &mut self.speeds] {
             values[count..].fill(0.0);
         }
     }
 
-    /// Adds the other loads at some points.
+    /// Adds the driven loads at N points.
     fn drive<D: Driven, const N: usize>(
         &mut self,
         driven: &D,
@@ -130,7 +130,7 @@ impl Forces {
         }
     }
 
-    /// Derivatives of the forces of the table with respect to the kinetic energy at the points, 1/rad.
+    /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.
     pub fn rates_of_table<P: Copy>(&self, panel: &PanelTable<P>) -> Values {
         let count = panel.rule.degree() + 1;
         let (table, speeds) = (&panel.table, &self.speeds[..count]);
@@ -147,7 +147,7 @@ impl Forces {
         rates
     }
 
-    /// Derivatives of the forces with respect to the kinetic energy at the points, 1/rad.
+    /// Returns the derivatives of all forces with respect to the kinetic energy at the points, 1/rad.
     pub fn rates<D: Driven>(
         &self,
         driven: &D,
@@ -158,7 +158,7 @@ impl Forces {
         if !driven.is_driven() {
             return rates;
         }
-        // The error of a central difference is least for this step.
+        // Relative step of least error for a central difference.
         let step = f64::EPSILON.cbrt();
         let count = panel.rule.degree() + 1;
         for (j, rate) in rates.iter_mut().enumerate().take(count) {
@@ -173,7 +173,7 @@ impl Forces {
     }
 }
 
-/// Whether all values are: one that is not makes their sum so.
+/// True if all values are finite: otherwise their sum is not.
 fn is_finite(values: &[f64]) -> bool {
     values.iter().sum::<f64>().is_finite()
 }

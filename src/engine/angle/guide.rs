@@ -1,4 +1,4 @@
-//! A run that is known already, from which a finer one sets out: what sweeps change is its defect.
+//! Known run as first guess of a finer one: the change made by a sweep is then the defect of the guide.
 
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
@@ -7,18 +7,18 @@ use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
-/// A run over the same angles.
+/// Known run over the same angles.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide<'a> {
     leg: &'a Segment,
-    /// Part to which its series have decayed.
+    /// Tail of its series.
     pub(super) tail: f64,
-    /// The panel of the last place.
+    /// Index of the panel of the last request.
     index: usize,
 }
 
 impl<'a> Guide<'a> {
-    /// A motion that was run through once, with series that have decayed to a part `tail`.
+    /// Makes a guide from a motion in one direction whose series have decayed to `tail`.
     pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
         Guide {
             leg: orbit.last_leg(),
@@ -27,8 +27,8 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Kinetic energy (J) of the guide at the points of a panel that is run through in so many whole turns since the start, moved to a
-    /// kinetic energy at the start of the panel. None beyond its end, and where there is none.
+    /// Returns the kinetic energy (J) of the guide at the points of a panel after `turns` whole turns, shifted to
+    /// `start` at the first point. None beyond the end of the guide, and where the energy is not positive.
     pub(super) fn kinetic<P: Copy>(
         &mut self,
         station: &PanelTable<P>,
@@ -66,7 +66,7 @@ impl<'a> Guide<'a> {
         Self::before(panel, angle) <= SAME_ANGLE && Self::beyond(panel, angle) <= SAME_ANGLE
     }
 
-    /// How far an angle is before the start of a panel, and beyond its end, rad.
+    /// Returns the distance of an angle before the start of a panel, rad.
     fn before(panel: &Panel, angle: f64) -> f64 {
         (panel.piece.from - angle) * panel.piece.span().signum()
     }
@@ -75,7 +75,7 @@ impl<'a> Guide<'a> {
         (angle - panel.piece.to) * panel.piece.span().signum()
     }
 
-    /// The panel in which an angle lies.
+    /// Returns the panel in which an angle lies.
     fn panel(&mut self, turns: f64, angle: f64) -> Option<&'a Panel> {
         let leg = self.leg;
         loop {

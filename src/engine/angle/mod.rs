@@ -1,14 +1,14 @@
-//! The angle engine: crank angle as the independent variable, for loads that depend on speed and time too,
-//! as long as the speed keeps its sign.
+//! Angle engine: motion under loads that depend on speed and time too, by collocation over the crank angle, as long as
+//! the speed keeps its sign.
 //!
-//! On each panel of Chebyshev points the kinetic energy and the time are found together by collocation,
-//! K' = F(θ) + L(θ, ω, t), t' = 1/ω, with sweeps that start from the profile of the turns before and with
-//! Newton's method where the loads are steep in the speed. What depends on the position alone is tabulated
-//! once for a cycle, the turns after which the loads are the same again, and used in every one. Where time does not
-//! occur, a cycle maps the kinetic energy at its start to that at its end: long runs iterate an interpolant of this map.
+//! On each panel of Chebyshev points the kinetic energy and the time are found together by collocation, K' = F(θ) +
+//! L(θ, ω, t), t' = 1/ω: sweeps (Picard iteration) start from the profiles of earlier turns, and Newton's method takes
+//! over where the loads are steep in the speed. What depends on the position alone is tabulated once for a cycle (the
+//! turns after which the loads repeat) and used in every one. Where time does not occur, a cycle maps the kinetic
+//! energy at its start to that at its end (Poincaré map): long runs iterate an interpolant of this map.
 //!
-//! The forces may have two forms, one on each side of a zero of a function of the state, the switch. A panel ends
-//! there, and what is left of it is solved with the other form.
+//! The forces may have two forms, one on each side of a zero of the switch, a function of the state. A panel ends at
+//! the zero, and the rest of it is solved with the other form.
 
 mod driven;
 mod driving;

@@ -1,4 +1,4 @@
-//! A panel of a turn and what is known on it.
+//! Panel of a cycle with its tables and what earlier turns found on it.
 
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
@@ -7,81 +7,81 @@ use super::{Driven, State, Table};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
-/// The state at the start of a panel.
+/// State at the start of a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PanelStart {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// J
+    /// Kinetic energy, J.
     pub kinetic: f64,
-    /// Whole turns beside the angles of the panel.
+    /// Whole turns to be added to the angles of the panel.
     pub turns: f64,
     /// Sign of the speed.
     pub direction: f64,
 }
 
-/// A panel with what depends on the position alone: the same in each cycle.
+/// Panel with the tables of all that depends on the position alone, equal in each cycle.
 #[derive(Clone)]
 pub(super) struct PanelTable<P> {
-    /// Whole turns beside the angles of the piece, in the first cycle.
+    /// Whole turns to be added to the angles of the piece, in the first cycle.
     pub turns: f64,
     pub piece: Piece,
     pub rule: &'static Rule,
     pub table: Table<P>,
-    /// Side of the switch for which the table is, ±1.
+    /// Side of the switch to which the table applies, ±1.
     pub side: f64,
-    /// 2/M at the points, 1/(kg m²).
+    /// Twice the inverse inertia, 2/M, at the points, 1/(kg m²).
     pub mobility: Values,
-    /// Work of the forces of the position alone from the start to the points, J; less by `growth` where there is a switch.
+    /// Work of position-dependent forces from the start to the points, J; integrand over `growth` if there is a switch.
     pub work: Values,
-    /// Factor by which the force of the switch, which goes with the kinetic energy, makes it grow from the start to the points.
+    /// Growth of the kinetic energy from the start to the points due to the switch force, which is proportional to it.
     pub(super) growth: Option<Box<Values>>,
-    /// Whether there is damping.
+    /// True if there is damping.
     pub damped: bool,
-    /// The largest force that has a potential, N m: at balance the others are as large.
+    /// Largest conservative force, N m: near an equilibrium the others are as large.
     pub largest_force: f64,
     /// Kinetic energy in the last turns.
     pub(super) past: Predictor,
-    /// What a sweep left of the error of the one before.
+    /// Convergence factor of the sweeps as last measured.
     pub factor: f64,
-    /// Whether it was too long for a turn before.
+    /// True if the panel was too long in an earlier turn.
     pub failed: bool,
-    /// What was left of it after each change of the switch in the last turn.
+    /// Rests of the panel after each switching in the last turn.
     pub rests: Vec<Rest>,
-    /// Which of the rests of another panel it is.
+    /// Index of this panel among the rests of another one.
     pub is_rest: Option<usize>,
 }
 
-/// What is left of a panel after a change of the switch.
+/// Rest of a panel after a switching: guess for the next turn.
 #[derive(Clone)]
 pub(super) struct Rest {
     rule: &'static Rule,
-    /// Kinetic energy at its points, J.
+    /// Kinetic energy at the points, J.
     kinetic: Values,
 }
 
-/// What panels are to resolve.
+/// Requirements on the resolution of panels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fineness {
-    /// Series end where their coefficients have decayed to this.
+    /// Largest tail of a resolved series.
     pub tail: f64,
-    /// A usual speed of the crank, rad/s.
+    /// Typical crank speed, rad/s.
     pub speed: f64,
 }
 
-/// The shortest panel, rad; a corner or a change of the switch as near to an end of a panel is at the end. The forces are
-/// continuous at a change: it is felt by the square of this.
+/// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end. Forces
+/// are continuous at a switching: the effect is of second order in this length.
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
-/// What the forces leave out adds up over the turns: it is to be less by this.
+/// Reduction of the truncation error of forces, which adds up over the turns.
 const ADDED_UP: f64 = 0.1;
-/// Sweeps that gain less than this factor give way to Newton's method; taken for the factor before it is known.
+/// Convergence factor above which sweeps give way to Newton's method; also the first estimate of the factor.
 pub(super) const SLOW_FACTOR: f64 = 0.3;
-/// Degree of the series that are tried first.
+/// Degree of the series tried first.
 pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> PanelTable<P> {
-    /// The panel from one angle to another; its degree is the least that resolves inertia and forces, after one
-    /// that is tried first.
+    /// Makes the panel between two angles (rad); its degree is the least that resolves inertia and forces, after a
+    /// trial with the degree `first`.
     pub fn new<D: Driven<Place = P>>(
         driven: &D,
         turns: f64,
@@ -96,7 +96,7 @@ impl<P: Copy> PanelTable<P> {
         Ok(panel)
     }
 
-    /// Takes the least degree that resolves inertia and forces, or `most`; whether it does resolve them.
+    /// Sets the least degree that resolves inertia and forces, or `most`; true if they are resolved.
     pub fn resolve<D: Driven<Place = P>>(
         &mut self,
         driven: &D,
@@ -145,8 +145,8 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    /// What is left of the panel from an angle on, beyond the change number `index` of the switch, for the other
-    /// side; `known`: the same in the last turn.
+    /// Makes the rest of the panel from an angle (rad) on, after switching number `index`, for the other side; `known`
+    /// is the same rest in the last turn.
     pub fn rest<D: Driven<Place = P>>(
         &self,
         driven: &D,
@@ -169,13 +169,13 @@ impl<P: Copy> PanelTable<P> {
         Ok(panel)
     }
 
-    /// The place as the rest of another panel.
+    /// Converts this panel to the rest that it is of another, with its index; none if it is none or is not solved.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
         let (rule, kinetic) = (self.rule, *self.past.last()?);
         Some((self.is_rest?, Rest { rule, kinetic }))
     }
 
-    /// Goes over to the other side of the switch.
+    /// Changes to the other side of the switch.
     pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), NotApplicable> {
         self.side = -self.side;
         self.past.forget();
@@ -209,8 +209,8 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    /// The least degree at which the series of the speed by a kinetic energy that is the same everywhere, and of what
-    /// the forces do to it, have decayed; none if this one is not enough.
+    /// Returns the least degree that resolves the speed at constant kinetic energy and the forces relative to that
+    /// energy; none if the present degree is insufficient.
     fn degree_for(&self, fine: Fineness) -> Option<usize> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
         let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
@@ -223,7 +223,7 @@ impl<P: Copy> PanelTable<P> {
         })
     }
 
-    /// Force of the position alone at the points, N m.
+    /// Returns the force of the position alone at the points, N m.
     pub(super) fn force_of_position(&self) -> Values {
         let mut force = self.table.force;
         for (force, push) in force.iter_mut().zip(&self.table.push) {
@@ -232,7 +232,7 @@ impl<P: Copy> PanelTable<P> {
         force
     }
 
-    /// Takes the next degree; false if there is none.
+    /// Raises the degree to the next; false if there is none.
     pub fn raise<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<bool, NotApplicable> {
         let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
             return Ok(false);
@@ -243,7 +243,7 @@ impl<P: Copy> PanelTable<P> {
         Ok(true)
     }
 
-    /// The two parts of the panel; none if it is too short to be cut.
+    /// Cuts the panel at the fraction `share`; none if it is too short.
     pub fn parts<D: Driven<Place = P>>(
         &self,
         driven: &D,
@@ -259,7 +259,7 @@ impl<P: Copy> PanelTable<P> {
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 
-    /// The state at one of its points, at a time (s) and speed (rad/s).
+    /// Returns the state at point `j`, at a time (s) and speed (rad/s).
     #[inline]
     pub fn state(&self, turns: f64, j: usize, t: f64, speed: f64) -> State<'_, P> {
         State {
@@ -270,22 +270,22 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    /// Half its length with sign, rad.
+    /// Returns half the signed length, rad.
     pub fn half(&self) -> f64 {
         0.5 * (self.piece.to - self.piece.from)
     }
 
-    /// Whether a force of the table depends on the speed.
+    /// True if a tabulated force depends on the speed.
     pub fn varies_with_speed(&self) -> bool {
         self.damped || self.growth.is_some()
     }
 
-    /// Whether it was not solved yet.
+    /// True if the panel has not been solved yet.
     pub fn is_new(&self) -> bool {
         self.past.last().is_none()
     }
 
-    /// Largest work of the forces of the position alone from the start to a point, as a magnitude, J.
+    /// Returns the largest magnitude of the work of the position-dependent forces from the start to a point, J.
     pub fn largest_work(&self) -> f64 {
         largest(&self.work[..=self.rule.degree()])
     }

@@ -1,16 +1,16 @@
-//! The profiles of the last turns, carried on to the next.
+//! First guess of the kinetic energy on a panel, by extrapolation of its profiles in the last turns.
 
 use crate::numeric::chebyshev::Values;
 
-/// Profiles that are kept.
+/// Number of profiles kept.
 const PROFILES_KEPT: usize = 5;
-/// The sum of the shares of the profiles, as magnitudes: more would carry their errors on, not them.
+/// Largest sum of the magnitudes of the weights: larger weights amplify the errors of the profiles.
 const MOST_SHARES: f64 = 40.0;
 
-/// Kinetic energy at the points of a panel in the last turns.
+/// Kinetic energy profiles at the points of a panel in the last turns.
 #[derive(Clone)]
 pub(super) struct Predictor {
-    /// A ring: what follows the latest is the oldest.
+    /// Ring buffer: the profile after the latest is the oldest.
     profiles: Vec<Values>,
     latest: usize,
 }
@@ -27,7 +27,7 @@ impl Predictor {
         self.profiles.clear();
     }
 
-    /// Keeps the kinetic energy (J) at the points.
+    /// Stores the kinetic energy (J) at the points.
     pub fn remember(&mut self, kinetic: &Values) {
         if self.profiles.len() < PROFILES_KEPT {
             self.latest = self.profiles.len();
@@ -38,7 +38,7 @@ impl Predictor {
         }
     }
 
-    /// The latest.
+    /// Returns the latest profile.
     pub fn last(&self) -> Option<&Values> {
         self.profiles.get(self.latest)
     }
@@ -48,9 +48,9 @@ impl Predictor {
         &self.profiles[(self.latest + count - age) % count]
     }
 
-    /// The profile that starts with a kinetic energy (J), of turns that depend on this energy alone: the
-    /// polynomial over it through the last `most` profiles, or through fewer if they are too close together.
-    /// None without a past.
+    /// Computes the profile that starts with a kinetic energy (J), for turns that depend on this energy alone: the
+    /// polynomial in it through the last `most` profiles, or through fewer if they are too close together. None without
+    /// profiles.
     pub fn carry_on(&self, start: f64, most: usize, kinetic: &mut Values) -> Option<()> {
         let most = self.profiles.len().min(most);
         let Some((count, shares)) = (2..=most)
@@ -70,9 +70,9 @@ impl Predictor {
         Some(())
     }
 
-    /// Shares of the last profiles in that which starts with a kinetic energy (Lagrange); none if they are too large.
-    /// Under viscous losses alone the energies are of second degree in the speed at the start: its powers are used,
-    /// unless there are too few profiles for its square.
+    /// Returns the Lagrange weights of the last profiles for a given kinetic energy at the start; none if they are too
+    /// large. Under viscous losses alone the energies are quadratic in the speed at the start: the variable is the
+    /// speed, or the energy if there are too few profiles for the square.
     fn shares(&self, start: f64, count: usize) -> Option<[f64; PROFILES_KEPT]> {
         let variable = |kinetic: f64| if count > 2 { kinetic.sqrt() } else { kinetic };
         let here = variable(start);

@@ -1,4 +1,4 @@
-//! Panels that were not solved: another degree, or cut; and what is left of one after a change of the switch.
+//! Refinement of panels that were not solved: higher degree or cut; and the rest of a panel after a switching.
 
 use super::Driven;
 use super::panel::{Fineness, PanelTable};
@@ -6,18 +6,18 @@ use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
 
-/// With less than this part of the largest kinetic energy the crank is near to rest.
+/// Fraction of the largest kinetic energy below which the crank is near rest.
 const NEAR_REST: f64 = 1e-2;
-/// With less than this part of it a crank that seems to stop on a panel, half of which is this long, rad, is not
-/// followed to where it does: towards there each panel is a fraction of the one before, and a step in time passes.
+/// Fraction of the largest kinetic energy, and half length of a panel (rad), below which a crank that seems to stop on
+/// the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
 const STOPPING_ENERGY: f64 = 0.1;
 const STOPPING_LENGTH: f64 = 0.25;
-/// Work of the position below this part of the kinetic energy is not the reason that a panel is too long: it will be in
-/// the next turn too.
+/// Work of the position-dependent forces, relative to the kinetic energy, below which it is not the reason for a panel
+/// being too long: the panel will be too long in the next turn, too.
 const SMALL_WORK: f64 = 0.1;
 
 impl<D: Driven> PanelStepper<'_, D> {
-    /// Raises the degree of the next panel, or cuts it: for this turn, and for all if it happens again or will.
+    /// Raises the degree of the next panel, or cuts it: for this turn, or for all turns if the failure recurs or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
         self.refined = true;
         let fastest = self.fastest;
@@ -36,7 +36,7 @@ impl<D: Driven> PanelStepper<'_, D> {
             return Err(NotApplicable::TooSlow);
         }
         let Some([first, second]) = panel.parts(self.driven, 0.5, self.fine)? else {
-            // Its forces may have brought it to this energy within a small part of a radian.
+            // The forces may have produced this energy within a small part of a radian.
             let force = panel.table.force[0] + panel.table.push[0];
             return Err(if slow || self.kinetic < NEAR_REST * force.abs() {
                 NotApplicable::TooSlow
@@ -57,7 +57,7 @@ impl<D: Driven> PanelStepper<'_, D> {
         Ok(())
     }
 
-    /// Cuts every panel that failed for good.
+    /// Cuts every panel that failed, for all turns.
     pub fn settle(&mut self) -> Result<(), NotApplicable> {
         let panels = std::mem::take(&mut self.panels);
         self.panels = cut(self.driven, panels, 0.5, self.fine, |of| of.failed)?;
@@ -65,7 +65,7 @@ impl<D: Driven> PanelStepper<'_, D> {
     }
 }
 
-/// Cuts some of the panels at a part of them, as far as they are long enough.
+/// Cuts the selected panels at the fraction `share`, if they are long enough.
 fn cut<D: Driven>(
     driven: &D,
     panels: Vec<PanelTable<D::Place>>,
@@ -85,7 +85,7 @@ fn cut<D: Driven>(
 }
 
 impl<D: Driven> PanelStepper<'_, D> {
-    /// What is left of the next panel from an angle on.
+    /// Makes the rest of the next panel from an angle (rad) on.
     pub(super) fn rest(&self, from: f64) -> Result<PanelTable<D::Place>, NotApplicable> {
         let whole = &self.panels[self.next];
         let panel = self.parts.last().unwrap_or(whole);
@@ -93,7 +93,7 @@ impl<D: Driven> PanelStepper<'_, D> {
         panel.rest(self.driven, from, index, whole.rests.get(index), self.fine)
     }
 
-    /// Keeps what was found on a rest for the next turn.
+    /// Stores the solution on a rest as the guess for the next turn.
     pub(super) fn remember_rest(&mut self) {
         if let Some((index, rest)) = self.parts.last().and_then(PanelTable::as_rest) {
             let rests = &mut self.panels[self.next].rests;

@@ -1,4 +1,4 @@
-//! Runs panel by panel, and by the map of a cycle where there are many.
+//! Run panel by panel, continued by the Poincaré map of a cycle where there are many turns.
 
 use std::f64::consts::TAU;
 
@@ -13,10 +13,10 @@ use crate::engine::run_in_time::{Ends, FAR, Start};
 use crate::engine::work_forecast::WorkForecast;
 use crate::numeric::angle::Angle;
 
-/// Runs from a start until the goal is reached, or until the angle cannot be the independent variable any more.
+/// Integrates from a start to the goal, or as far as the angle can be the independent variable.
 ///
 /// # Errors
-/// [`NotApplicable`] where it cannot be that from the start.
+/// [`NotApplicable`] where the angle cannot be the independent variable at the start.
 pub fn run<D: Driven>(
     driven: &D,
     from: Start,
@@ -27,7 +27,7 @@ pub fn run<D: Driven>(
     let mut march = PanelStepper::new(driven, start, speed, resolution)?;
     march.begin = from.t;
     if from.t == 0.0 && start.turns == 0.0 {
-        // An angle that is given, and not reduced, is not rounded.
+        // An angle as given, not reduced, is not rounded.
         march.errors = Errors::at(march.kinetic, 0.0);
     }
     march.gives_up = true;
@@ -82,7 +82,7 @@ pub fn run<D: Driven>(
     }
 }
 
-/// What tells whether a run whose turns are run through one by one will reach its goal.
+/// Starts the forecast for a run without a map: will it reach its goal within the limit?
 fn forecast<'a, D: Driven>(
     march: &PanelStepper<'a, D>,
     goal: Goal,
@@ -100,7 +100,7 @@ fn forecast<'a, D: Driven>(
     WorkForecast::new(0.0, march.spent(), ends, reads_time)
 }
 
-/// A run that ended before its goal, from an angle with a speed (rad/s).
+/// Makes the result of a run that ended before its goal, from its initial angle and speed (rad/s).
 fn ended<D: Driven>(
     mut march: PanelStepper<'_, D>,
     leg: Segment,

@@ -1,4 +1,4 @@
-//! Whether the points of a panel show the loads on it.
+//! Resolution test for driven loads on a panel.
 
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::swept::Swept;
@@ -10,21 +10,21 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
-/// The motion on a panel that was solved.
+/// Motion on a solved panel.
 struct OnPanel<'a, D: Driven> {
     driven: &'a D,
     panel: &'a PanelTable<D::Place>,
     start: PanelStart,
     swept: &'a Swept,
-    /// Time since its start over x.
+    /// Time after the start of the panel as a series in x, s.
     time: Series,
-    /// Force without a potential over x.
+    /// Non-conservative force as a series in x, N m.
     spent: Series,
-    /// How far the slope of the time over x is from its mean, and how steep it is, at most.
+    /// Bounds of the deviation of dt/dx from its mean and of d²t/dx², s.
     varies: [f64; 2],
 }
 
-/// Where a solved panel has to end for its points to show the loads, as part of it; none if they do.
+/// Returns the fraction at which a solved panel has to end for its points to resolve the loads; none if they do.
 pub(super) fn hides<D: Driven>(
     driven: &D,
     panel: &PanelTable<D::Place>,
@@ -62,7 +62,7 @@ pub(super) fn hides<D: Driven>(
     hidden(&way, look).map(|hidden| hidden.at)
 }
 
-/// Whether some speeds show the loads at all speeds between them (rad/s), at each point of a panel.
+/// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.
 pub(super) fn at_speeds<D: Driven>(
     driven: &D,
     panel: &PanelTable<D::Place>,
@@ -108,7 +108,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
         let least = self.swept.slopes[..=slope.degree()]
             .iter()
             .fold(f64::INFINITY, |least: f64, slope| least.min(*slope));
-        // What turns is slower everywhere than at twice the largest speed of the points.
+        // A rotating crank is slower everywhere than twice the largest speed at the points.
         let low = slowness.low.max(0.5 * least);
         let reach = Reach {
             t: Interval::between(self.time(from), self.time(to)),
@@ -124,7 +124,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
         let mut table = Table::default();
         let mut angles = [0.0; MAX_DEGREE + 1];
         angles[0] = self.angle(at).rest;
-        // The direction of the panel is that of its angles.
+        // The order of the angles gives the direction of the panel.
         angles[1] = self.panel.piece.to;
         let side = self.panel.side;
         let turns = self.panel.turns;

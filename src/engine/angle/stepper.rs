@@ -1,4 +1,4 @@
-//! Panel after panel, turn after turn.
+//! Stepper over the angle: solves panel after panel and accumulates time, energy, work and errors.
 
 use super::super::energy::NotApplicable;
 use super::super::energy::error_bound::off_by_place;
@@ -17,60 +17,60 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::two_sum;
 
-/// A run over the angle: the panels of a cycle, and where it has come to.
+/// State of a run over the angle, with the panels of a cycle.
 #[derive(Clone)]
 pub(super) struct PanelStepper<'a, D: Driven> {
     pub(super) driven: &'a D,
     pub(super) fine: Fineness,
     direction: f64,
     pub(super) panels: Vec<PanelTable<D::Place>>,
-    /// Parts of a panel that was too long this time, the next one last.
+    /// Parts of a panel that was too long in this turn, the next one last.
     pub(super) parts: Vec<PanelTable<D::Place>>,
     pub(super) next: usize,
-    /// The motion on the last panel.
+    /// Motion on the last panel.
     pub(super) swept: Swept,
-    /// The run that it sets out from.
+    /// Known run that supplies the first guess.
     pub(super) guide: Option<Guide<'a>>,
-    /// When the run begins, s.
+    /// Start time of the run, s.
     pub begin: f64,
-    /// Time since then, s; rounded value and rest.
+    /// Time since the start of the run, s: rounded value and remainder.
     pub t: (f64, f64),
-    /// J
+    /// Kinetic energy, J.
     pub kinetic: f64,
-    /// What its rounding left out, J.
+    /// Rounding remainder of the kinetic energy, J.
     pub(super) kinetic_low: f64,
-    /// What rounding does to it.
+    /// Propagated rounding errors.
     pub errors: Errors,
     /// Whole turns since the start, with sign.
     pub turns: f64,
     /// Kinetic energy gained, J.
     pub gain: f64,
-    /// Work of the loads without a potential, J.
+    /// Work of the non-conservative loads, J.
     pub work: f64,
-    /// Of the loads.
+    /// Evaluations of the loads.
     pub evaluations: u64,
-    /// Positions that were tabulated before it.
+    /// Positions tabulated before the run.
     positions: u64,
-    /// Largest kinetic energy at the ends of panels so far, J.
+    /// Largest kinetic energy at the ends of panels, J.
     pub fastest: f64,
     start: Angle,
-    /// Whether it is compared with another run, and shares nothing with it.
+    /// True if the run is a comparison: it shares no panels with other runs.
     other: bool,
     pub limit: WorkLimit<'a>,
-    /// Whether a panel was cut or its degree raised since this was last cleared.
+    /// True if a panel was cut or its degree raised since the last reset.
     pub refined: bool,
-    /// Whether the points of a panel did not show the loads since this was last cleared.
+    /// True if the points of a panel missed a load since the last reset.
     pub hid: bool,
-    /// Whether a crank that seems to stop is given up before its panels become tiny.
+    /// True if a crank that seems to stop is given up before its panels become tiny.
     pub gives_up: bool,
 }
 
-/// A panel with the work that was done on it.
+/// Solved panel with the work done on it.
 pub(super) struct Done {
     pub panel: Panel,
-    /// Force without a potential on it.
+    /// Non-conservative force on the panel.
     pub spent: Spent,
-    /// Work of these forces on it, J.
+    /// Work of the non-conservative force on the panel, J.
     pub work: f64,
 }
 
@@ -143,23 +143,23 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         }
     }
 
-    /// Evaluations of the loads and positions that were tabulated.
+    /// Returns the number of load evaluations and tabulated positions.
     pub fn spent(&self) -> u64 {
         self.evaluations + self.driven.positions() - self.positions
     }
 
-    /// Least and largest speed at the points of the last panel, rad/s.
+    /// Returns the range of the speed at the points of the last panel, rad/s.
     pub fn speeds(&self) -> Interval {
         let count = self.swept.slope.degree() + 1;
         self.swept.forces.speed_range(count)
     }
 
-    /// Whether the next panel begins a cycle.
+    /// True if the next panel begins a cycle.
     pub fn at_cycle(&self) -> bool {
         self.next == 0 && self.parts.is_empty()
     }
 
-    /// The next panel.
+    /// Solves the next panel, after cuts and changes of side where needed.
     pub fn panel(&mut self) -> Result<Done, NotApplicable> {
         let mut turned_over = 0;
         loop {
@@ -200,7 +200,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                     self.remember_rest();
                     return Ok(self.pass(piece, None));
                 }
-                // Once more the other way round: then it has no sign.
+                // Still on the other side after two changes: the switch has no sign.
                 Side::Other if turned_over == 2 => {
                     let piece = panel.piece;
                     return Ok(self.pass(piece, None));
@@ -222,9 +222,9 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         }
     }
 
-    /// Takes a guess of the kinetic energy at the points of the next panel: that of the guide, whose error the sweeps are to
-    /// show, or that of the last turns. A panel beyond a change of the switch is solved as if there was none, which the guide
-    /// does not know.
+    /// Sets the kinetic energy at the points of the next panel to a guess: that of the guide, whose error the sweeps
+    /// are to show, or one from the last turns. The guide is not used for panels with a switch: after a switching they
+    /// are solved as if there was none, which the guide does not know.
     fn guess(&mut self, start: PanelStart) -> Tails {
         let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
         let smooth = panel.table.switch.is_none();
@@ -244,14 +244,14 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         }
     }
 
-    /// Takes a panel over a piece of the next panel, and what is left of it for this turn.
+    /// Moves on over a piece of the next panel; `rest` is the remainder of the panel in this turn.
     fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> Done {
         let swept = &self.swept;
         let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
         let rule = panel.rule;
         let spent = swept.spent();
         let work = spent.work(rule, piece.to - piece.from, 1.0);
-        // Under steep loads the end is not the start and the gain.
+        // Under steep loads the end energy is not the sum of start and gain.
         let summed = swept.end == self.kinetic + swept.gain;
         (self.kinetic, self.kinetic_low) = if summed {
             two_sum(self.kinetic, swept.gain + self.kinetic_low)

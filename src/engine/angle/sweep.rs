@@ -1,4 +1,4 @@
-//! The collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at the points of the panel.
+//! Collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at its points, by Picard iteration and Newton's method.
 
 use super::Driven;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
@@ -9,32 +9,32 @@ use nalgebra::{DMatrix, DVectorViewMut};
 
 /// Most sweeps over a panel.
 const MOST_SWEEPS: u32 = 40;
-/// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
+/// Error that the sweeps may leave, relative to the tail: it adds up over the turns.
 pub(super) const SETTLED: f64 = 1e-3;
-/// Least factor that a sweep is taken to leave.
+/// Least convergence factor that a sweep is assumed to have.
 const LEAST_FACTOR: f64 = 1e-3;
-/// The last terms of a series of speeds by what it leaves out, where it decays slowly.
+/// Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
 const REMAINDER: f64 = 0.25;
 
-/// Why a panel is not solved.
+/// Reason why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unsolved {
-    /// The panel is too long for its degree.
+    /// Panel too long for its degree.
     TooLong,
-    /// The crank seems to stop on it.
+    /// Kinetic energy not positive: the crank seems to stop on the panel.
     Stops,
 }
 
-/// How well a panel is solved, as parts.
+/// Relative accuracy to which a panel is solved.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tails {
-    /// To which its series have decayed.
+    /// Largest tail of the series.
     pub series: f64,
-    /// Of which sweeps may leave a small share.
+    /// Reference for the error of the sweeps, which may be a small fraction of it.
     pub sweeps: f64,
 }
 
-/// Solves a panel from a guess of the kinetic energy at its points, which is in `swept`.
+/// Solves a panel from the guess of the kinetic energy at its points in `swept`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
     panel: &mut PanelTable<D::Place>,
@@ -42,12 +42,12 @@ pub(super) fn sweep<D: Driven>(
     tails: Tails,
     swept: &mut Swept,
 ) -> Result<(), Unsolved> {
-    // Evaluations of other loads than those of the table take more than the sweeps that they spare.
+    // Evaluations of driven loads cost more than the sweeps that they spare.
     let is_driven = driven.is_driven();
     let settled = if is_driven {
         SETTLED
     } else {
-        // They are evaluated once more, which is another sweep for the energy that is gained.
+        // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
         10.0 * SETTLED
     };
     swept.evaluations = 0;
@@ -68,12 +68,12 @@ pub(super) fn sweep<D: Driven>(
             keep_positive(&swept.kinetic, &mut change);
         }
         let largest = add(&mut swept.kinetic, &mut change, panel.rule.degree() + 1)?;
-        // The forces are known as well as the motion: more sweeps would not resolve them.
+        // The forces are as accurate as the motion: more sweeps would not resolve them.
         if swept.forces_are_left_out(panel, start, tails.series, largest) {
             return Err(Unsolved::TooLong);
         }
-        // What is left is smaller than the last change by the factor that was gained; Newton's method squares it, as far as the
-        // forces go with the square root of the kinetic energy or with the energy itself.
+        // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
+        // the forces depend on the square root of the kinetic energy or on the energy itself.
         let factor = if linear && !newton && !is_driven {
             largest
         } else if before.is_finite() {
@@ -94,7 +94,7 @@ pub(super) fn sweep<D: Driven>(
                 swept.evaluate(driven, panel, start)?;
             }
             swept.finish(panel, start, tails.series)?;
-            // The last point is the same, rounded once more; under steep loads the gain would be worse.
+            // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             swept.end = start.kinetic + swept.gain;
             return Ok(());
         } else if before.is_finite() {
@@ -106,7 +106,7 @@ pub(super) fn sweep<D: Driven>(
     Err(Unsolved::TooLong)
 }
 
-/// Adds a change at the first `count` points; the largest of them by what it changes.
+/// Adds a change (J) at the first `count` points; returns the largest relative change.
 fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, Unsolved> {
     let (kinetic, change) = (&mut kinetic[..count], &mut change[..count]);
     let mut positive = true;
@@ -125,7 +125,7 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 }
 
 impl Swept {
-    /// The forces at the kinetic energy.
+    /// Evaluates the forces at the present kinetic energy.
     fn evaluate<D: Driven>(
         &mut self,
         driven: &D,
@@ -137,7 +137,7 @@ impl Swept {
         known.ok_or(Unsolved::TooLong)
     }
 
-    /// The motion in closed form.
+    /// Computes the motion in closed form.
     fn take_undamped<D: Driven>(
         &mut self,
         driven: &D,
@@ -154,7 +154,7 @@ impl Swept {
         self.finish(panel, start, tails.series)
     }
 
-    /// What a sweep changes.
+    /// Returns the change that a sweep makes, J.
     fn change<P: Copy>(&self, panel: &PanelTable<P>, start: PanelStart) -> Values {
         let half = panel.half();
         let mut change = panel.rule.integrals(&self.forces.total);
@@ -164,9 +164,9 @@ impl Swept {
         change
     }
 
-    /// Turns what a sweep would change into what makes the panel right to first order for the forces of the table (Newton's method
-    /// in function space, Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, and no
-    /// change, where E is too steep for its series: that of exp(c x) decays beyond degree c.
+    /// Converts the change by a sweep, ρ, to the Newton correction for the tabulated forces (in function space,
+    /// Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, without
+    /// correction, where E is too steep for its series: that of exp(c x) decays only beyond degree c.
     fn linearise<P: Copy>(&self, panel: &PanelTable<P>, change: &mut Values) -> bool {
         let (count, half) = (panel.rule.degree() + 1, panel.half());
         let mut rates = self.forces.rates_of_table(panel);
@@ -209,7 +209,7 @@ impl Swept {
         Ok(())
     }
 
-    /// Whether the last terms of the forces are too large for their series to end there; they may be less by a part.
+    /// True if the last terms of the forces, with relative error `uncertain`, are too large for their series to end.
     fn forces_are_left_out<P: Copy>(
         &self,
         panel: &PanelTable<P>,
@@ -221,21 +221,20 @@ impl Swept {
         let last = (1.0 - uncertain) * rule.last_terms(&self.forces.total);
         let largest = largest(&self.forces.total[..=rule.degree()]);
         let energy = half.abs() / start.kinetic;
-        // Large forces that balance each other leave their rounding.
+        // Large forces in equilibrium leave their rounding.
         let allowed = tail + SUM_ROUNDING * panel.largest_force * energy;
         let of_angle = tail.max(noise_of_angle(panel));
         last * energy > allowed && last > of_angle * largest && last / largest > allowed
     }
 }
 
-/// What the rounding of its angles does to the series on a panel, as part of them.
+/// Returns the rounding floor of the series on a panel due to its rounded angles, relative to their size.
 fn noise_of_angle<P: Copy>(panel: &PanelTable<P>) -> f64 {
     8.0 * f64::EPSILON * (1.0 + panel.piece.from.abs() / panel.half().abs())
 }
 
-/// Turns what a sweep would change into what makes the panel right, to first order: solves
-/// (1 − half·S·diag(rates)) δ = change, where S integrates from the start of the panel. None if there is no
-/// solution.
+/// Converts the change by a sweep to the Newton correction: solves (1 − half·S·diag(rates)) δ = change, where S
+/// integrates from the start of the panel. None if there is no solution.
 pub(super) fn correction(
     rule: &Rule,
     half: f64,
@@ -251,7 +250,7 @@ pub(super) fn correction(
     matrix.lu().solve_mut(&mut change).then_some(())
 }
 
-/// Shortens a change that would leave less than a tenth of the kinetic energy somewhere.
+/// Shortens a correction that would leave less than a tenth of the kinetic energy at any point.
 pub(super) fn keep_positive(kinetic: &Values, change: &mut Values) {
     let share = |k: f64, c: f64| if c < -0.9 * k { -0.9 * k / c } else { 1.0 };
     let pairs = kinetic.iter().zip(change.iter());

@@ -1,19 +1,19 @@
-//! The motion on a panel.
+//! Motion on a solved panel.
 
 use super::forces::Forces;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
-/// Force without a potential on a panel, or on its first part.
+/// Non-conservative force on a panel, or on its first part.
 #[derive(Clone, Copy)]
 pub(super) struct Spent {
-    /// N m, at the points of the whole panel.
+    /// Force at the points of the whole panel, N m.
     pub values: Values,
-    /// The part of the panel.
+    /// Length of the first part, as a fraction of the panel.
     share: f64,
 }
 
 impl Spent {
-    /// Work from the start of a part of this length (rad, with sign) until a place in it, −1 to 1; J.
+    /// Returns the work, J, from the start of the part, of signed length `span` (rad), to x in [−1, 1] on it.
     pub fn work(&self, rule: &Rule, span: f64, x: f64) -> f64 {
         let half = 0.5 * span / self.share;
         if x * self.share == 1.0 {
@@ -24,28 +24,28 @@ impl Spent {
     }
 }
 
-/// The motion on a panel.
+/// Motion on a panel.
 #[derive(Clone)]
 pub(super) struct Swept {
-    /// J, at the points.
+    /// Kinetic energy at the points, J.
     pub kinetic: Values,
-    /// |dt/dx| at the points.
+    /// Magnitude of dt/dx at the points, s.
     pub slopes: Values,
-    /// Series of the derivative.
+    /// Series of |dt/dx|.
     pub slope: Series,
     pub(super) forces: Forces,
-    /// Kinetic energy that is gained, J.
+    /// Kinetic energy gained, J.
     pub gain: f64,
     /// Kinetic energy at the end, J.
     pub end: f64,
-    /// The part of the panel at which it ends.
+    /// Fraction of the panel at which the motion on it ends.
     pub share: f64,
     /// Evaluations of the loads.
     pub evaluations: u64,
 }
 
 impl Swept {
-    /// Room for the motion on a panel.
+    /// Makes an empty motion.
     pub fn new() -> Swept {
         let zero = [0.0; MAX_DEGREE + 1];
         Swept {
@@ -60,7 +60,7 @@ impl Swept {
         }
     }
 
-    /// Force without a potential.
+    /// Returns the non-conservative force.
     pub fn spent(&self) -> Spent {
         Spent {
             values: self.forces.spent,
@@ -68,7 +68,7 @@ impl Swept {
         }
     }
 
-    /// The integral of dt/2K over the panel, s/J, and the larger kinetic energy of its ends, J.
+    /// Returns the integral of dt/2K over the panel, s/J, and the larger kinetic energy of the two ends, J.
     pub fn early(&self, rule: &Rule) -> (f64, f64) {
         let early: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
         let most = self.kinetic[0].max(self.kinetic[rule.degree()]);

@@ -1,4 +1,4 @@
-//! Where the switch changes its sign on a panel, and with it the form of the forces.
+//! Switching: zero of the switch on a panel, at which the forces change their form.
 
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::swept::Swept;
@@ -9,18 +9,18 @@ use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::maximum;
 use crate::numeric::root;
 
-/// What the switch does on a panel.
+/// Behaviour of the switch on a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Side {
-    /// The motion stays on the panel's side.
+    /// Motion on the side of the panel throughout.
     Stays,
-    /// The motion is on the other side from the start.
+    /// Motion on the other side from the start.
     Other,
-    /// The motion changes to the other side at this part of the panel.
+    /// Motion that changes to the other side at this fraction of the panel.
     Leaves(f64),
 }
 
-/// Looks at the switch on a panel that was solved for one side of it.
+/// Determines the side of the motion on a panel that was solved for one side.
 pub(super) fn side<D: Driven>(
     driven: &D,
     panel: &PanelTable<D::Place>,
@@ -45,8 +45,8 @@ pub(super) fn side<D: Driven>(
     }
 }
 
-/// Whether the motion is on the other side of the switch at the start of a panel, as far as one place tells: a steep loss makes
-/// a transient of the wrong side, which is harder to resolve than the motion.
+/// True if the motion starts on the other side of the switch, judged at the start alone: under a steep loss the wrong
+/// side produces a transient, which is harder to resolve than the motion.
 pub(super) fn begins_beyond<D: Driven>(
     driven: &D,
     panel: &PanelTable<D::Place>,
@@ -71,7 +71,7 @@ pub(super) fn begins_beyond<D: Driven>(
 }
 
 impl Swept {
-    /// Ends it at a part of the panel.
+    /// Ends the motion at the fraction `share` of the panel.
     pub fn end_at(&mut self, rule: &Rule, start: PanelStart, share: f64) {
         let inside = rule.values(|x| share * (1.0 + x) - 1.0);
         self.slopes = self.slope.values(&inside).map(|slope| share * slope);
@@ -83,7 +83,7 @@ impl Swept {
     }
 }
 
-/// The switch at the points, positive on the side of the panel, and what rounding may make of it.
+/// Returns the switch at the points, positive on the side of the panel, and its rounding error.
 fn values<D: Driven>(
     driven: &D,
     switch: &Switch,
@@ -121,7 +121,7 @@ fn values<D: Driven>(
     (values, SUM_ROUNDING * largest(&size))
 }
 
-/// The first place at which values fall below zero, by more than `noise`; −1 if they begin there.
+/// Returns the first x at which the values fall below zero, by more than `noise`; −1 if they start there.
 fn first_below<P: Copy>(panel: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = panel.rule.points();
     if values[0] < -noise.max(SHORTEST_PANEL * largest(values)) {

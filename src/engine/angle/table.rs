@@ -1,35 +1,35 @@
-//! What is tabulated at the points of a panel.
+//! Tables of inertia and forces at the points of a panel.
 
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
-/// What depends on the angle alone, at some angles.
+/// Quantities that depend on the angle alone, at some angles.
 #[derive(Clone)]
 pub struct Table<P> {
     /// Inertia M, kg m².
     pub inertia: Values,
-    /// Force that has a potential, N m.
+    /// Conservative force, N m.
     pub force: Values,
-    /// Force of the position alone that has none, N m.
+    /// Non-conservative force of the position alone, N m.
     pub push: Values,
-    /// Damping, N m s/rad: the force is less by this times the speed.
+    /// Damping coefficient, N m s/rad: the force −damping·ω.
     pub damping: Values,
-    /// What [`super::Driven::drive`] needs; empty if there is nothing to be driven.
+    /// Data for [`super::Driven::drive`]; empty if there are no driven loads.
     pub places: Vec<P>,
-    /// What there is if the forces have two forms.
+    /// Switch between two forms of the forces, if there are two.
     pub switch: Option<Box<Switch>>,
 }
 
-/// The forces may have two forms, one on each side of a zero of the switch, a function of the state. They are
-/// continuous there.
+/// Switch between two forms of the forces, one on each side of its zero: place + rate·ω + square·ω² + driven part. The
+/// forces are continuous at the zero.
 #[derive(Clone, Debug)]
 pub struct Switch {
-    /// Force of this side by the square of the speed, N m s²/rad².
+    /// Force of this side per square of the speed, N m s²/rad².
     pub force: Values,
-    /// The switch without speed.
+    /// Switch at zero speed.
     pub place: Values,
-    /// By the speed, s/rad.
+    /// Coefficient of the speed in the switch, in its unit times s/rad.
     pub rate: Values,
-    /// By its square, s²/rad².
+    /// Coefficient of the squared speed in the switch, in its unit times s²/rad².
     pub square: Values,
 }
 

@@ -1,4 +1,4 @@
-//! The panels of one cycle.
+//! Construction of the panels of one cycle.
 
 use super::Driven;
 use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
@@ -8,7 +8,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 use std::f64::consts::TAU;
 
-/// Panels of one cycle between the corners.
+/// Makes the panels of one cycle, which end at the corners.
 pub(super) fn panels<D: Driven>(
     driven: &D,
     start: Angle,
@@ -17,7 +17,7 @@ pub(super) fn panels<D: Driven>(
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
     let (few, all) = (driven.corners(), driven.corners_if_light());
     if few.len() < all.len() {
-        // Beyond this degree more panels are no more work.
+        // Beyond this degree more panels cost no more.
         let heavy = between(driven, few, start, fine, cuts, FIRST_DEGREE)?;
         if let Some(list) = heavy {
             return Ok(list);
@@ -26,7 +26,7 @@ pub(super) fn panels<D: Driven>(
     Ok(between(driven, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
 }
 
-/// Panels between some corners, each cut at these parts of it, the last of which is one; none if one of them is not resolved up to the degree `most`.
+/// Makes the panels between corners, cut at fractions `cuts` up to 1; none if one is not resolved at degree `most`.
 fn between<D: Driven>(
     driven: &D,
     corners: &[f64],
@@ -38,7 +38,7 @@ fn between<D: Driven>(
     let direction = fine.speed.signum();
     let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
     let cycle = f64::from(driven.cycle());
-    // Where the corners count from; the turns of one that is a single turn do not matter.
+    // Origin of the corners; for a cycle of one turn the whole turns do not matter.
     let phase = start.turns.rem_euclid(cycle) * TAU + start.rest;
     for turn in 0..driven.cycle() {
         let before = f64::from(turn);
@@ -63,7 +63,7 @@ fn between<D: Driven>(
                     to
                 };
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
-                // Neighbours are alike.
+                // The degree of the neighbour is likely to suffice.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
                 let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
                 panel.tabulate(driven)?;

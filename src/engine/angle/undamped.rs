@@ -1,10 +1,10 @@
-//! The motion on a panel without damping and without driven loads: K' = b K + F is linear, with the integrating factor exp ∫ b.
+//! Motion on a panel without damping and driven loads in closed form: K' = b K + F with the integrating factor exp ∫ b.
 
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
 impl<P: Copy> PanelTable<P> {
-    /// The motion of the forces of the position alone, and of that of the switch: K = growth·(K₀ + work).
+    /// Tabulates the motion under forces of the position alone and of the switch: K = growth·(K₀ + work).
     pub(super) fn fill_work(&mut self) {
         let (half, count) = (self.half(), self.rule.degree() + 1);
         let mut force = self.force_of_position();
@@ -28,7 +28,7 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    /// Kinetic energy at the points that the forces of the position alone, and of the switch, make of that at the start, J.
+    /// Returns the kinetic energy at the points, J, without damping and driven loads, from that at the start, J.
     pub fn undamped(&self, start: f64) -> Values {
         let mut kinetic = self.work.map(|work| start + work);
         if let Some(growth) = &self.growth {
@@ -39,8 +39,8 @@ impl<P: Copy> PanelTable<P> {
         kinetic
     }
 
-    /// Kinetic energy at the points, from that at the start (J): the profiles of the last turns carried on, or the motion of a
-    /// panel without damping. Where time matters, turns of the same energy are not the same.
+    /// Guesses the kinetic energy at the points, J, from that at the start: by the profiles of the last turns, or as
+    /// the motion without damping. Where loads read time, turns of equal energy differ, and few profiles serve.
     pub fn guess(&self, start: f64, reads_time: bool, kinetic: &mut Values) {
         let most = if reads_time { 2 } else { usize::MAX };
         if self.past.carry_on(start, most, kinetic).is_some() {
@@ -49,7 +49,7 @@ impl<P: Copy> PanelTable<P> {
         *kinetic = self.undamped(start);
         let points = &kinetic[..=self.rule.degree()];
         if self.damped || points.iter().any(|kinetic| *kinetic <= 0.0) {
-            // The same speed everywhere: damping tends to hold it.
+            // Constant speed: damping tends to maintain it.
             let inertia = &self.table.inertia;
             *kinetic = inertia.map(|here| start * (here / inertia[0]));
         }

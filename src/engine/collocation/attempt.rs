@@ -1,4 +1,4 @@
-//! What a step is asked for, how that begins and ends, and its errors.
+//! Attempted step: request, first guess, outcome and error estimate.
 
 use super::super::step::Step;
 use super::super::{Motion, NODES};
@@ -6,37 +6,37 @@ use super::state::State;
 use super::step::Collocation;
 use crate::numeric::gauss::legendre_series;
 
-/// A step that holds.
+/// Accepted step.
 pub struct Accepted {
     pub step: Step,
-    /// The state at its end.
+    /// State at the end of the step.
     pub next: State,
-    /// The next step may be longer by this.
+    /// Ratio of the next step to this one, by the error.
     pub factor: f64,
 }
 
-/// A step that does not hold.
+/// Reason to reject a step.
 #[derive(Clone, Copy, Debug)]
 pub enum Failed {
-    /// The next try is to have this part of its length.
+    /// Step too long; ratio of the next try to this length.
     TooLong(f64),
-    /// Something is hidden between its nodes: it has to end at this part of it.
+    /// Load missed between the nodes; the position, as a fraction, at which the step has to end.
     Hides(f64),
-    /// The step is too long and seems to meet a corner at a part `at` of it; the one after the corner is to have `factor` times its length.
+    /// Step too long, with a corner at the fraction `at`; the step after the corner has `factor` times the length.
     Meets { at: f64, factor: f64 },
 }
 
-/// A step that is to be tried.
+/// Requested step.
 #[derive(Clone, Copy, Debug)]
 pub struct Try {
     /// Length, s.
     pub h: f64,
-    /// Whether it begins and ends at a corner, where the acceleration may jump.
+    /// Whether the step begins and ends at a corner, where the acceleration may jump.
     pub corners: [bool; 2],
 }
 
 impl Collocation<'_> {
-    /// Times, and the first guess: the accelerations of the guide, those of the last step continued, or that of the start.
+    /// Sets times and first guess: accelerations of the guide, of the last step extrapolated, or of the start.
     pub(super) fn prepare(&mut self, state: &State, h: f64) {
         let batch = &mut self.batch;
         batch.turns = state.turns;
@@ -59,8 +59,8 @@ impl Collocation<'_> {
     }
 }
 
-/// Accelerations (rad/s²) of a known run at times (s) in rising order; none where it has no step, and of steps that are not as exact
-/// inside as at their ends.
+/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
+/// without its own polynomial, which is less accurate inside than at its ends.
 fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
     let past = guide.partition_point(|step| step.end.t < t[0]);
     let mut steps = guide[past..].iter();
@@ -76,19 +76,19 @@ fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
     Some(alpha)
 }
 
-/// Part of a step over which the change of the acceleration with time is taken.
+/// Time shift of the difference quotient of the acceleration, as a fraction of the step.
 const TIME_APART: f64 = 1e-3;
 
 impl Collocation<'_> {
-    /// An error of angle and speed in units of what is allowed.
+    /// Scales an error of angle (rad) and speed (rad/s) by the tolerance.
     pub(super) fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
         let angle = angle / (1.0 + state.theta.abs());
         let speed = speed / (1.0 + state.omega.abs());
         angle.max(speed) / self.tolerance
     }
 
-    /// Rounding of the accelerations of a step. They are those of rounded angles, and steep where the position is near to a
-    /// limit.
+    /// Estimates the rounding error of the accelerations of a step, rad/s², from the rounded angles, near which the
+    /// acceleration is steep if the position is close to a limit.
     pub(super) fn rounding(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
         let size = coefficients.iter().map(|c| c.abs()).sum::<f64>();
         let variation = size - coefficients[0].abs();
@@ -98,7 +98,7 @@ impl Collocation<'_> {
         f64::EPSILON * (8.0 * size + of_angles) + self.by_time
     }
 
-    /// A step that does not hold, with what the rounding of its times does to the acceleration: no shorter step mends it.
+    /// Rejects a step as too long, and estimates the rounding error due to its times: no shorter step reduces it.
     pub(super) fn too_long(&mut self, h: f64, factor: f64) -> Failed {
         if self.motion.depends_on_time() {
             let apart = TIME_APART * h;
@@ -113,13 +113,13 @@ impl Collocation<'_> {
         Failed::TooLong(factor)
     }
 
-    /// Error of the motion inside the step: what the first term beyond the last would add.
+    /// Estimates the error of the motion inside the step from its last two Legendre coefficients.
     pub(super) fn error(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
         let [.., a, b] = coefficients;
         self.error_of(state, h, a.abs().max(b.abs()), coefficients)
     }
 
-    /// What a term of this size beyond the last would add; rounding of the acceleration is no such term.
+    /// Returns the error due to a Legendre term (rad/s²) beyond the last, less the rounding error of accelerations.
     pub(super) fn error_of(
         &self,
         state: &State,

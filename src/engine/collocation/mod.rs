@@ -1,9 +1,9 @@
-//! Integration in time by Gauss collocation, solved by sweeps of fixed-point iteration.
+//! Integration in time by Gauss collocation, solved by Picard iteration.
 //!
-//! A step looks for the polynomial whose second derivative agrees with the acceleration at the nodes of the
-//! Gauss rule. Each sweep evaluates the accelerations at all nodes of a guess together, and integrates them
-//! twice for a better one (Picard, Lindelöf). Where sweeps do not gain, for the acceleration is steep in the speed, Newton's
-//! method solves the same equations. The polynomial is the motion inside the step, too.
+//! A step is the polynomial whose second derivative equals the acceleration at the nodes of the Gauss rule. Each sweep
+//! evaluates the accelerations at all nodes of a guess together and integrates them twice for a better one (Picard,
+//! Lindelöf). Where sweeps converge too slowly because the acceleration is steep in the speed, Newton's method solves
+//! the same equations. The polynomial is the motion inside the step, too.
 
 mod attempt;
 mod newton;
@@ -21,12 +21,12 @@ use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
 
-/// Factors by which a step may change.
+/// Bounds of the ratio of a step to the one before.
 const LEAST_FACTOR: f64 = 0.1;
 const GREATEST_FACTOR: f64 = 4.0;
 
-/// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns how
-/// the run ended, the last step and the number of steps.
+/// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
+/// end, the last step and the number of steps.
 pub fn run(
     motion: &Counted<'_>,
     start: Start,
@@ -53,7 +53,7 @@ pub fn run(
         let left = until - state.t;
         let way = wanted.min(TAU / state.omega.abs());
         let length = fitted(way, left);
-        // The length that the rounded times have.
+        // Length that results from the rounded times.
         let h = (state.t + length) - state.t;
         if h <= 0.0 {
             return (Finish::StepTooSmall, last, steps);
@@ -81,7 +81,7 @@ pub fn run(
             }
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;
-                // What is left of the way to a corner says little about the step that follows it.
+                // A step cut short by a corner says little about the length of the next.
                 wanted = if whole || factor < 1.0 {
                     length * factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
                 } else {
@@ -113,7 +113,7 @@ pub fn run(
     (Finish::AtEnd, last, steps)
 }
 
-/// A tenth of a radian at the speed or the acceleration of the start, or the way of the run (rad) if that is less.
+/// Returns a first length, s: a travel of 0.1 rad, or of `way` (rad) if less, by the initial state; at most 0.1 s.
 fn first_length(start: &Node, way: f64) -> f64 {
     let travel = way.min(0.1);
     let by_speed = travel / start.omega.abs();
@@ -121,7 +121,7 @@ fn first_length(start: &Node, way: f64) -> f64 {
     by_speed.min(by_acceleration).min(0.1)
 }
 
-/// The step, or what is left, or half of that so that no tiny step is left.
+/// Returns the step, or all that is left, or half of what is left to avoid a tiny last step.
 fn fitted(wanted: f64, left: f64) -> f64 {
     if left <= wanted * 1.01 {
         left

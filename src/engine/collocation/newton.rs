@@ -1,21 +1,21 @@
-//! Simplified Newton's method on a step, for accelerations so steep in the speed that sweeps do not gain
-//! (Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8).
+//! Simplified Newton's method on a step, for accelerations so steep in the speed that sweeps do not converge (Hairer,
+//! Wanner, Solving Ordinary Differential Equations II, 2nd ed., section IV.8).
 
 use nalgebra::{Const, LU, SMatrix, SVector};
 
 use super::super::{Batch, Motion, NODES};
 use super::tableau::Tableau;
 
-/// The factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
+/// LU factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
 pub(super) struct Newton {
     factors: LU<f64, Const<NODES>, Const<NODES>>,
-    /// ∂f/∂ω at the last node, 1/s.
+    /// Derivative ∂f/∂ω at the last node, 1/s.
     pub loss: f64,
 }
 
 impl Newton {
-    /// With the slopes of f at the states of a batch, of which the accelerations are known. None if they are not finite, or sweeps
-    /// do not fail for them.
+    /// Factorizes the matrix from difference quotients of f at the states of a batch with known accelerations. None if
+    /// it is not finite, or f is not steep in the speed.
     pub fn new(motion: &dyn Motion, batch: &Batch, tableau: &Tableau, h: f64) -> Option<Newton> {
         let by_speed = slopes(motion, batch, |batch| &mut batch.omega);
         let by_angle = slopes(motion, batch, |batch| &mut batch.theta);
@@ -31,7 +31,7 @@ impl Newton {
         })
     }
 
-    /// Turns what a sweep would change into what makes the step right, to first order.
+    /// Converts the change made by a sweep to the Newton correction.
     pub fn correct(&self, before: &[f64; NODES], alpha: &mut [f64; NODES]) {
         let change = SVector::<f64, NODES>::from_fn(|i, _| alpha[i] - before[i]);
         if let Some(change) = self.factors.solve(&change) {
@@ -40,8 +40,8 @@ impl Newton {
     }
 }
 
-/// Whether sweeps do not gain for the slopes of f over the speed: |h ∂f/∂ω| > 1, and much the same at all nodes, as the method
-/// takes it for.
+/// True if sweeps do not converge for these ∂f/∂ω, 1/s: |h ∂f/∂ω| > 1, and the slopes differ by at most half of the
+/// largest, as the simplified method presumes.
 fn is_steep(slopes: &[f64; NODES], h: f64) -> bool {
     let low = slopes.iter().copied().fold(f64::INFINITY, f64::min);
     let high = slopes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -49,7 +49,7 @@ fn is_steep(slopes: &[f64; NODES], h: f64) -> bool {
     h * largest > 1.0 && high - low <= 0.5 * largest
 }
 
-/// ∂f at the nodes with respect to a part of the state, by differences.
+/// Computes ∂f at the nodes with respect to a part of the state, by forward differences.
 fn slopes(
     motion: &dyn Motion,
     batch: &Batch,

@@ -1,4 +1,4 @@
-//! The state between steps, with what rounding would lose.
+//! State between steps in compensated (double-double) form.
 
 use std::f64::consts::TAU;
 
@@ -7,29 +7,29 @@ use super::super::time::Start;
 use crate::numeric::angle::{Angle, TAU_REST};
 use crate::numeric::exact::two_sum;
 
-/// Angle, speed and work as a number and the digits below its last place (compensated summation, Kahan).
+/// Angle, speed and work, each as a double and the digits below its last place (compensated summation, Kahan).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
-    /// s
+    /// Time, s.
     pub t: f64,
     /// Whole turns.
     pub turns: f64,
-    /// rad, beside the turns
+    /// Angle without the whole turns, rad.
     pub theta: f64,
-    /// Below `theta`.
+    /// Digits below `theta`, rad.
     pub theta_low: f64,
-    /// rad/s
+    /// Speed, rad/s.
     pub omega: f64,
-    /// Below `omega`.
+    /// Digits below `omega`, rad/s.
     pub omega_low: f64,
-    /// J
+    /// Work, J.
     pub work: f64,
-    /// Below `work`.
+    /// Digits below `work`, J.
     pub work_low: f64,
 }
 
 impl State {
-    /// The state of a start.
+    /// Converts the start of a run to a state with zero work.
     pub fn new(start: Start) -> State {
         let angle = start.angle.reduced();
         State {
@@ -44,12 +44,12 @@ impl State {
         }
     }
 
-    /// The whole angle.
+    /// Returns the whole angle.
     pub fn angle(&self) -> Angle {
         Angle::new(self.turns, self.theta)
     }
 
-    /// The state as the end of a step.
+    /// Converts the state to the end of a step.
     pub fn node(&self, alpha: f64) -> Node {
         Node {
             t: self.t,
@@ -60,8 +60,8 @@ impl State {
         }
     }
 
-    /// The state a step of length h later, whose accelerations bring this much more angle than the speed
-    /// alone, and this much speed and work.
+    /// Returns the state a step of length h (s) later; the accelerations contribute `angle` (rad) beyond h·ω, `omega`
+    /// (rad/s) and `work` (J).
     pub fn moved(&self, h: f64, [angle, omega, work]: [f64; 3]) -> State {
         let travel = h * self.omega;
         let lost = h.mul_add(self.omega, -travel) + h * self.omega_low;
@@ -81,13 +81,13 @@ impl State {
         }
     }
 
-    /// The state with so much more speed, rad/s.
+    /// Returns the state with the speed increased by `by`, rad/s.
     pub fn faster(mut self, by: f64) -> State {
         (self.omega, self.omega_low) = two_sum(self.omega, self.omega_low + by);
         self
     }
 
-    /// The state with less than a turn of angle.
+    /// Returns the state with the angle reduced to less than a turn.
     pub fn reduced(mut self) -> State {
         if self.theta.abs() < TAU {
             return self;

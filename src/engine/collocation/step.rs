@@ -1,4 +1,4 @@
-//! One step: sweeps until the motion stays, then its error and the next length.
+//! One collocation step: sweeps to convergence, then error estimate and next length.
 
 use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
 use super::super::step::{Step, TERMS};
@@ -10,34 +10,34 @@ use super::state::State;
 use super::tableau::Tableau;
 use crate::numeric::gauss::legendre_series;
 
-/// Most sweeps of a step; one that needs more is too long.
+/// Most sweeps per step; a step that needs more is too long.
 const SWEEPS: usize = 14;
-/// Sweeps of a step of good length.
+/// Sweeps of a step of suitable length.
 const FEW_SWEEPS: usize = 9;
-/// What sweeps may leave of the error allowed to a step.
+/// Fraction of the tolerance that unconverged sweeps may leave.
 const LEFT_BY_SWEEPS: f64 = 1e-2;
-/// A step that is too long is not made shorter for a corner behind this part of it.
+/// Fraction of a step beyond which a corner is too near its end to shorten a failed step to the corner.
 const WELL_INSIDE: f64 = 0.9;
-/// Rounding of a state, in parts of itself.
+/// Relative rounding error of a state.
 const STATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The method, with what one step leaves to the next.
+/// Collocation method with the data that a step hands to the next.
 pub struct Collocation<'a> {
     pub(super) motion: &'a Counted<'a>,
     pub(super) tableau: &'static Tableau,
     pub(super) tolerance: f64,
-    /// First steps of a run from the same start.
+    /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
     has_detail: bool,
     has_power: bool,
     pub(super) batch: Batch,
-    /// Length and Legendre coefficients of the acceleration of the last step.
+    /// Length (s) and Legendre coefficients of the acceleration (rad/s²) of the last step.
     pub(super) last: Option<(f64, [f64; NODES])>,
-    /// Acceleration at the start of the next step.
+    /// Acceleration at the start of the next step, rad/s².
     pub(super) alpha: f64,
-    /// Whether sweeps did not gain on the last step.
+    /// True if sweeps did not converge on the last step.
     steep: bool,
-    /// What the rounding of times does to the acceleration, where that was asked for last, rad/s².
+    /// Latest estimate of the rounding error of the acceleration due to rounded times, rad/s².
     pub(super) by_time: f64,
 }
 
@@ -58,13 +58,13 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// The last step is no guide to the next, which begins with this acceleration.
+    /// Discards the last step as a guess for the next, which begins with this acceleration, rad/s².
     pub fn begin_anew(&mut self, alpha: f64) {
         self.last = None;
         self.alpha = alpha;
     }
 
-    /// Tries a step from a state. One that is too long for a corner in it is to end there.
+    /// Tries a step from a state; a step that is too long because of a corner is to end there.
     pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
         let result = self.attempt_whole(state, step);
         match result {
@@ -76,7 +76,7 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// The part of a step that is too long at which it seems to meet a corner.
+    /// Returns the fraction at which a step that is too long seems to meet a corner.
     fn corner(&self, state: &State, h: f64) -> Option<f64> {
         let coefficients = self.coefficients();
         if !coefficients.iter().sum::<f64>().is_finite() {
@@ -87,7 +87,7 @@ impl<'a> Collocation<'a> {
         (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
     }
 
-    /// Tries a step from a state; an error says how much shorter the next one is to be.
+    /// Tries a step from a state without a search for corners.
     fn attempt_whole(
         &mut self,
         state: &State,
@@ -112,7 +112,7 @@ impl<'a> Collocation<'a> {
             }
             let change = self.update(state, h);
             let rate = change / before;
-            // What the next sweep would change.
+            // Change that the next sweep would make.
             let left = change * rate.min(1.0);
             if sweeps > 1 && left <= LEFT_BY_SWEEPS && change < 1.0 {
                 break;
@@ -129,7 +129,7 @@ impl<'a> Collocation<'a> {
             }
             if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
                 if self.steep {
-                    // Slopes that are those of a jump are left behind with it.
+                    // A steep slope due to a jump does not persist beyond it.
                     self.steep = false;
                     return Err(self.too_long(h, 0.5));
                 }
@@ -148,7 +148,7 @@ impl<'a> Collocation<'a> {
         }
         let coefficients = self.coefficients();
         let (step, next, alpha) = self.finish(state, h, &coefficients);
-        // The nodes lie inside: a jump beside the outermost ones is seen at the ends only.
+        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
         let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
         let mut error = self.error(state, h, &coefficients);
         for (jump, at_corner) in jumps.into_iter().zip(corners) {
@@ -180,8 +180,8 @@ impl<'a> Collocation<'a> {
         Ok(Accepted { step, next, factor })
     }
 
-    /// The state at the end of a step under a steep loss (1/s), with the acceleration that the step ends with: what the loss would
-    /// take from the speed at once, Gauss's methods keep for ever (they are A-stable, not L-stable).
+    /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
+    /// component that the loss would damp at once persists in Gauss methods (A-stable, not L-stable).
     fn settled(&mut self, next: State, step: &Step, loss: f64) -> State {
         let settled = next.faster((step.end.alpha - self.alpha) / loss);
         self.alpha = self
@@ -190,7 +190,7 @@ impl<'a> Collocation<'a> {
         settled
     }
 
-    /// Angles and speeds of the accelerations; the largest change in units of the error that is allowed.
+    /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
     pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
         let (mut speed, mut angle) = ([0.0; NODES], [0.0; NODES]);
@@ -224,7 +224,7 @@ impl<'a> Collocation<'a> {
         coefficients
     }
 
-    /// Where the step has to end for its nodes to show the acceleration; none where it is as short as the time allows.
+    /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
     fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
         if !self.has_detail {
             return None;
@@ -245,7 +245,7 @@ impl<'a> Collocation<'a> {
         hidden(&way, look)
     }
 
-    /// The step, the state at its end, and the acceleration there.
+    /// Returns the step, the state at its end, and the acceleration there, rad/s².
     fn finish(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> (Step, State, f64) {
         let (alpha, power) = (&self.batch.alpha, &self.batch.power);
         let tableau = self.tableau;

@@ -1,5 +1,5 @@
-//! Nodes and coefficients of Gauss collocation for θ̈ = f(t, θ, θ̇), computed from Legendre polynomials
-//! (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., sections II.7 and II.14).
+//! Nodes and coefficients of Gauss collocation for θ̈ = f(t, θ, θ̇), computed from Legendre polynomials (Hairer,
+//! Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., sections II.7 and II.14).
 
 use std::sync::OnceLock;
 
@@ -7,19 +7,19 @@ use super::super::NODES;
 use super::super::step::TERMS;
 use crate::numeric::gauss;
 
-/// On the step [0, 1], s = (1 + x)/2. ℓ_j is the polynomial of degree n − 1 that is 1 at node j and 0 at
+/// Coefficients on the step [0, 1], s = (1 + x)/2. ℓ_j is the Lagrange polynomial of degree n − 1: 1 at node j, 0 at
 /// the others.
 #[derive(Clone, Debug)]
 pub struct Tableau {
-    /// Nodes c.
+    /// Nodes c_i.
     pub nodes: [f64; NODES],
     /// ∫ ℓ_j from 0 to c_i, as row j: all i are summed side by side.
     pub speed: [[f64; NODES]; NODES],
-    /// Weights integrated once more.
+    /// ∫∫ ℓ_j from 0 to c_i, as row j.
     pub angle: [[f64; NODES]; NODES],
-    /// ∫ ℓ_j from 0 to 1.
+    /// Weights ∫ ℓ_j from 0 to 1.
     pub end_speed: [f64; NODES],
-    /// Weights integrated once more.
+    /// Weights ∫∫ ℓ_j from 0 to 1.
     pub end_angle: [f64; NODES],
     /// Legendre coefficient k of ℓ_j, as row j.
     pub legendre: [[f64; NODES]; NODES],
@@ -28,7 +28,7 @@ pub struct Tableau {
 }
 
 impl Tableau {
-    /// The only one.
+    /// Returns the tableau, which is computed once.
     pub fn get() -> &'static Tableau {
         static TABLEAU: OnceLock<Tableau> = OnceLock::new();
         TABLEAU.get_or_init(Tableau::new)
@@ -67,7 +67,7 @@ fn transposed(rows: [[f64; NODES]; NODES]) -> [[f64; NODES]; NODES] {
     std::array::from_fn(|j| std::array::from_fn(|i| rows[i][j]))
 }
 
-/// Legendre polynomials of x = 2s − 1, by their recurrence (Abramowitz and Stegun, 22.7.10).
+/// Evaluates the Legendre polynomials of x = 2s − 1 by their recurrence (Abramowitz and Stegun, 22.7.10).
 fn polynomials(s: f64) -> [f64; NODES + 3] {
     let x = 2.0 * s - 1.0;
     let mut p = [1.0; NODES + 3];
@@ -79,7 +79,7 @@ fn polynomials(s: f64) -> [f64; NODES + 3] {
     p
 }
 
-/// P_k integrated from 0 to s: (P_{k+1} − P_{k−1})/(2(2k + 1)).
+/// Integrates P_k from 0 to s: (P_{k+1} − P_{k−1})/(2(2k + 1)).
 fn once(p: &[f64; NODES + 3], s: f64, k: usize) -> f64 {
     if k == 0 {
         return s;
@@ -87,7 +87,7 @@ fn once(p: &[f64; NODES + 3], s: f64, k: usize) -> f64 {
     (p[k + 1] - p[k - 1]) / (2 * (2 * k + 1)) as f64
 }
 
-/// P_k integrated twice from 0 to s.
+/// Integrates P_k twice from 0 to s.
 fn twice(p: &[f64; NODES + 3], s: f64, k: usize) -> f64 {
     if k == 0 {
         return 0.5 * s * s;
@@ -95,7 +95,7 @@ fn twice(p: &[f64; NODES + 3], s: f64, k: usize) -> f64 {
     (once(p, s, k + 1) - once(p, s, k - 1)) / (2 * (2 * k + 1)) as f64
 }
 
-/// P_k integrated twice from s = 0, in powers of x.
+/// Integrates P_k twice from s = 0, in powers of x.
 fn powers() -> [[f64; TERMS]; NODES] {
     let mut p = [[0.0; TERMS]; NODES + 2];
     p[0][0] = 1.0;
@@ -116,7 +116,7 @@ fn powers() -> [[f64; TERMS]; NODES] {
     })
 }
 
-/// ∫ from x = −1, times ds/dx = 1/2.
+/// Integrates from x = −1, times ds/dx = 1/2.
 fn integrate(of: &[f64; TERMS], to: &mut [f64; TERMS]) {
     let mut at_start = 0.0;
     for i in 1..TERMS {

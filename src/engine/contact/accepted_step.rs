@@ -1,21 +1,21 @@
-//! An accepted step: how it is taken, and as those who follow a run see it.
+//! Accepted step: acceptance, and the view of the observer of a run on it.
 
 use super::run::{Halt, Runner};
 use super::step::{Dense, Stages};
 use super::{Contact, Finish, Phase, Sample};
 use crate::numeric::root;
 
-/// A part of the motion in one phase.
+/// Accepted step of the motion in one phase.
 pub struct AcceptedStep<'a, const N: usize> {
-    /// The phase.
+    /// Phase of the contact.
     pub phase: Phase,
-    /// State at its beginning; the first number is the time, s.
+    /// State at the start of the step; the first number is the time, s.
     pub start: [f64; N],
-    /// State at its end.
+    /// State at the end of the step.
     pub end: [f64; N],
-    /// Rates and depth at its beginning.
+    /// Rates and depth at the start of the step.
     pub before: Sample<N>,
-    /// Rates and depth at its end.
+    /// Rates and depth at the end of the step.
     pub after: Sample<N>,
     pub(super) stages: &'a Stages<N>,
     pub(super) rates: &'a mut dyn FnMut(f64, &[f64; N]) -> [f64; N],
@@ -28,7 +28,7 @@ impl<const N: usize> AcceptedStep<'_, N> {
         self.end[0] - self.start[0]
     }
 
-    /// The state at time t (s) inside it, of order 7.
+    /// Returns the state at time t (s) inside the step, of order 7.
     pub fn at(&mut self, t: f64) -> [f64; N] {
         if t <= self.start[0] {
             return self.start;
@@ -42,7 +42,7 @@ impl<const N: usize> AcceptedStep<'_, N> {
         let u = if (dense.at(linear)[0] - t).abs() <= 1e-12 * (self.end[0] - self.start[0]) {
             linear
         } else {
-            // Steps whose independent variable is not the time.
+            // The independent variable of this step is not time.
             root::bracketed(|u| dense.at(u)[0] - t, 0.0, 1.0).unwrap_or(linear)
         };
         let mut y = dense.at(u);
@@ -52,20 +52,20 @@ impl<const N: usize> AcceptedStep<'_, N> {
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
-    /// Takes a step in time as accepted.
+    /// Accepts a step in time of length h, s.
     pub fn accept(&mut self, stages: Stages<N>, h: f64) -> Halt {
         let end = self.snapped(*stages.end(), h);
         self.accept_at(stages, end)
     }
 
-    /// Takes a step in time as accepted, with its end.
+    /// Accepts a step in time with its corrected end.
     pub fn accept_at(&mut self, mut stages: Stages<N>, end: [f64; N]) -> Halt {
         let then = self.sample(None, &end);
         stages.set_last_rate(then.rates);
         self.accept_to(&stages, end, then)
     }
 
-    /// The end of a step of length h, at the last time if it is that but for rounding.
+    /// Returns the end of a step of length h (s), set to the last time if it differs by rounding only.
     pub fn snapped(&self, mut end: [f64; N], h: f64) -> [f64; N] {
         if (self.until - end[0]).abs() <= 1e-10 * h {
             end[0] = self.until;
@@ -73,7 +73,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         end
     }
 
-    /// Takes a step in time as accepted, with its end and the rates there.
+    /// Accepts a step in time with its corrected end and the rates there.
     pub fn accept_to(&mut self, stages: &Stages<N>, end: [f64; N], then: Sample<N>) -> Halt {
         let (model, phase, near) = (self.model, self.phase, self.near);
         let end = match phase {
@@ -84,7 +84,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         self.follow(stages, &mut rates, end, then)
     }
 
-    /// Hands a step to the follower and goes to its end.
+    /// Hands a step to the observer and moves on to its end.
     pub fn follow(
         &mut self,
         stages: &Stages<N>,

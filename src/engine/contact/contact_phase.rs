@@ -1,4 +1,4 @@
-//! The phase of contact: in and out with the root of the depth as the independent variable, in time between.
+//! Contact phase: its start and end with the square root of the depth as independent variable, the middle in time.
 
 use super::flight::{depth, nudged};
 use super::run::{Halt, Runner, growth};
@@ -6,7 +6,7 @@ use super::step::Stages;
 use super::{Contact, Phase};
 use crate::numeric::root;
 
-/// The rate of the depth may change by about this part while the depth's root is the independent variable.
+/// Relative change of the depth rate up to which the square root of the depth serves as independent variable.
 const RATE_CHANGE: f64 = 0.3;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
@@ -44,7 +44,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         Ok(())
     }
 
-    /// One step in time. False if the contact presses no more.
+    /// Takes one step in time; false if the contact no longer transmits force.
     fn press(&mut self, approach: f64) -> Result<bool, super::Finish> {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
         let longest = if rate < 0.0 && depth > 0.0 {
@@ -77,7 +77,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         Ok(false)
     }
 
-    /// Depth up to which the root may be the independent variable, from the deceleration at a trial depth.
+    /// Returns the depth (m) up to which its square root may be the independent variable, from trial decelerations.
     fn reach(&mut self, rate: f64) -> f64 {
         const TRIAL_DEPTH: f64 = 1e-6;
         let y = self.y;
@@ -89,7 +89,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         by_wall.min(energy / free.abs().max(1e-300))
     }
 
-    /// Whether the contact is on its way out, with a rate that hardly changes until then.
+    /// True if the contact is ending, with a depth rate that stays nearly constant until then.
     fn leaves(&mut self) -> bool {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
         let bounded = |acceleration: f64| acceleration.abs() * depth < RATE_CHANGE * rate * rate;
@@ -99,8 +99,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         bounded(self.sample(Some(0.0), &{ self.y }).depth_acceleration)
     }
 
-    /// Goes from one root of the depth to another. False, and the state is that of the last good step, if that
-    /// is not possible: beyond the last time, without pressing, or with a rate that vanishes.
+    /// Integrates from one square root of the depth to another. False, at the last valid state, where that is
+    /// impossible: beyond `until`, without force, with a vanishing depth rate, or with a missed load.
     fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Result<bool, super::Finish> {
         let (model, phase) = (self.model, self.phase);
         let (mut s, mut ds) = (from, to - from);
@@ -152,7 +152,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         Ok(true)
     }
 
-    /// The contact ends here; what the depth is off zero is put right in time.
+    /// Ends the contact; a small step in time removes the remaining depth.
     fn part(&mut self) {
         let model = self.model;
         let (depth, rate) = depth(model, Phase::Flight, &self.y);

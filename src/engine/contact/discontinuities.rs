@@ -1,5 +1,5 @@
-//! Where the law of motion changes inside a phase, or its rates have a kink: steps end there, and where their stages do not
-//! show the loads.
+//! Changes of the law of motion and kinks of its rates inside a phase: steps end there, and where their stages miss a
+//! load.
 
 use super::run::{Halt, Runner};
 use super::{AcceptedStep, Contact, Finish};
@@ -9,17 +9,17 @@ use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::numeric::root;
 
-/// What is nearer to the beginning of a step than this part of it is the break that the step begins at.
+/// Distance from the start of a step, as a fraction, within which a kink is the one at which the step begins.
 const SAME_BREAK: f64 = 1e-6;
-/// Most changes at one time, beyond which none of the laws lasts.
+/// Most changes of law at one time: beyond that no law persists, and the run ends.
 const MOST_AT_ONCE: u32 = 4;
 
-/// The changes of a run.
+/// Changes of law in a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Breaks<const N: usize> {
-    /// The one at the end of the present piece.
+    /// Change or kink at the end of the present piece.
     due: Option<Break<N>>,
-    /// When the last one was, s, and how many there were at that time before it.
+    /// Time of the last change, s, and number of changes at that time before it.
     last: (f64, u32),
 }
 
@@ -32,17 +32,17 @@ impl<const N: usize> Default for Breaks<N> {
     }
 }
 
-/// A change that is due.
+/// Change or kink that ends the present piece.
 #[derive(Clone, Copy, Debug)]
 struct Break<const N: usize> {
-    /// s
+    /// Time, s.
     t: f64,
-    /// A state after it, as if there were no change; none where the law stays the same beyond a kink.
+    /// State after the change under the law before; none at a kink, where the law stays.
     soon: Option<[f64; N]>,
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
-    /// Refuses a step that goes beyond a change: the next one ends there.
+    /// Rejects a step that goes beyond a change or kink: the next one ends there.
     pub(super) fn stop_at_break(&mut self, stretch: &mut AcceptedStep<'_, N>) -> Halt {
         if self.breaks.due.is_some() {
             return Ok(());
@@ -87,7 +87,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         None
     }
 
-    /// Goes over to the law that holds from here on, where a change is due.
+    /// Changes to the law that holds from here on, if a change is due.
     pub(super) fn change(&mut self) -> Halt {
         let Some(soon) = self.breaks.due.take().and_then(|due| due.soon) else {
             return Ok(());
@@ -105,7 +105,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 }
 
-/// A step in time.
+/// Step in time.
 struct OnStep<'a, M: Contact<N>, const N: usize> {
     model: &'a M,
     start: &'a [f64; N],
@@ -115,7 +115,7 @@ struct OnStep<'a, M: Contact<N>, const N: usize> {
 }
 
 impl<M: Contact<N>, const N: usize> Interpolant for OnStep<'_, M, N> {
-    /// The parabola from the start with its rates to the end; off it is less than its own bend.
+    /// Encloses the parabola from the start, with its rates, to the end, widened by its bend.
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let h = self.end[0] - self.start[0];
         let reach = std::array::from_fn(|i| {
@@ -130,14 +130,14 @@ impl<M: Contact<N>, const N: usize> Interpolant for OnStep<'_, M, N> {
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
-    /// How long the step to a state may be (s) so that its stages show the loads; none if they do.
+    /// Returns the length (s) a step to this state may have for its stages to resolve the loads; none if they do.
     pub(super) fn hides(&self, end: &[f64; N]) -> Option<f64> {
         if !self.model.has_detail() {
             return None;
         }
         let h = end[0] - self.y[0];
         let tolerance = self.settings.tolerance;
-        // A method of some order is worth as many nodes.
+        // A method of order n counts as n nodes.
         let nodes = RungeKutta::Dop853.order();
         let look = NodeCriterion::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
         let way = OnStep {

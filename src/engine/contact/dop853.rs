@@ -1,11 +1,11 @@
-//! The explicit method of order 8 with embedded estimates of orders 5 and 3 and a dense output of order 7, of
-//! Dormand and Prince; coefficients as in Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I,
-//! 2nd ed. 1993, II.5 and II.6 (DOP853). Nodes are the row sums.
+//! Coefficients of the explicit Runge-Kutta method DOP853 of Dormand and Prince, order 8, with error estimates of
+//! orders 5 and 3 and dense output of order 7, as in Hairer, Nørsett and Wanner, Solving Ordinary Differential
+//! Equations I, 2nd ed. 1993, II.5 and II.6. Nodes are the row sums.
 
-/// A coefficient with the index of its stage.
+/// Index of a stage and its coefficient.
 pub(super) type Term = (usize, f64);
 
-/// Shares of the stages before in the states of stages 1 to 11, and in the end of the step.
+/// Rows of the Runge-Kutta matrix for stages 1 to 11, then the weights of the end of the step.
 #[rustfmt::skip]
 pub(super) const STAGES: [&[Term]; 12] = [
     &[(0, 0.05260015195876773)],
@@ -41,7 +41,7 @@ pub(super) const STAGES: [&[Term]; 12] = [
     ],
 ];
 
-/// Shares in the estimates of the error, of orders 5 and 3.
+/// Weights of the error estimates of orders 5 and 3.
 #[rustfmt::skip]
 pub(super) const ERRORS: [&[Term]; 2] = [
     &[
@@ -54,7 +54,7 @@ pub(super) const ERRORS: [&[Term]; 2] = [
     ],
 ];
 
-/// Shares in the states of stages 13 to 15, which only the dense output needs.
+/// Rows of the Runge-Kutta matrix for stages 13 to 15, which only the dense output needs.
 #[rustfmt::skip]
 pub(super) const DENSE_STAGES: [&[Term]; 3] = [
     &[
@@ -72,7 +72,7 @@ pub(super) const DENSE_STAGES: [&[Term]; 3] = [
     ],
 ];
 
-/// Shares in terms 4 to 7 of the dense output.
+/// Weights of terms 4 to 7 of the dense output.
 #[rustfmt::skip]
 pub(super) const DENSE: [&[Term]; 4] = [
     &[

@@ -1,4 +1,4 @@
-//! Phases without force: free flight until the gap closes, and receding out of an indentation.
+//! Phases without force: free flight until the gap closes, and release from an indentation.
 
 use super::run::{Halt, Runner};
 use super::step::{Dense, Stages};
@@ -6,10 +6,10 @@ use super::{Contact, Phase, Sample};
 use crate::engine::PIECES;
 use crate::numeric::root;
 
-/// A piece is cut in two until it is this part of a step, or the cubic through its ends says that the gap stays open;
-/// in a piece as short as this the rate of the gap changes its sign at most once.
+/// Shortest piece in the search for a closing gap, as a fraction of a step: longer ones are bisected until the cubic
+/// through their ends excludes a closing. In the shortest the rate of the gap is taken to change sign at most once.
 const FINEST_PIECE: f64 = 1.0 / 1024.0;
-/// The gap may be off the cubic by this times what it is off in the middle of a piece.
+/// Bound of the deviation of the gap from the cubic, as a multiple of the deviation at the middle of a piece.
 const CUBIC_MARGIN: f64 = 4.0;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
@@ -64,7 +64,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
     }
 
-    /// The motion inside a step, and rates and depth at its end.
+    /// Computes the dense output of a step, and rates and depth at its end.
     pub(super) fn inside(&mut self, stages: &mut Stages<N>) -> (Dense<N>, Sample<N>) {
         let (model, phase) = (self.model, self.phase);
         let near = self.near;
@@ -75,13 +75,13 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         (stages.dense(&mut rates), then)
     }
 
-    /// Accepts the beginning of a step, of length h.
+    /// Accepts the first part of a step, of length h, s.
     pub(super) fn cut_at(&mut self, h: f64) -> Halt {
         let stages = self.try_step(h);
         self.accept(stages, h)
     }
 
-    /// Accepts the beginning of a step, of about length h, ended where a value with its rate vanishes.
+    /// Accepts the first part of a step, about h (s) long, up to the zero of `value` (Newton, value and rate).
     fn cut(&mut self, h: f64, value: impl Fn(&M, &[f64; N]) -> (f64, f64)) -> Halt {
         let (model, phase) = (self.model, self.phase);
         let stages = self.try_step(h);
@@ -89,7 +89,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         for _ in 0..3 {
             let (now, rate) = value(model, &end);
             let dt = -now / rate;
-            // Where the value is extreme at zero its rate says nothing.
+            // At an extreme with value zero the rate vanishes.
             if dt == 0.0 || !dt.is_finite() || dt.abs() > 1e-3 * h {
                 break;
             }
@@ -101,7 +101,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 }
 
-/// Depth of the contact and its rate.
+/// Returns the depth of the contact, m, and its rate, m/s.
 pub(super) fn depth<M: Contact<N>, const N: usize>(
     model: &M,
     phase: Phase,
@@ -111,7 +111,7 @@ pub(super) fn depth<M: Contact<N>, const N: usize>(
     (sample.depth, sample.depth_rate)
 }
 
-/// A tiny step by the midpoint rule.
+/// Takes a tiny step by the midpoint rule.
 pub(super) fn nudged<const N: usize>(
     y: &[f64; N],
     dt: f64,
@@ -123,17 +123,17 @@ pub(super) fn nudged<const N: usize>(
     std::array::from_fn(|i| y[i] + dt * slope[i])
 }
 
-/// The gap at a part u of a step.
+/// Gap at a fraction u of a step.
 #[derive(Clone, Copy)]
 struct Gap {
     u: f64,
-    /// m
+    /// Gap, m.
     value: f64,
-    /// m/s
+    /// Rate of the gap, m/s.
     rate: f64,
 }
 
-/// Where inside a step of length h (s) the gap closes first, if it does.
+/// Returns the fraction of a step of length h (s) at which the gap first closes, if it does.
 fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -> Option<f64> {
     let gap = |u: f64| {
         let (value, rate) = model.gap(&dense.at(u));
@@ -148,7 +148,7 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -
     })
 }
 
-/// First closing of the gap between two places. The control points of the cubic bound it from below.
+/// Returns the first closing of the gap between two positions; the Bézier points of the cubic bound it from below.
 fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Option<f64> {
     let width = (to.u - from.u) * h;
     let cubic = [
@@ -171,9 +171,9 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     }
 }
 
-/// First closing of the gap in a short piece: by the sign of the gap at its ends and at the least gap between them, so that a graze
-/// is not missed. A gap of zero at the start of a step that opens is looked at from the end of the piece backwards:
-/// at the start its sign is rounding.
+/// Returns the first closing of the gap in a short piece, by the signs of the gap at its ends and at the minimum
+/// between them, which includes a graze. A step that starts with a gap of zero and opens is searched from the end of
+/// the piece backwards: at the start the sign is rounding.
 fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
     let opens = start.u == 0.0 && start.value <= start.rate * 1e-9;
     let mut last = end;
@@ -196,7 +196,7 @@ fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
     root::bracketed(|u| gap(u).value, from, to)
 }
 
-/// Where a value that is positive at the start is first found to be negative.
+/// Returns the first zero of a value that is positive at the start and sampled as negative later.
 fn first_sign_change(value: impl Fn(f64) -> f64) -> Option<f64> {
     let mut before = 0.0;
     for i in 1..=PIECES {

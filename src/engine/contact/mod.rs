@@ -1,10 +1,9 @@
-//! Motion with unilateral contact: free flight, contact whose force grows with the 3/2 power of the depth, and
-//! the change from one to the other, located.
+//! Integration of a motion with unilateral contact: flight, contact with a force that grows with the 3/2 power of the
+//! depth, and located transitions, by DOP853.
 //!
-//! The 3/2 power has no second derivative at depth zero, which costs a Runge-Kutta method its order in the first
-//! and the last step of every contact. There the root of the depth takes the place of time as the independent
-//! variable (after Hénon, Physica D 5 (1982) 412): in it the motion is smooth, and the contact ends exactly at
-//! zero, without a search.
+//! The 3/2 power has no second derivative at depth zero, which costs a Runge-Kutta method its order in the first and
+//! the last step of every contact. There the square root of the depth replaces time as the independent variable (after
+//! Hénon, Physica D 5 (1982) 412): the motion is smooth in it, and the contact ends exactly at zero, without a search.
 
 mod accepted_step;
 mod contact_phase;
@@ -20,29 +19,29 @@ use crate::numeric::enclosure::{Detail, Interval};
 pub use accepted_step::AcceptedStep;
 pub use run::{ContactEnd, Finish, run};
 
-/// What the motion is doing.
+/// Phase of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Phase {
-    /// Apart.
+    /// Free flight.
     Flight,
-    /// Pressed together, in a contact that began with this speed, m/s.
+    /// Contact that transmits force.
     Contact {
-        /// m/s
+        /// Speed at the start of the contact, m/s.
         approach: f64,
     },
-    /// Still indented, but receding so fast that the force is zero.
+    /// Indentation without force: the bodies recede too fast.
     Release {
-        /// m/s
+        /// Speed at the start of the contact, m/s.
         approach: f64,
     },
-    /// Held at constant distance.
+    /// Constant distance between the bodies, as by a massless link.
     Link,
 }
 
-/// What follows from a state in a phase.
+/// Rates and contact depth at a state in a phase.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<const N: usize> {
-    /// Rates of change.
+    /// Time derivatives of the state.
     pub rates: [f64; N],
     /// Depth of the contact, m, negative while apart.
     pub depth: f64,
@@ -52,23 +51,23 @@ pub struct Sample<const N: usize> {
     pub depth_acceleration: f64,
 }
 
-/// A motion of N numbers, the first of them the time, s.
+/// Equations of motion for a state of N numbers; the first is the time, s.
 pub trait Contact<const N: usize> {
-    /// What makes evaluations near a state cheaper, and which of several laws of motion holds there.
+    /// Data for fast evaluation near a state, including the law of motion that holds there.
     type Near: Copy;
 
     /// Prepares evaluations near a state.
     fn near(&self, y: &[f64; N]) -> Self::Near;
 
-    /// Geometry near contact at a later state, where the law of motion is that of before.
+    /// Updates the data to a later state under the same law of motion.
     fn near_after(&self, before: &Self::Near, y: &[f64; N]) -> Self::Near;
 
-    /// What is positive while the law of motion lasts, and what leaves a kink in the rates where its sign changes;
-    /// none if there is but one law, whose rates are smooth.
+    /// Returns a value that is positive while the law of motion holds, and a value at whose zeros the rates have a
+    /// kink; none if there is a single law with smooth rates.
     fn breaks(&self, near: &Self::Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]>;
 
-    /// Goes over to the law of motion that holds after this state, from what the one of before makes of the time
-    /// that follows.
+    /// Changes to the law of motion that holds after this state; `soon` is a later state under the law before, which
+    /// tells the direction of the change.
     fn change(
         &self,
         near: &Self::Near,
@@ -77,7 +76,7 @@ pub trait Contact<const N: usize> {
         soon: &[f64; N],
     ) -> Self::Near;
 
-    /// Rates and depth in a phase; in contact the depth (m) may be known better than from the state.
+    /// Computes rates and depth in a phase; in contact `depth` (m) overrides the less accurate depth of the state.
     fn sample(
         &self,
         near: &Self::Near,
@@ -86,45 +85,45 @@ pub trait Contact<const N: usize> {
         y: &[f64; N],
     ) -> Sample<N>;
 
-    /// A smooth measure of the gap, positive in flight and zero where contact begins, and its rate.
+    /// Returns a smooth measure of the gap, m, positive in flight and zero where contact begins, and its rate, m/s.
     fn gap(&self, y: &[f64; N]) -> (f64, f64);
 
-    /// Positive while a contact presses whose depth changes at this rate, m/s.
+    /// Returns a value that is positive while a contact whose depth changes at this rate, m/s, transmits force.
     fn pressing(&self, approach: f64, rate: f64) -> f64;
 
-    /// The speed a contact is said to begin with, m/s.
+    /// Returns the approach speed in the contact law, m/s, for a contact that begins with `speed`, m/s.
     fn approach(&self, speed: f64) -> f64;
 
-    /// The state nearest to this one that keeps the distance of [`Phase::Link`].
+    /// Returns the nearest state with the distance of [`Phase::Link`].
     fn relinked(&self, y: &[f64; N]) -> [f64; N];
 
-    /// The next time after t (s) at which the rates are not smooth in time.
+    /// Returns the next time after t (s) at which the rates are not smooth in time.
     fn next_corner(&self, t: f64) -> f64;
 
-    /// Whether the rates may do something between the stages of a step that its error does not tell.
+    /// True if loads may vary between the stages of a step without a trace in its error estimate.
     fn has_detail(&self) -> bool;
 
-    /// What loads change in the rates over the sizes of their numbers, 1/s, over ranges of a state, and in an ellipse of this
-    /// size around them.
+    /// Returns the variation of the rates due to loads, over the sizes of the state, 1/s, on intervals of the state and
+    /// in the Bernstein ellipse with parameter ρ = `ellipse` around them.
     fn detail(&self, over: &[Interval; N], ellipse: f64) -> Detail;
 
-    /// Size of each number, which the tolerance is relative to; the first `counted` are under error control.
+    /// Returns the sizes of the state, to which the tolerance is relative; the first `counted` are error-controlled.
     fn sizes(&self) -> ([f64; N], usize);
 
-    /// What the depth (m) at a state may be off zero by rounding.
+    /// Returns the rounding error of the depth at a state, m.
     fn rounding(&self, y: &[f64; N]) -> f64;
 
-    /// The end of a step of [`Phase::Release`]: no force gives back what was stored in between, so it is lost.
+    /// Ends a step of [`Phase::Release`]: the elastic energy stored in between is not returned and counts as lost.
     fn receded(&self, start: &[f64; N], end: &[f64; N]) -> [f64; N];
 }
 
-/// How a run is made.
+/// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings<'a> {
-    /// Local error target, relative to the sizes.
+    /// Tolerance of the local error, relative to the sizes.
     pub tolerance: f64,
-    /// s
+    /// Last time, s.
     pub t_end: f64,
-    /// On evaluations of the rates.
+    /// Limit of the evaluations of the rates.
     pub limit: WorkLimit<'a>,
 }

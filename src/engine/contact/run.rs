@@ -1,35 +1,35 @@
-//! The run, phase by phase.
+//! Loop of a run over its phases, with step-size control.
 
 use super::discontinuities::Breaks;
 use super::step::Stages;
 use super::{AcceptedStep, Contact, Phase, Sample, Settings};
 
-/// Most relative error of the force that is put down to rounding of the depth.
+/// Largest relative error of the force that is attributed to rounding of the depth.
 const MAX_FORCE_DOUBT: f64 = 1e-6;
 
-/// How a run ended.
+/// Reason for the end of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finish {
-    /// At its last time.
+    /// Last time reached.
     AtEnd,
-    /// Because its follower wanted so.
+    /// Stopped by the observer.
     Stopped,
-    /// At the most evaluations.
+    /// Evaluation limit reached.
     WorkLimit,
-    /// The rates are not finite, or change too fast.
+    /// Rates not finite, or too steep.
     StepTooSmall,
-    /// Not an end: a step is made anew, as it goes beyond a change of the law of motion.
+    /// Internal: a step beyond a change of the law of motion is repeated.
     Broken,
 }
 
-/// The end of a run.
+/// End of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactEnd<const N: usize> {
-    /// How.
+    /// Reason for the end.
     pub finish: Finish,
     /// Last state.
     pub last: [f64; N],
-    /// The phase it is in.
+    /// Phase of the last state.
     pub phase: Phase,
     /// Evaluations of the rates.
     pub evaluations: u64,
@@ -37,7 +37,7 @@ pub struct ContactEnd<const N: usize> {
     pub steps: u64,
 }
 
-/// Takes each accepted step; true ends the run.
+/// Observer of accepted steps; returning true ends the run.
 pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool;
 
 pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
@@ -46,15 +46,15 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub follower: Follower<'a, N>,
     pub y: [f64; N],
     pub phase: Phase,
-    /// Prepared at `y`.
+    /// Evaluation data prepared at `y`.
     pub near: M::Near,
     /// Rates and depth at `y` in `phase`.
     pub now: Sample<N>,
     /// Next step, s.
     pub h: f64,
-    /// Next step of a flight, s.
+    /// Next step in flight, s.
     pub flight_h: f64,
-    /// The time the present piece goes to, s: the end or a corner of the rates.
+    /// End of the present piece, s: end of the run, corner of the rates or change of law.
     pub until: f64,
     pub breaks: Breaks<N>,
     pub evaluations: u64,
@@ -63,10 +63,10 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub counted: usize,
 }
 
-/// Why a run does not go on.
+/// Continuation, or the reason for the end of a run.
 pub(super) type Halt = Result<(), Finish>;
 
-/// Runs from a state to the last time. `linked` holds the distance all the time.
+/// Integrates from a state to the last time; `linked` keeps [`Phase::Link`] throughout.
 pub fn run<M: Contact<N>, const N: usize>(
     model: &M,
     start: [f64; N],
@@ -116,7 +116,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                     ended => ended?,
                 }
             }
-            // Beyond a corner or a change the rates are others.
+            // The rates change at a corner or a change of law.
             self.change()?;
             self.enter(self.phase);
         }
@@ -132,7 +132,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
     }
 
-    /// The phase and the first step at the start.
+    /// Sets the phase and the first step at the start.
     fn begin(&mut self) {
         self.enter(self.phase);
         let Sample {
@@ -160,19 +160,19 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         };
     }
 
-    /// Goes over to a phase at the present state.
+    /// Enters a phase at the present state.
     pub fn enter(&mut self, phase: Phase) {
         self.phase = phase;
         self.now = self.sample(None, &{ self.y });
     }
 
-    /// Rates and depth at a state in the present phase.
+    /// Computes rates and depth at a state in the present phase.
     pub fn sample(&mut self, depth: Option<f64>, y: &[f64; N]) -> Sample<N> {
         self.evaluations += 1;
         self.model.sample(&self.near, self.phase, depth, y)
     }
 
-    /// What the error of a step of this length (s) may be. Rounding sets a floor: that of the state, and that of
+    /// Returns the admissible error of a step of length `h` (s). Rounding sets a floor: that of the state, and that of
     /// the depth, which makes the force of a shallow contact uncertain however short the step is.
     pub fn scale(&self, h: f64) -> [f64; N] {
         let doubt = match self.phase {
@@ -188,7 +188,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         })
     }
 
-    /// A step in time of this length, not yet accepted.
+    /// Computes a step in time of this length, s, not yet accepted.
     #[inline]
     pub fn try_step(&mut self, h: f64) -> Stages<N> {
         let (model, phase) = (self.model, self.phase);
@@ -198,7 +198,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         Stages::new(&mut rates, &self.y, &self.now.rates, h)
     }
 
-    /// The next step that keeps the error, and its length; `h` holds what the one after may be.
+    /// Returns the next step within tolerance and its length, s; sets `h` to the length proposed for the one after.
     pub fn controlled_step(&mut self, longest: f64) -> Result<(Stages<N>, f64), Finish> {
         let mut rejected = false;
         loop {
@@ -206,7 +206,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let left = self.until - self.y[0];
             let mut h = self.h.min(longest).min(left);
             if h > 0.9 * left && h < left {
-                // Two steps of half the rest are better than one and a crumb.
+                // Two halves of the rest are better than one step and a tiny one.
                 h = 0.5 * left;
             }
             if h < left && (h <= 4.0 * f64::EPSILON * self.y[0].abs() || h < 1e-300) {
@@ -222,7 +222,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 }
                 let most = if rejected { 1.0 } else { 6.0 };
                 let grown = h * growth(error).min(most);
-                // A step that was cut short says little about the next.
+                // A step cut short says little about the length of the next.
                 self.h = if h < self.h { grown.max(self.h) } else { grown };
                 return Ok((stages, h));
             }
@@ -252,7 +252,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 }
 
-/// By how much the step may change.
+/// Returns the ratio of the next step to this one, from the error in units of the tolerance (order 8).
 pub(super) fn growth(error: f64) -> f64 {
     (0.9 / error.sqrt().sqrt().sqrt()).clamp(0.2, 6.0)
 }

@@ -1,4 +1,4 @@
-//! One step of the explicit method on a state of fixed size.
+//! One step of DOP853 on a state of fixed size.
 
 use super::dop853::{DENSE, DENSE_STAGES, ERRORS, STAGES, Term};
 
@@ -33,7 +33,7 @@ fn moved<const N: usize>(
     std::array::from_fn(|i| start[i] + length * slope[i])
 }
 
-/// Sum of the coefficients: the node of a stage.
+/// Node of a stage: the sum of its coefficients.
 const fn node(terms: &[Term]) -> f64 {
     let (mut total, mut i) = (0.0, 0);
     while i < terms.len() {
@@ -44,8 +44,8 @@ const fn node(terms: &[Term]) -> f64 {
 }
 
 impl<const N: usize> Stages<N> {
-    /// The step of this length. `rates(c, y)` is the rate at `start` variable plus c times the length; `first`
-    /// is the one at the start.
+    /// Computes the step of this length. `rates(c, y)` is the rate at the fraction c of the step, `first` the rate at
+    /// its start.
     #[inline]
     pub fn new(
         rates: &mut impl FnMut(f64, &[f64; N]) -> [f64; N],
@@ -71,7 +71,7 @@ impl<const N: usize> Stages<N> {
         }
     }
 
-    /// The state at the end.
+    /// Returns the state at the end.
     pub fn end(&self) -> &[f64; N] {
         &self.end
     }
@@ -81,8 +81,8 @@ impl<const N: usize> Stages<N> {
         self.k[12] = rate;
     }
 
-    /// Local error in units of `scale`, the root of the mean of squares over `counted` components: the
-    /// estimate of order 5, lowered where that of order 3 is larger still (Hairer, Nørsett and Wanner, II.10).
+    /// Estimates the local error in units of `scale`, root mean square over the first `counted` components: the
+    /// estimate of order 5, reduced where that of order 3 is larger still (Hairer, Nørsett and Wanner, II.10).
     pub fn error(&self, scale: &[f64; N], counted: usize) -> f64 {
         let (fifth, third) = (sum(&self.k, ERRORS[0]), sum(&self.k, ERRORS[1]));
         let (mut five, mut three) = (0.0, 0.0);
@@ -97,7 +97,7 @@ impl<const N: usize> Stages<N> {
         self.length.abs() * five / ((five + 0.01 * three) * counted as f64).sqrt()
     }
 
-    /// The motion inside the step, of order 7; three more evaluations.
+    /// Computes the dense output of order 7; three more evaluations.
     pub fn dense(&self, rates: &mut impl FnMut(f64, &[f64; N]) -> [f64; N]) -> Dense<N> {
         let mut k = [[0.0; N]; 16];
         k[..13].copy_from_slice(&self.k);
@@ -123,7 +123,7 @@ impl<const N: usize> Stages<N> {
     }
 }
 
-/// The motion inside a step, as a function of u in [0, 1].
+/// Dense output of a step, as a function of u in [0, 1].
 #[derive(Clone, Debug)]
 pub(super) struct Dense<const N: usize> {
     start: [f64; N],
@@ -131,7 +131,7 @@ pub(super) struct Dense<const N: usize> {
 }
 
 impl<const N: usize> Dense<N> {
-    /// The state at u.
+    /// Returns the state at u.
     pub fn at(&self, u: f64) -> [f64; N] {
         let rest = 1.0 - u;
         std::array::from_fn(|i| {

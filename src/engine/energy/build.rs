@@ -1,4 +1,4 @@
-//! Panels, one after the other, until a motion turns back, repeats or is long enough.
+//! Construction of a segment: panels in sequence until the motion turns back, repeats or is long enough.
 
 use std::f64::consts::TAU;
 
@@ -8,75 +8,75 @@ use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_closure::Return;
 
-/// Where a leg begins.
+/// Initial state of a segment.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) struct Begin {
-    /// rad
+    /// Crank angle, rad.
     pub start: f64,
-    /// +1 or −1
+    /// Direction of motion, +1 or −1.
     pub direction: f64,
-    /// J; without it the start is a turning point.
+    /// Kinetic energy, J; zero at a turning point.
     pub kinetic: f64,
-    /// How far it may be off beside its own rounding, J.
+    /// Error bound of the kinetic energy beyond its own rounding, J.
     pub off: f64,
 }
 
-/// Panels no longer than this are taken as they are, rad: a corner that nobody announced.
+/// Length of a panel that is accepted unresolved, rad: it holds a corner that the profile does not announce.
 const CORNER_PANEL: f64 = 1e-13;
-/// Below this part of the largest kinetic energy its sum over the panels has lost digits.
+/// Fraction of the largest kinetic energy below which the sum of the energy over panels has lost digits.
 const NEAR_REST: f64 = 1e-3;
 
-/// A turning point ahead.
+/// Turning point ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Ahead {
-    /// The way to it, rad with sign.
+    /// Signed distance to the turning point, rad.
     way: f64,
-    /// Whether it was found from the end of the turn.
+    /// True if the turning point was located from the end of the turn.
     from_home: bool,
-    /// Energy that the last panel to it did not use up, J.
+    /// Residual of the energy balance on the last panel that ended at the turning point, J.
     missed: f64,
 }
 
-/// A last panel's energy is a mean over points that are rounded, each by some units: it is seen to so many.
+/// Rounding floor of the energy balance on a panel that ends at a turning point, in units of rounding.
 const SEEN_UNITS: f64 = 2.0;
 
-/// What is better than a panel.
+/// Improvement to make on a panel.
 enum Better {
     None,
-    /// One that ends at this turning point.
+    /// Replacement by a panel that ends at this turning point.
     Turning(Ahead),
     Shorter,
 }
 
-/// A leg that is being built.
+/// Segment under construction.
 struct Builder<'a> {
     profile: &'a dyn Profile,
     begin: Begin,
-    /// The start, a turn later, rad.
+    /// Angle one turn after the start, rad.
     whole_turn: f64,
-    /// Kinetic energy that each turn gains, if it is the same in each, and how far it may be off, J.
+    /// Kinetic energy gained per turn, if it is equal for all turns, and its error bound, J.
     gain: Option<f64>,
     gain_error: f64,
     home: Option<Return<'a>>,
     segment: Segment,
-    /// Where the next panel begins, rad.
+    /// Angle at which the next panel begins, rad.
     at: f64,
-    /// Kinetic energy there, and the largest so far, J.
+    /// Kinetic energy at that angle, and the largest so far, J.
     kinetic: f64,
     largest: f64,
-    /// How far it may be off beside its own rounding, J.
+    /// Error bound of the kinetic energy beyond its own rounding, J.
     off: f64,
-    /// Length of the next panel at most, rad.
+    /// Largest length of the next panel, rad.
     length: f64,
-    /// Whether panels are no longer than the branch points allow: once a longer one has failed.
+    /// True if branch points limit the panels: once a longer panel has failed.
     is_cut: bool,
     ahead: Option<Ahead>,
     turns: f64,
 }
 
 impl Segment {
-    /// Panels until the time `until` is passed or `most_turns` are complete, if the forces are the same in each;
-    /// their series end where they have decayed to `tolerance`.
+    /// Builds panels until the time `until` (s) is passed or `most_turns` turns with equal forces are complete; the
+    /// tails of their series are below `tolerance`.
     pub fn build(
         profile: &dyn Profile,
         begin: Begin,
@@ -124,7 +124,7 @@ impl Segment {
 }
 
 impl Builder<'_> {
-    /// Tries the next panel: takes it, or makes it shorter.
+    /// Tries the next panel: accepts it, shortens it, or ends it at a turning point.
     fn panel(&mut self, tolerance: f64) -> Result<(), NotApplicable> {
         let piece = self.piece();
         let uncertain = self.uncertain(piece.turning);
@@ -139,7 +139,7 @@ impl Builder<'_> {
                     return Err(NotApplicable::NotFinite);
                 }
                 Better::Shorter => {
-                    // Rounding of the panel on which it was found may have made up the turning point.
+                    // The turning point may be an artefact of rounding on the panel on which it was found.
                     self.ahead = None;
                     self.length *= 0.5;
                 }
@@ -159,7 +159,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// After a panel of this length, rad, that was not resolved: as long as the branch points allow, or half of it.
+    /// Shortens the next panel after an unresolved one of length `span` (rad): to the branch points' limit, or by half.
     fn shorten(&mut self, span: f64) {
         if std::mem::replace(&mut self.is_cut, true) || self.analytic() >= span {
             self.length = 0.5 * span;
@@ -185,7 +185,7 @@ impl Builder<'_> {
         let at_rest = self.kinetic == 0.0;
         let turns = self.ahead.map(|ahead| ahead.way);
         match turns.filter(|way| direction * (to - self.at - way) >= 0.0) {
-            // A panel cannot turn at both ends: the first half ends in the middle.
+            // A panel cannot have turning points at both ends: the first half ends in the middle.
             Some(way) if at_rest => to = self.at + 0.5 * way,
             Some(way) => return Piece::until_turning(self.at, way),
             None => {}
@@ -198,8 +198,8 @@ impl Builder<'_> {
         Piece::between(self.at, to, turning)
     }
 
-    /// How far the kinetic energy on the next panel may be off; near rest it is that of the way to the end of the turn,
-    /// which keeps its digits.
+    /// Returns the error bound of the kinetic energy on the next panel, J; near rest from the integral to the end of
+    /// the turn, which keeps the digits.
     fn uncertain(&mut self, turning: Turning) -> Uncertain {
         if let Some(home) = &self.home
             && turning == Turning::AtEnd
@@ -219,9 +219,9 @@ impl Builder<'_> {
         Uncertain::AtStart(self.off + f64::EPSILON * self.largest)
     }
 
-    /// What is better than a panel. A turning point found on a longer panel is right to the rounding of that one, and
-    /// the energy that the last one does not use up says by how much it is off: Newton, where the force hardly changes
-    /// over the step, until rounding is left. Where it does change, the last panel is to begin nearer.
+    /// Returns the improvement to make on a panel. A turning point found on a longer panel is accurate to the rounding
+    /// of that panel; the residual of the energy balance on the last panel is its correction (Newton), as long as the
+    /// force hardly changes over the correction. Otherwise the last panel has to begin nearer.
     fn better(&self, panel: &Panel, uncertain: Uncertain) -> Better {
         let (Some(ahead), Uncertain::AtStart(off)) = (self.ahead, uncertain) else {
             return Better::None;
@@ -262,7 +262,7 @@ impl Builder<'_> {
         panel.turns = self.begin.direction * self.turns;
         self.kinetic = panel.kinetic_at_end;
         self.largest = self.largest.max(self.kinetic);
-        // A corner may have cut it shorter.
+        // A corner may have cut this panel short.
         self.length = self.length.max(2.0 * piece.span().abs());
         self.segment.push(panel);
         if piece.turning == Turning::AtEnd {
@@ -270,7 +270,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Whether a turn is complete after which the same forces follow.
+    /// True if a turn is complete that is followed by a turn with the same forces.
     fn is_home(&self) -> bool {
         self.gain.is_some() && self.at == self.whole_turn && self.segment.after == After::Ends
     }

@@ -1,7 +1,7 @@
-//! Many turns that gain the same energy each.
+//! Time of many turns that gain the same energy each, by Euler-Maclaurin sums over cells of the kinetic energy.
 //!
-//! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic
-//! energy K₀ + nW. A million turns are a few dozen cells of the energy.
+//! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
+//! nW. A million turns take a few dozen cells of the energy.
 
 use super::build::Begin;
 use super::euler_maclaurin::EulerMaclaurinCell;
@@ -11,30 +11,30 @@ use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
 
-/// Turns after the last cell that are computed one by one.
+/// Most turns computed one by one after the last cell.
 const LAST_TURNS: f64 = 256.0;
-/// How far a cell goes beyond the least energy that occurs in its first turn, in parts of it: the nearest
-/// singularity of T is where this energy vanishes.
+/// Largest width of a cell, relative to the least kinetic energy in its first turn: the nearest singularity of T is
+/// where that energy vanishes.
 const WIDEST: f64 = 1.5;
-/// Widths below this part of the widest are given up.
+/// Least width of a cell, relative to the largest.
 const NARROWEST: f64 = 1e-3;
 
-/// Where the turns begin, and what each gains.
+/// Initial state of the turns, and the gain of each.
 pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
-    /// rad
+    /// Crank angle at the start of each turn, rad.
     pub start: f64,
     /// Sign of the speed.
     pub direction: f64,
     /// Kinetic energy before the first turn, J.
     pub kinetic: f64,
-    /// J
+    /// Kinetic energy gained per turn, J.
     pub gain: f64,
-    /// How far the gain may be off, J.
+    /// Error bound of the gain, J.
     pub gain_error: f64,
-    /// How far the kinetic energy at the start may be off beside its own rounding, J.
+    /// Error bound of the kinetic energy at the start beyond its own rounding, J.
     pub off: f64,
-    /// Tail at which series end.
+    /// Largest tail of a resolved series.
     pub tolerance: f64,
 }
 
@@ -43,7 +43,7 @@ impl EqualGains<'_> {
         turns.mul_add(self.gain, self.kinetic)
     }
 
-    /// How far that may be off, J.
+    /// Returns the error bound of [`Self::kinetic_after`], J.
     fn off_after(&self, turns: f64) -> f64 {
         self.off + f64::EPSILON * self.kinetic + turns * self.gain_error
     }
@@ -58,8 +58,8 @@ impl EqualGains<'_> {
         }
     }
 
-    /// The turns after the first `done` ones, which end at the time `t` (s, rounded value and rest), until a time;
-    /// none if the crank comes to rest or turns back before.
+    /// Computes the turns from the first `done` turns, which end at the time `t` (s, rounded value and remainder), to
+    /// the time `until`, s; none if the crank comes to rest or turns back before.
     pub fn turns(
         &self,
         done: f64,
@@ -127,7 +127,7 @@ impl EqualGains<'_> {
         OneTurn::new(self.profile, start, direction, kinetic)
     }
 
-    /// The cell that begins with a turn; none if the crank is too near to rest.
+    /// Computes the cell that begins with a turn; none if the crank is too near rest.
     fn cell(&self, first: Mark) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = here.least(first.kinetic);
@@ -137,7 +137,7 @@ impl EqualGains<'_> {
                 let width = share * WIDEST * least;
                 EulerMaclaurinCell::new(first, first.kinetic, width, self.gain, here.clone())
             } else {
-                // As wide seen from its other end.
+                // The width has the same ratio to the least energy at the other end of the cell.
                 let width = share * least * WIDEST / (1.0 + WIDEST);
                 self.one_turn(first.kinetic - width).and_then(|turn| {
                     EulerMaclaurinCell::new(first, first.kinetic - width, width, self.gain, turn)

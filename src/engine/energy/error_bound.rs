@@ -1,12 +1,12 @@
-//! How far a motion may be off.
+//! Error bounds of a motion, from the tails of its series and the rounding of energies and angles.
 
 use super::Orbit;
 use super::panel::Panel;
 use super::piece::Turning;
 use super::segment::Segment;
 
-/// How far the kinetic energy (J) of a start may be off because its angle (rad) is rounded, J: next to a limit that is
-/// nearly reached the inertia is steep. `inertias`: there, and at an angle `beside` from it, rad.
+/// Returns the error bound (J) of the initial kinetic energy (J) due to the rounded angle (rad): next to a limit
+/// position the inertia is steep. `inertias`: at the angle, and at a distance `beside` from it, rad.
 pub(in crate::engine) fn off_by_place(
     theta: f64,
     kinetic: f64,
@@ -19,7 +19,7 @@ pub(in crate::engine) fn off_by_place(
 }
 
 impl Orbit {
-    /// How far a time may be off, s: by the tails of the series and the rounding of energies.
+    /// Returns the error bound of a time, s, from the tails of the series and the rounding of energies.
     pub fn time_error(&self, until: f64) -> f64 {
         let (back, later) = (self.backward.as_ref(), self.later.as_ref());
         let error = self.forward.error
@@ -34,15 +34,15 @@ impl Orbit {
         error / duration * until + left_out
     }
 
-    /// How far the place of the state at a time (s) is rounded, rad: it is a way on a panel, and an angle. None after the
-    /// first turns of many.
+    /// Returns the rounding error of the crank angle at a time (s), rad, as the sum of a distance on a panel and an
+    /// angle. None after the first of many turns.
     pub fn rounding(&self, t: f64) -> Option<f64> {
         let piece = &self.panel_at(t)?.0.piece;
         let most = piece.from.abs().max(piece.to.abs());
         Some(0.5 * f64::EPSILON * (piece.span().abs() + most))
     }
 
-    /// What the series leave out of the speed at a time (s), relative to it.
+    /// Returns the truncation error of the speed at a time (s), relative to the speed.
     pub fn speed_error(&self, t: f64) -> f64 {
         self.panel_at(t)
             .map_or(self.forward.tail, |(panel, after)| {
@@ -50,7 +50,7 @@ impl Orbit {
             })
     }
 
-    /// How far the kinetic energy (J) of the state at a time (s) may be off, J.
+    /// Returns the error bound of the kinetic energy (J) at a time (s), J.
     pub fn energy_error(&self, t: f64, kinetic: f64) -> f64 {
         self.panel_at(t).map_or(self.off, |(panel, _)| {
             panel.off
@@ -61,14 +61,14 @@ impl Orbit {
         })
     }
 
-    /// How far the turning point next to the state at a time (s) may be off, rad, if the state is on a panel that ends
-    /// there: where the crank is slow, its place is off by that, however exact the time.
+    /// Returns the error bound of the turning point next to the state at a time (s), rad; zero on a panel without
+    /// turning point. Where the crank is slow, its angle has this error, however exact the time.
     pub fn misplaced(&self, t: f64) -> f64 {
         let there = self.panel_at(t).filter(|_| self.turns_back());
         there.map_or(0.0, |(panel, _)| panel.misplaced)
     }
 
-    /// The panel on which the state at a time (s) lies, and the time since its begin, s; none after the first turns of many.
+    /// Returns the panel at a time (s) and the time since its start, s; none after the first of many turns.
     fn panel_at(&self, t: f64) -> Option<(&Panel, f64)> {
         if self.later.is_some() && t > self.forward.duration.0 {
             return None;
@@ -85,7 +85,7 @@ impl Orbit {
     }
 }
 
-/// The panel of a leg that is run through to and fro, and the time since its begin, s.
+/// Returns the panel of a segment that is traversed to and fro, and the time since its start, s.
 fn to_and_fro(segment: &Segment, since: f64) -> Option<(&Panel, f64)> {
     segment.panel_at(since.min(2.0 * segment.duration.0 - since))
 }

@@ -1,4 +1,4 @@
-//! What many turns take together: the sum of Euler and Maclaurin over a smooth function of the energy.
+//! Duration of many turns, by the Euler-Maclaurin sum of a smooth function of the energy.
 //!
 //! Turn n takes the time T(K₀ + nW). T is expanded in a Chebyshev series over a cell of the energy.
 
@@ -11,36 +11,35 @@ use crate::numeric::gauss;
 
 /// Degree of the series over the energy.
 const DEGREE: usize = 24;
-/// Steps of x up to which the sum is that of Euler and Maclaurin: the next term is below rounding.
+/// Largest step of x per turn for the Euler-Maclaurin sum: the first omitted term is below rounding.
 const SMALL_STEP: f64 = 1.0 / 64.0;
 
 /// Turns over a range of the kinetic energy at their start, x in [−1, 1].
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct EulerMaclaurinCell {
     pub first: Mark,
-    /// Turns until the next cell.
+    /// Number of turns to the next cell.
     pub count: f64,
-    /// Of x from turn to turn.
+    /// Change of x per turn.
     step: f64,
-    /// J
+    /// Half the width of the cell, J.
     half: f64,
-    /// J
+    /// Kinetic energy gained per turn, J.
     gain: f64,
-    /// T in the middle, s
+    /// Duration T at the middle of the cell, s.
     usual: f64,
-    /// T less that, s, so that what little T changes has all its digits.
+    /// Series of T minus its middle value, s: a small variation of T keeps all its digits.
     difference: Series,
-    /// What it leaves out, relative to T.
+    /// Tail of the series, relative to T.
     tail: f64,
-    /// Derivative of the series.
+    /// Derivative of the series with respect to x, s.
     slope: Series,
-    /// The end terms of the sum.
+    /// End terms of the Euler-Maclaurin sum, s.
     correction: Series,
     turn: OneTurn,
 }
 
-/// The end terms of the sum of Euler and Maclaurin: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; what is constant
-/// cancels.
+/// Returns the end terms of the Euler-Maclaurin sum: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; constants cancel.
 fn correction(difference: &Series, h: f64) -> Series {
     let first = difference.derivative();
     let third = first.derivative().derivative();
@@ -55,8 +54,8 @@ fn correction(difference: &Series, h: f64) -> Series {
 }
 
 impl EulerMaclaurinCell {
-    /// The cell of this width from the energy `low` on (J), from whose series T follows to rounding; none if it does not, or
-    /// it holds no turn.
+    /// Makes the cell of this width upwards from the energy `low`, J; none if its series does not resolve T to
+    /// rounding, or it holds no turn.
     pub fn new(
         first: Mark,
         low: f64,
@@ -96,12 +95,12 @@ impl EulerMaclaurinCell {
         turns.mul_add(self.gain, self.first.kinetic)
     }
 
-    /// How long the turn after so many takes, s.
+    /// Returns the duration of the turn after the first `turns`, s.
     fn duration(&self, turns: f64) -> f64 {
         self.usual + self.difference.value(self.x(turns))
     }
 
-    /// The time that the first so many turns take, s.
+    /// Returns the total duration of the first `turns` turns, s.
     pub fn time(&self, turns: f64) -> f64 {
         let of_difference = if self.step.abs() > SMALL_STEP {
             let each = (0..turns as u32).map(|i| self.difference.value(self.x(f64::from(i))));
@@ -117,7 +116,7 @@ impl EulerMaclaurinCell {
         turns.mul_add(self.usual, of_difference)
     }
 
-    /// Turns before the one in which a time after the first one's start lies.
+    /// Returns the number of turns completed at a time `after` the start of the first one, s.
     pub fn turn_at(&self, after: f64) -> f64 {
         let last = (self.count - 1.0).max(0.0);
         let mut turns = 0.0;
@@ -133,7 +132,7 @@ impl EulerMaclaurinCell {
             }
             return turns;
         }
-        // Newton on the sum, which is smooth in the number of turns.
+        // Newton's method on the sum, which is smooth in the number of turns.
         turns = (after / self.duration(0.0)).clamp(0.0, last);
         for _ in 0..60 {
             let late = after - self.time(turns);
@@ -155,12 +154,12 @@ impl EulerMaclaurinCell {
         }
     }
 
-    /// The motion of a turn that begins with a kinetic energy, J.
+    /// Computes the motion in a turn that begins with a kinetic energy, J.
     pub fn segment(&self, kinetic: f64) -> Segment {
         self.turn.segment(kinetic)
     }
 
-    /// The start of the turn after so many of the cell.
+    /// Returns the start of the turn after the first `turns` of the cell.
     pub fn mark(&self, turns: f64) -> Mark {
         let (sum, lost) = two_sum(self.first.t.0, self.time(turns));
         Mark {
@@ -172,7 +171,7 @@ impl EulerMaclaurinCell {
         }
     }
 
-    /// How far the time of so many turns may be off, s, where energies are off by `off`, J.
+    /// Returns the error bound of the duration of `turns` turns, s, for an error `off` of the energies, J.
     pub fn error(&self, turns: f64, off: f64) -> f64 {
         let off = off + f64::EPSILON * self.turn.largest_work();
         let steepest = [0.0, turns].map(|turns| self.slope.value(self.x(turns)).abs() / self.half);

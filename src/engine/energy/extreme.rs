@@ -1,54 +1,54 @@
-//! Smallest and largest speeds on panels.
+//! Smallest and largest speeds on panels, from their points and the zeros of the derivative of the speed.
 
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{Rule, Values};
 use crate::numeric::root;
 
-/// An extreme |speed| among the points.
+/// Extreme |speed| among the points of a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extreme {
     point: usize,
-    /// rad/s
+    /// Speed, rad/s.
     speed: f64,
-    /// How far it differs from its neighbours, rad/s: no more is added between the points.
+    /// Largest difference from a neighbour, rad/s: bounds the gain between the points.
     step: f64,
 }
 
 impl Panel {
-    /// Largest speed·sign among the points, rad/s, where `sign` is +1 or −1, with |speed| for speed.
+    /// Returns the largest sign·|speed| among the points, rad/s; `sign` is +1 or −1.
     pub fn extreme_at_points(&self, sign: f64) -> f64 {
         sign * self.extremes[usize::from(sign > 0.0)].speed
     }
 
-    /// A bound of it between the points, rad/s.
+    /// Returns an upper bound of sign·|speed| on the panel, rad/s.
     pub fn extreme_bound(&self, sign: f64) -> f64 {
         self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
     }
 
-    /// Extreme speed between the points, rad/s.
+    /// Returns the largest sign·|speed| on the panel, rad/s.
     pub fn extreme(&self, sign: f64) -> f64 {
         let index = self.extremes[usize::from(sign > 0.0)].point;
         self.extreme_near(self.rule.points(), index, sign)
     }
 
-    /// Largest sign·|speed| near one of some points: there, or next to it where the derivative of the speed
-    /// vanishes.
+    /// Returns the largest sign·|speed| near one of some points, rad/s: at the point, or beside it where the derivative
+    /// of the speed vanishes.
     fn extreme_near(&self, points: &[f64], index: usize, sign: f64) -> f64 {
         let from = points[index.saturating_sub(1)];
         let to = points[(index + 1).min(self.rule.degree())];
         let bend = self.slope.derivative();
         let stretch_rate = self.piece.stretch_rate();
-        // Speed is stretch/slope.
+        // The speed is stretch/slope.
         let rate =
             |x: f64| stretch_rate * self.slope.value(x) - self.piece.stretch(x) * bend.value(x);
         let at_point = sign * self.speed(points[index]).abs();
-        // At an extreme the speed hardly depends on the place.
+        // At an extreme the speed is insensitive to the position.
         root::within(rate, from, to, 1e-9)
             .map_or(at_point, |x| at_point.max(sign * self.speed(x).abs()))
     }
 
-    /// Largest sign·|speed| between two times after the start.
+    /// Returns the largest sign·|speed| between two times (s) after the start of the panel, rad/s.
     pub fn extreme_between(&self, from: f64, until: f64, sign: f64) -> f64 {
         let ends = [from, until].map(|t| self.position(t));
         let half = 0.5 * (ends[1] - ends[0]);
@@ -59,12 +59,12 @@ impl Panel {
     }
 }
 
-/// Slowest and fastest of the points, from dt/dx there.
+/// Returns the slowest and the fastest point, from dt/dx at the points.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
     let half = 0.5 * piece.span().abs();
     match piece.turning {
         Turning::Nowhere => extremes_of(&slopes[..=rule.degree()], half),
-        // |speed| is stretch over slope.
+        // The speed is stretch/slope, in magnitude.
         _ => {
             let mut index = 0;
             let slowness = rule.values(|x| {
@@ -76,7 +76,7 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme;
     }
 }
 
-/// Extremes of the speed, from the time that half the piece would take with the speed of each point, s.
+/// Returns the extremes of the speed; `slowness` is the time (s) for half the piece at the speed of each point.
 fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
     let (mut slow, mut fast) = (0, 0);
     for (j, here) in slowness.iter().enumerate() {
@@ -100,7 +100,7 @@ fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
     })
 }
 
-/// Largest sign·|speed| on panels: those that may have it are looked at between their points.
+/// Returns the largest sign·|speed| on panels, rad/s; only panels whose bound admits it are searched between points.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);

@@ -1,31 +1,31 @@
-//! Turns that follow from the kinetic energy at their start, by interpolation between turns that were computed.
+//! Cycles of turns as functions of the kinetic energy at their start, by Chebyshev interpolation of computed cycles.
 
 use super::segment::Segment;
 use crate::numeric::chebyshev::{Rule, Series};
 use crate::numeric::exact::two_sum;
 
-/// The start of a turn.
+/// Start of a turn.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) struct Mark {
-    /// Turns before it, without sign.
+    /// Number of turns before it, without sign.
     pub turns: f64,
-    /// s, rounded value and rest
+    /// Time, s: rounded value and remainder.
     pub t: (f64, f64),
-    /// J
+    /// Kinetic energy, J.
     pub kinetic: f64,
-    /// Work of the loads without a potential until here, J.
+    /// Work of the non-conservative loads from the start of the run, J.
     pub work: f64,
-    /// What the rounded energy and work leave out, J: turns that gain the same round in the same direction.
+    /// Remainders of rounded energy and work, J: for equal gains the rounding errors have one sign and add up.
     pub low: [f64; 2],
 }
 
 impl Mark {
-    /// Seconds from here until a time.
+    /// Returns the time from this mark to a time, s.
     pub fn until(&self, t: f64) -> f64 {
         (t - self.t.0) - self.t.1
     }
 
-    /// The start of the turn after `count` turns like this one.
+    /// Returns the start of the turn after `count` cycles like `step`.
     pub fn after(&self, step: &Turn, count: f64) -> Mark {
         let (sum, lost) = two_sum(self.t.0, count * step.duration);
         let (kinetic, kinetic_low) = two_sum(self.kinetic, count * step.gain + self.low[0]);
@@ -40,23 +40,23 @@ impl Mark {
     }
 }
 
-/// What a turn does, or several that are repeated together.
+/// Changes over one cycle.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) struct Turn {
-    /// How many turns it is.
+    /// Number of turns in the cycle.
     pub count: f64,
-    /// s
+    /// Duration, s.
     pub duration: f64,
     /// Kinetic energy gained, J.
     pub gain: f64,
-    /// J
+    /// Work of the non-conservative loads, J.
     pub work: f64,
 }
 
-/// Turns over a range of the kinetic energy at their start.
+/// Interpolant of cycles over a range of the kinetic energy at their start.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Cell {
-    /// Turns that are repeated together.
+    /// Number of turns in a cycle.
     pub count: f64,
     middle: f64,
     half: f64,
@@ -68,7 +68,7 @@ pub(in crate::engine) struct Cell {
 }
 
 impl Cell {
-    /// A cell from turns that begin with the energies `middle + half·x`, J, at the points x of a rule.
+    /// Makes a cell from cycles that begin with the energies `middle + half·x`, J, at the points x of a rule.
     pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Segment, Turn)>) -> Cell {
         let series = |of: fn(&Turn) -> f64| {
             let mut values = [0.0; crate::numeric::chebyshev::MAX_DEGREE + 1];
@@ -89,7 +89,7 @@ impl Cell {
         }
     }
 
-    /// What the interpolation leaves out: relative to the duration, and to the kinetic energy.
+    /// Returns the truncation error, relative to the duration and to the kinetic energy, whichever is larger.
     pub fn tail(&self) -> f64 {
         let gain = self.gain.tail() * self.gain.largest() / self.middle;
         self.duration.tail().max(gain)
@@ -115,11 +115,11 @@ impl Cell {
     }
 }
 
-/// A map of the kinetic energy over a turn.
+/// Map of the kinetic energy over a cycle, piecewise by cells.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Interpolated {
     pub cells: Vec<Cell>,
-    /// Whether the turns from the last mark but one on are all the same.
+    /// True if all cycles from the last mark but one on are equal.
     pub steady: bool,
 }
 
@@ -128,12 +128,12 @@ impl Interpolated {
         self.cells.iter().rev().find(|cell| cell.covers(kinetic))
     }
 
-    /// What the turn with this energy (J) at its start does.
+    /// Returns the changes over the cycle that starts with this energy (J); none where no cell covers it.
     pub fn turn(&self, kinetic: f64) -> Option<Turn> {
         Some(self.cell(kinetic)?.turn(kinetic))
     }
 
-    /// The motion of that turn; no panels where no cell covers the energy.
+    /// Computes the motion in that cycle; no panels where no cell covers the energy.
     pub fn segment(&self, kinetic: f64) -> Segment {
         let cell = self.cell(kinetic);
         cell.map_or_else(Segment::open, |cell| cell.segment(kinetic))

@@ -1,4 +1,4 @@
-//! The kinetic energy on a piece, from the force, and what rounding makes of its series.
+//! Kinetic energy on a piece, by integration of the force series, with its rounding floor.
 
 use super::panel::Tried;
 use super::piece::{Piece, SAME_ANGLE, Turning};
@@ -6,18 +6,18 @@ use super::profile::NotApplicable;
 use crate::numeric::chebyshev::{Rule, Series, Values};
 use crate::numeric::{gauss, root};
 
-/// The kinetic energy on a piece, from the series of the force. It is integrated from the piece's own start
-/// or end, never a difference of large potentials.
+/// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a
+/// difference of large potentials.
 pub(super) struct Energy<'a> {
     pub piece: Piece,
-    /// At the start, J.
+    /// Kinetic energy at the start, J.
     pub kinetic: f64,
     pub rule: &'static Rule,
     pub force: &'a Series,
 }
 
-/// The kinetic energy (J) of a start at an angle (rad) under a force (N m), if a motion can be computed from it. A start whose
-/// speed the force makes up within one angle is not told from one at rest.
+/// Checks that a motion can be computed from a start at an angle (rad) with a kinetic energy (J) under a force (N m),
+/// and returns the energy. A speed that the force produces within [`SAME_ANGLE`] cannot be distinguished from rest.
 pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, NotApplicable> {
     if !kinetic.is_finite() || !force.is_finite() {
         Err(NotApplicable::NotFinite)
@@ -31,8 +31,8 @@ pub(super) fn at_start(theta: f64, kinetic: f64, force: f64) -> Result<f64, NotA
 }
 
 impl Energy<'_> {
-    /// Whether the force's error hardly counts, relative to the force or to the energy. Next to a turning point
-    /// the rounding of angles is seen as `noise`.
+    /// True if the truncation error of the force is negligible, relative to the force or to the energy. Next to a
+    /// turning point the rounding of angles appears as `noise`.
     pub fn is_resolved(&self, tolerance: f64, noise: f64) -> bool {
         let tail = self.force.tail();
         match self.piece.turning {
@@ -44,13 +44,13 @@ impl Energy<'_> {
         }
     }
 
-    /// What the series of the force leaves out of the energy, J.
+    /// Returns the truncation error of the energy due to the force series, J.
     pub fn left_out(&self) -> f64 {
         let largest = self.force.largest() * self.piece.span().abs();
         self.force.tail() * largest / self.rule.degree() as f64
     }
 
-    /// K at the points of a piece that does not turn: K at its start plus the integral of the force.
+    /// Computes K at the points of a piece without turning point: K at its start plus the integral of the force.
     pub fn kinetic_at_points(&self, force: &Values) -> Values {
         let half = 0.5 * self.piece.span();
         self.rule
@@ -58,9 +58,8 @@ impl Energy<'_> {
             .map(|work| self.kinetic + half * work)
     }
 
-    /// ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there
-    /// K = ½ span (1 ± x)² times this, without cancellation. Gauss-Legendre with 18 points is exact for the
-    /// series.
+    /// Computes ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there K = ½
+    /// span (1 ± x)² times this, without cancellation. Gauss-Legendre with 18 points is exact for the series.
     pub fn mean_force(&self, x: f64) -> f64 {
         let sum: f64 = gauss::rule_18()
             .iter()
@@ -75,7 +74,7 @@ impl Energy<'_> {
         sum * self.piece.span().signum()
     }
 
-    /// The turning point just before the point `j`, at which the energy is not positive.
+    /// Locates the turning point just before the point `j`, at which the energy is not positive.
     pub fn turns_before(&self, j: usize) -> Tried {
         let points = self.rule.points();
         if j == 0 {
@@ -98,19 +97,19 @@ impl Energy<'_> {
     }
 }
 
-/// The last two terms of a series show so many units of the rounding of its values.
+/// Sum of the last two terms of a series due to rounding of its values, in units of that rounding.
 const SEEN_UNITS: f64 = 8.0;
 
-/// What rounding leaves of the last terms of series, relative to the largest.
+/// Rounding floor of the last terms of series, relative to the largest term.
 pub(super) struct Noise {
     pub force: f64,
-    /// Of dt/dx.
+    /// Floor of the series of dt/dx.
     pub slope: f64,
 }
 
 impl Noise {
-    /// Where rounding may change the force by `rounding` (N m) beside that of angles, of which a panel shows what of the
-    /// inertia and the force changes on it: the kinetic energy is a force times a way, which is not rounded.
+    /// Estimates the floor on a panel from the rounding of angles, by the ranges of inertia and force, and from the
+    /// rounding error of the force itself, N m. The kinetic energy is a force times a distance, which is not rounded.
     pub fn of(energy: &Energy<'_>, inertia: &Values, force: &Values, rounding: f64) -> Noise {
         let range = |values: &Values| {
             let none = (f64::INFINITY, f64::NEG_INFINITY);

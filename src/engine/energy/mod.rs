@@ -1,10 +1,10 @@
-//! The energy engine: what depends on the angle alone is a quadrature.
+//! Energy engine: motion under loads of the crank angle alone, by quadrature of the energy integral.
 //!
-//! The kinetic energy K(θ) is known from the energy integral, so dt/dθ = sqrt(M/(2K)) is a function of the
-//! angle. It is expanded on panels in Chebyshev series, each to rounding; t(θ) is their integral and θ(t)
-//! a Newton step or three away. A motion that turns fully under forces that do no work per turn repeats;
-//! one that turns back at both ends does too. Ends of a libration are taken with θ = θ_end ∓ s², which
-//! makes dt/ds smooth. Where each turn gains the same work, the time of many turns is a sum in closed form.
+//! The kinetic energy K(θ) follows from the energy integral, which makes dt/dθ = sqrt(M/(2K)) a function of the angle.
+//! It is expanded on panels in Chebyshev series, each to rounding; t(θ) is their integral, and θ(t) takes one to three
+//! Newton steps. Full rotation under forces that do no work per turn is periodic; motion between two turning points is,
+//! too. Ends of a libration are taken with θ = θ_end ∓ s², which makes dt/ds smooth. Where each turn gains the same
+//! work, the time of many turns is a sum in closed form.
 
 mod build;
 mod equal_gains;

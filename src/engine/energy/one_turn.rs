@@ -1,4 +1,4 @@
-//! One turn at any kinetic energy: what depends on the position alone is tabulated once.
+//! One turn at any kinetic energy, from tabulated inertia and work.
 
 use super::build::Begin;
 use super::panel::{DEGREE, Panel};
@@ -8,7 +8,7 @@ use super::segment::{After, Segment};
 use crate::numeric::chebyshev::{ROUNDING, Rule, Values};
 use crate::numeric::exact::two_sum;
 
-/// A panel with inertia (kg m²) and work since the start of the turn (J) at its points.
+/// Panel with inertia (kg m²) and work since the start of the turn (J) at its points.
 #[derive(Clone, Debug)]
 struct Station {
     piece: Piece,
@@ -16,19 +16,19 @@ struct Station {
     work: Values,
 }
 
-/// The panels of a turn, fine enough for the least energy that it was made for and for all above.
+/// Panels of a turn, fine enough for all kinetic energies from the one for which it was made.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct OneTurn {
     stations: Vec<Station>,
-    /// What the floats for its ends lack of a whole turn, rad.
+    /// Part of a whole turn that the rounded angles of its ends leave out, rad.
     missing: f64,
-    /// Bound of the relative error of its duration.
+    /// Bound of the relative error of the duration.
     pub error: f64,
 }
 
 impl OneTurn {
-    /// None if the crank does not complete the turn with the kinetic energy `kinetic` (J) at its start, or only
-    /// just.
+    /// Makes the turn for the kinetic energy `kinetic` (J) at its start; none if the crank does not complete it, or
+    /// only just.
     pub fn new(profile: &dyn Profile, start: f64, direction: f64, kinetic: f64) -> Option<OneTurn> {
         let until = f64::INFINITY;
         let begin = Begin {
@@ -37,7 +37,7 @@ impl OneTurn {
             kinetic,
             off: 0.0,
         };
-        // What series leave out adds up over the turns.
+        // Truncation errors add up over the turns.
         let segment = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
         if segment.after != After::GoesOn {
             return None;
@@ -64,19 +64,19 @@ impl OneTurn {
         })
     }
 
-    /// Least kinetic energy on the turn, J.
+    /// Returns the least kinetic energy in the turn, J.
     pub fn least(&self, kinetic: f64) -> f64 {
         let works = self.stations.iter().flat_map(|station| &station.work);
         kinetic + works.fold(f64::INFINITY, |least, work| least.min(*work))
     }
 
-    /// The largest work done in it, as a magnitude, J.
+    /// Returns the largest magnitude of the work done in the turn, J.
     pub fn largest_work(&self) -> f64 {
         let works = self.stations.iter().flat_map(|station| &station.work);
         works.fold(0.0, |largest, work| largest.max(work.abs()))
     }
 
-    /// How long it takes, s.
+    /// Returns the duration of the turn, s.
     pub fn duration(&self, kinetic: f64) -> f64 {
         let rule = Rule::of(DEGREE);
         let first = &self.stations[0];
@@ -91,7 +91,7 @@ impl OneTurn {
         sum + rest
     }
 
-    /// Motion of the turn at a kinetic energy, J.
+    /// Computes the motion in the turn at a kinetic energy, J.
     pub fn segment(&self, kinetic: f64) -> Segment {
         let mut segment = Segment::open();
         for station in &self.stations {
@@ -102,7 +102,7 @@ impl OneTurn {
 }
 
 impl Station {
-    /// dt/dx at the points.
+    /// Computes dt/dx at the points, s.
     fn slopes(&self, kinetic: f64) -> Values {
         let half = 0.5 * self.piece.span().abs();
         std::array::from_fn(|j| half * (0.5 * self.inertia[j] / (kinetic + self.work[j])).sqrt())

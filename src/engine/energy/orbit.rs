@@ -1,4 +1,4 @@
-//! The whole motion: one or two legs, run through once, again and again, or to and fro.
+//! Whole motion: one or two segments, traversed once, repeatedly, or to and fro.
 
 use std::f64::consts::TAU;
 
@@ -12,33 +12,33 @@ use super::turns::Turns;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
-/// Turns that are computed one by one before the others are summed.
+/// Turns that are computed one by one before the rest is summed.
 const FIRST_TURNS: f64 = 16.0;
 
-/// A motion known from its energy: angle and speed at any time.
+/// Motion known from its energy: angle and speed as functions of time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
     pub(super) start: Angle,
     pub(super) direction: f64,
-    /// At the start, rad/s
+    /// Speed at the start, rad/s.
     pub(super) speed: f64,
-    /// Whether the start is a turning point.
+    /// True if the start is a turning point.
     pub(super) from_rest: bool,
-    /// How far the kinetic energy of the start may be off, J.
+    /// Error bound of the kinetic energy at the start, J.
     pub(super) off: f64,
     pub(super) forward: Segment,
-    /// From the start the other way, for motions that turn back.
+    /// Segment from the start in the other direction, for motions that turn back.
     pub(super) backward: Option<Segment>,
-    /// What follows after the first turns, for long motions whose turns differ.
+    /// Turns after the first ones, for long motions with unequal turns.
     pub(super) later: Option<Box<Turns>>,
 }
 
 impl Orbit {
-    /// The motion from `angle` with `speed` until the time `until`; series end where they have decayed to
+    /// Computes the motion from `angle` with `speed` (rad/s) to the time `until` (s); the tails of its series are below
     /// `tolerance`.
     ///
     /// # Errors
-    /// [`NotApplicable`] where it cannot be computed from its energy.
+    /// [`NotApplicable`] where the motion cannot be computed from its energy.
     pub fn new(
         profile: &dyn Profile,
         angle: Angle,
@@ -55,7 +55,7 @@ impl Orbit {
         } else {
             speed.signum()
         };
-        // The kinetic energy is a product whose factors are rounded; an angle of the first turn is not.
+        // The kinetic energy is a product of rounded factors; an angle in the first turn is exact.
         let mut off = f64::EPSILON * kinetic;
         if start.turns != 0.0 {
             let apart = f64::EPSILON.sqrt();
@@ -109,7 +109,7 @@ impl Orbit {
         })
     }
 
-    /// A motion in one direction that does not repeat.
+    /// Makes a motion in one direction that does not repeat.
     pub(in crate::engine) fn one_way(start: Angle, speed: f64, segment: Segment) -> Orbit {
         Orbit {
             start,
@@ -123,7 +123,7 @@ impl Orbit {
         }
     }
 
-    /// A motion in one direction of many turns, the first of them on a leg.
+    /// Makes a motion of many turns in one direction, the first of them on a segment.
     pub(in crate::engine) fn of_turns(
         start: Angle,
         speed: f64,
@@ -136,7 +136,7 @@ impl Orbit {
         }
     }
 
-    /// The time after which the motion repeats (after a turn, or to and fro), s; rounded value and rest.
+    /// Returns the period of the motion (a turn, or to and fro), s: rounded value and remainder.
     pub fn period(&self) -> Option<(f64, f64)> {
         let there = self.forward.duration;
         match (self.forward.after, &self.backward) {
@@ -151,27 +151,27 @@ impl Orbit {
         }
     }
 
-    /// Where it starts.
+    /// Returns the initial angle.
     pub fn start(&self) -> Angle {
         self.start
     }
 
-    /// Sign of its first speed: +1 or −1.
+    /// Returns the sign of the initial speed: +1 or −1.
     pub fn direction(&self) -> f64 {
         self.direction
     }
 
-    /// Whether it turns fully, again and again.
+    /// True if the crank rotates fully and the motion repeats.
     pub fn rotates(&self) -> bool {
         self.forward.after == After::Repeats
     }
 
-    /// Whether it turns back somewhere.
+    /// True if the motion has a turning point ahead of the start.
     pub fn turns_back(&self) -> bool {
         self.forward.after == After::TurnsBack
     }
 
-    /// Angle and speed at a time in the run.
+    /// Returns angle and speed (rad/s) at a time (s) of the run.
     pub fn state(&self, t: f64) -> (Angle, f64) {
         if t == 0.0 {
             return (self.start, self.speed);
@@ -192,13 +192,13 @@ impl Orbit {
         (angle, speed)
     }
 
-    /// Number of whole periods before t, and the time that is left.
+    /// Returns the number of whole periods before t, and the remaining time, s.
     pub(super) fn split(&self, t: f64) -> (f64, f64) {
         match self.period() {
             Some((period, rest)) if t > period => {
                 let count = (t / period).floor();
                 let left = (-count).mul_add(period, t) - count * rest;
-                // Rounding may have taken the floor a period too high or too low.
+                // Rounding may make the floor a period too large or too small.
                 if left < 0.0 {
                     (count - 1.0, left + period)
                 } else if left > period {
@@ -211,7 +211,7 @@ impl Orbit {
         }
     }
 
-    /// The state within the first period.
+    /// Returns the state within the first period.
     pub(super) fn within(&self, t: f64) -> (Angle, f64) {
         let there = self.forward.duration.0;
         if t <= there || self.forward.after != After::TurnsBack {
@@ -234,12 +234,12 @@ impl Orbit {
         mirrored(back, 2.0 * back.duration.0 - since)
     }
 
-    /// When the crank has turned by `radians` from the start, s.
+    /// Returns the time at which the crank has turned by `radians` from the start, s.
     pub fn time_of_turn(&self, radians: f64) -> Option<f64> {
         self.passage(radians).map(|(t, _)| t)
     }
 
-    /// When the crank has turned by `radians` from the start (s), and its speed there (rad/s).
+    /// Returns the time (s) at which the crank has turned by `radians` from the start, and its speed there (rad/s).
     pub fn passage(&self, radians: f64) -> Option<(f64, f64)> {
         let turns = (radians / TAU).floor();
         let angle = |turns: f64| {
@@ -262,14 +262,14 @@ impl Orbit {
         })
     }
 
-    /// Last segment.
+    /// Returns the last segment.
     pub(in crate::engine) fn last_leg(&self) -> &Segment {
         self.later
             .as_ref()
             .map_or(&self.forward, |later| &later.last)
     }
 
-    /// How long it is known, s: for ever if it repeats.
+    /// Returns the time up to which the motion is known, s; infinite if it repeats.
     pub fn length(&self) -> f64 {
         let there = self.forward.duration.0;
         match (self.period(), &self.backward, &self.later) {
@@ -281,7 +281,7 @@ impl Orbit {
         }
     }
 
-    /// Largest kinetic energy at the ends of panels until a time (s), J.
+    /// Returns the largest kinetic energy at the ends of panels up to a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
         let back = self.backward.as_ref().map_or(0.0, Segment::largest_kinetic);
         let later = self.later.as_ref();
@@ -289,7 +289,7 @@ impl Orbit {
         self.forward.largest_kinetic().max(back).max(later)
     }
 
-    /// Number of panels.
+    /// Returns the number of panels.
     pub fn panels(&self) -> usize {
         self.forward.len() + self.backward.as_ref().map_or(0, Segment::len)
     }

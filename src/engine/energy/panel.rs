@@ -1,4 +1,4 @@
-//! One panel: dt/dθ and t as series over a piece of the angle.
+//! Panel of the crank angle: dt/dθ and t as Chebyshev series.
 
 use super::extreme::{Extreme, extremes};
 use super::kinetic::{Energy, Noise};
@@ -8,62 +8,62 @@ use super::profile::{NotApplicable, Profile};
 use super::time_sensitivity::TimeSensitivity;
 use crate::numeric::chebyshev::{self, Rule, Series, Values};
 
-/// Degree of the series: half a turn of a usual engine is right to rounding.
+/// Degree of the series: half a turn of a usual engine is resolved to rounding.
 pub(super) const DEGREE: usize = chebyshev::MAX_DEGREE;
 
-/// Panels next to a balance are shorter than this, rad. Half or twice as much changes the stated errors of 200 random runs by
-/// 12 % at most.
+/// Upper bound of the length of panels next to an equilibrium, rad. Half or twice this value changes the stated errors
+/// of 200 random runs by 12 % at most.
 const NEAR_BALANCE: f64 = 0.1;
 
-/// A piece with its series.
+/// Piece of the crank angle with the series of the time on it.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Panel {
     pub piece: Piece,
-    /// Whole turns to be added to its angles.
+    /// Whole turns to be added to the angles.
     pub turns: f64,
     pub rule: &'static Rule,
-    /// dt/dx
+    /// Series of dt/dx, s.
     pub(super) slope: Series,
-    /// Duration, s: rounded value and rest.
+    /// Duration, s: rounded value and remainder.
     pub duration: (f64, f64),
-    /// Kinetic energy at its end, J.
+    /// Kinetic energy at the end, J.
     pub kinetic_at_end: f64,
-    /// Bound of the error of its duration, s.
+    /// Error bound of the duration, s.
     pub error: f64,
-    /// Slowest and fastest of its points.
+    /// Slowest and fastest point.
     pub(super) extremes: [Extreme; 2],
-    /// What its series of dt/dx leaves out, relative to the largest.
+    /// Tail of the series of dt/dx: its last two coefficients, relative to the largest.
     pub tail: f64,
-    /// How far the turning point at its end may be off, rad.
+    /// Error bound of the turning point at the end, rad.
     pub misplaced: f64,
-    /// Kinetic energy at its start that it does not use up until the turning point at its end, J.
+    /// Residual of the energy balance between the start and the turning point at the end, J.
     pub missed: f64,
-    /// How far the kinetic energy on it may be off, J; beside a turning point, as part of the energy there.
+    /// Error bound of the kinetic energy, J; on a panel with a turning point relative to that energy.
     pub off: f64,
 }
 
-/// What is found when a panel is tried.
+/// Outcome of an attempted panel.
 pub(in crate::engine) enum Tried {
-    /// The series have converged; how far the kinetic energy at the end is off because angles are rounded, J.
+    /// Resolved panel, and the error of the kinetic energy gained on it due to rounded angles, J.
     Done(Box<Panel>, f64),
-    /// The coefficients have not decayed: a shorter panel is needed.
+    /// Coefficients not decayed: a shorter panel is needed.
     Unresolved,
-    /// The kinetic energy vanishes this far from the start, before the end, rad with sign.
+    /// Signed distance from the start, rad, at which the kinetic energy vanishes before the end.
     TurnsAfter(f64),
 }
 
-/// Where the kinetic energy of a piece is known, and how far it may be off there, J.
+/// Point of a piece at which the kinetic energy is known, with its error bound there, J.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) enum Uncertain {
-    /// At its start: elsewhere the rounding on the piece is added.
+    /// Start of the piece: the rounding on the piece adds to the error elsewhere.
     AtStart(f64),
-    /// At the turning point at its end, which is known by itself.
+    /// Turning point at the end, known independently of the piece.
     AtTurn(f64),
 }
 
 impl Panel {
-    /// Tries a panel with the kinetic energy `kinetic` (J) at its start; `tolerance` is the tail that counts
-    /// as converged, `uncertain` what the kinetic energy may be off.
+    /// Tries a panel with the kinetic energy `kinetic` (J) at its start; `tolerance` is the largest tail of a resolved
+    /// series, `uncertain` the error bound of the kinetic energy.
     pub fn attempt(
         profile: &dyn Profile,
         piece: Piece,
@@ -79,7 +79,7 @@ impl Panel {
         if !known(&inertia) || !known(&force) {
             return Err(NotApplicable::NotFinite);
         }
-        // Only next to a balance, where panels are short, may forces be small differences of large ones.
+        // Only next to an equilibrium, where panels are short, may forces be small differences of large ones.
         let near_balance = piece.span().abs() < NEAR_BALANCE;
         let rounding = if near_balance {
             profile.rounding(piece.from)
@@ -147,8 +147,8 @@ impl Panel {
         Ok(Tried::Done(Box::new(panel), steep.energy))
     }
 
-    /// A panel from dt/dx at the points of a rule and its series, the relative error of dt/dx by rounding, and
-    /// the kinetic energy (J) at its end.
+    /// Makes a panel from dt/dx at the points of a rule and its series; `shaken` is the relative error of dt/dx due to
+    /// rounding, `kinetic_at_end` in J.
     pub fn from_slopes(
         piece: Piece,
         rule: &'static Rule,
@@ -159,8 +159,8 @@ impl Panel {
     ) -> Panel {
         let duration = rule.integral(slopes);
         let tail = slope.tail();
-        // What the series leaves out alternates: over the whole panel its integral is smaller by the square of the
-        // degree (that of the polynomial T_k is 2/(k² − 1)), for all terms that follow.
+        // The truncation error oscillates: its integral over the whole panel is smaller by the square of the degree
+        // (that of the polynomial T_k is 2/(k² − 1)), for all terms that follow.
         let uncertain = 8.0 * tail / (rule.degree() as f64).powi(2) + shaken;
         Panel {
             piece,
@@ -178,8 +178,8 @@ impl Panel {
         }
     }
 
-    /// Panels over the same piece, blended by shares whose sum is one; its durations are right to rounding of the
-    /// sum, its extremes those of the points.
+    /// Combines panels over the same piece linearly, with weights of sum one; durations are right to rounding of the
+    /// sum, extremes are those of the points.
     pub fn blend<'a>(panels: impl Iterator<Item = (&'a Panel, f64)> + Clone) -> Option<Panel> {
         let (first, _) = panels.clone().next()?;
         let slope = Series::blend(panels.clone().map(|(panel, share)| (&panel.slope, share)));
@@ -196,25 +196,25 @@ impl Panel {
         })
     }
 
-    /// What the series leaves out of the time inside the panel, s.
+    /// Returns the truncation error of the time inside the panel, s.
     pub fn left_out(&self) -> f64 {
         self.tail / self.rule.degree() as f64 * self.duration.0
     }
 
-    /// What the series leaves out of the speed a time `after` its start (s), relative to it: the more the smaller dt/dx
-    /// is there.
+    /// Returns the truncation error of the speed a time `after` the start (s), relative to the speed: inversely
+    /// proportional to dt/dx.
     pub fn left_out_of_speed(&self, after: f64) -> f64 {
         let here = self.slope.value(self.position(after)).abs();
         self.tail * self.slope.largest() / here
     }
 
-    /// Angle and speed a time `after` its start, rad and rad/s; the sign of the speed is that of the panel.
+    /// Returns angle (rad) and speed (rad/s) a time `after` the start, s; the speed has the sign of the panel.
     pub fn state(&self, after: f64) -> (f64, f64) {
         let x = self.position(after);
         (self.piece.angle(x), self.speed(x))
     }
 
-    /// The variable x, from −1 to 1, at a time (s) after the start: Newton, kept inside its bracket.
+    /// Returns x in [−1, 1] at a time (s) after the start, by Newton's method kept inside its bracket.
     pub fn position(&self, after: f64) -> f64 {
         let total = self.duration.0;
         if after <= 0.0 {
@@ -241,7 +241,7 @@ impl Panel {
             };
             let change = (next - x).abs();
             x = next;
-            // A step of Newton squares what is left.
+            // A Newton step squares the error.
             if change <= 1e-10 && next == newton {
                 break;
             }
@@ -249,25 +249,25 @@ impl Panel {
         x
     }
 
-    /// Time after the start, s.
+    /// Returns the time after the start, s.
     pub(super) fn time(&self, x: f64) -> f64 {
         self.slope.integral().value(x)
     }
 
-    /// Crank speed, rad/s.
+    /// Returns the crank speed, rad/s.
     pub(super) fn speed(&self, x: f64) -> f64 {
         self.piece.stretch(x) / self.slope.value(x)
     }
 
-    /// Time of an angle, and the speed there.
+    /// Returns the time after the start (s) of an angle (rad), and the speed there (rad/s).
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);
         (self.time(x), self.speed(x))
     }
 }
 
-/// What errors of the kinetic energy make of the duration of a panel, relative to it. `slopes` and `kinetic` are dt/dx
-/// and the kinetic energy (J) at the points, `off` (J) what it may be off.
+/// Returns the relative error of the duration of a panel due to the error `off` (J) of the kinetic energy. `slopes` and
+/// `kinetic` are dt/dx and the kinetic energy (J) at the points.
 fn shaken(
     energy: &Energy<'_>,
     steep: &TimeSensitivity,

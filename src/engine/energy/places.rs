@@ -1,4 +1,4 @@
-//! A motion over the crank angle as a list of places: states without a search for their times.
+//! Positions along a motion over the crank angle, for states without a search by time.
 
 use std::f64::consts::PI;
 
@@ -8,9 +8,9 @@ use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 
 impl Orbit {
-    /// Places at which the motion is resolved until a time, s: each is the number of a panel and how far its variable has
-    /// come: those of the points of the series. A turn that repeats has one more before it and after it. None if not all
-    /// states lie on one leg.
+    /// Returns the positions that resolve the motion up to a time, s: the points of the series, each as the index of
+    /// the panel plus the fraction of its variable. A turn that repeats has one more before it and one after it. None
+    /// if the states do not all lie on one segment.
     pub fn places(&self, until: f64) -> Option<Vec<f64>> {
         let segment = &self.forward;
         let covers = until <= segment.duration.0 || self.rotates() || self.turns_back();
@@ -40,20 +40,20 @@ impl Orbit {
         Some(places)
     }
 
-    /// Angle and speed (rad/s) at a place.
+    /// Returns angle and speed (rad/s) at a position.
     pub fn state_at_place(&self, at: f64) -> Option<(Angle, f64)> {
         let (panel, x, _) = self.at_place(at)?;
         let angle = Angle::new(self.start.turns + panel.turns, panel.piece.angle(x));
         Some((angle, panel.speed(x)))
     }
 
-    /// Time of a place, s.
+    /// Returns the time of a position, s.
     pub fn time_of_place(&self, at: f64) -> Option<f64> {
         let (panel, x, begin) = self.at_place(at)?;
         Some(begin + panel.time(x))
     }
 
-    /// The panel of a place, the variable there, and the time at which the panel begins.
+    /// Returns the panel of a position, its variable x, and the start time of the panel, s.
     fn at_place(&self, at: f64) -> Option<(&Panel, f64, f64)> {
         let count = self.forward.len();
         let at = match self.rotates() {
@@ -68,7 +68,7 @@ impl Orbit {
 }
 
 impl Panel {
-    /// |dt/dθ| (s/rad) at angles (rad) of a panel that turns nowhere.
+    /// Returns |dt/dθ| (s/rad) at angles (rad) of a panel without turning points.
     pub fn slowness(&self, angles: &Values) -> Values {
         let share = 2.0 / self.piece.span();
         let x = angles.map(|angle| (angle - self.piece.from) * share - 1.0);

@@ -1,4 +1,4 @@
-//! A leg: panels in one direction, from the start until the motion turns back, repeats or ends.
+//! Segment: panels in one direction, from the start until the motion turns back, repeats or ends.
 
 use super::extreme::extreme;
 use super::panel::Panel;
@@ -6,41 +6,41 @@ use super::piece::{Piece, SAME_ANGLE};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
-/// Most panels that are kept of a leg: 150 MB.
+/// Most panels kept of a segment: 150 MB.
 pub(in crate::engine) const MOST_PANELS: usize = 200_000;
 
-/// How a leg goes on after its panels.
+/// Continuation after the last panel of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::engine) enum After {
-    /// The turn repeats.
+    /// Repetition of the turn.
     Repeats,
     /// Another turn, under the same forces.
     GoesOn,
-    /// The crank turns back.
+    /// Turning point.
     TurnsBack,
-    /// Not needed: the run ends before.
+    /// No continuation needed: the run ends on the segment.
     Ends,
 }
 
-/// Panels one after the other.
+/// Sequence of panels.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Segment {
     panels: Vec<Panel>,
-    /// Time at which each panel begins.
+    /// Start time of each panel, s.
     begins: Vec<f64>,
-    /// Whole duration, s: rounded value and rest.
+    /// Total duration, s: rounded value and remainder.
     pub duration: (f64, f64),
     pub after: After,
-    /// Bound of the error of its duration, s.
+    /// Error bound of the duration, s.
     pub error: f64,
-    /// What the series of a panel leave out at most of the time inside it, s.
+    /// Largest truncation error of the time inside a panel, s.
     pub left_out: f64,
-    /// What the series of its panels leave out at most, relative to their values.
+    /// Largest tail of the series of the panels, relative to the largest coefficient.
     pub tail: f64,
 }
 
 impl Segment {
-    /// A leg without panels, that ends where the last one will.
+    /// Makes a segment without panels, open at its end.
     pub fn open() -> Segment {
         Segment {
             panels: Vec::with_capacity(8),
@@ -53,7 +53,7 @@ impl Segment {
         }
     }
 
-    /// Adds the time of the last bit of a turn, rad.
+    /// Adds the time over an angle (rad) that the rounded end of a turn leaves out.
     pub fn complete(&mut self, missing: f64) {
         let Some(panel) = self.panels.last() else {
             return;
@@ -64,12 +64,12 @@ impl Segment {
         }
     }
 
-    /// The pieces of its panels.
+    /// Iterates over the pieces of the panels.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
         self.panels.iter().map(|panel| panel.piece)
     }
 
-    /// Legs with the same panels, blended by shares whose sum is one.
+    /// Combines segments with the same pieces linearly, with weights of sum one.
     pub fn blend(segments: &[Segment], shares: &[f64]) -> Segment {
         let mut segment = Segment::open();
         for index in 0..segments.first().map_or(0, Segment::len) {
@@ -93,7 +93,7 @@ impl Segment {
         self.panels.push(panel);
     }
 
-    /// Angle (turns of the panel, rest) and speed a time after the start of the leg.
+    /// Returns angle (turns of the panel, remainder) and speed (rad/s) a time after the start of the segment, s.
     pub fn state(&self, after: f64) -> (Angle, f64) {
         let index = self.index_at(after);
         let panel = &self.panels[index];
@@ -102,14 +102,14 @@ impl Segment {
         (Angle::new(turns, rest), speed)
     }
 
-    /// The angle at its end, for a start with these whole turns; none without panels.
+    /// Returns the angle at the end, for a start with these whole turns; none without panels.
     pub fn last_angle(&self, turns: f64) -> Option<Angle> {
         let panel = self.panels.last()?;
         Some(Angle::new(turns + panel.turns, panel.piece.to))
     }
 
-    /// Time (s) at which an angle is reached, and the speed there (rad/s); none if it is not on the leg. What is off its ends by
-    /// rounding is at them.
+    /// Returns the time (s) at which an angle is reached and the speed there (rad/s); none off the segment. Angles off
+    /// its ends by rounding count as the ends.
     pub fn at(&self, angle: Angle) -> Option<(f64, f64)> {
         let local = |panel: &Panel| {
             let turns = angle.turns - panel.turns;
@@ -129,7 +129,7 @@ impl Segment {
         is_near.then(|| (self.begins[index] + after, speed))
     }
 
-    /// Smallest and largest |speed| between two times.
+    /// Returns the smallest and largest |speed| between two times (s), rad/s.
     pub fn speed_range(&self, from: f64, until: f64) -> (f64, f64) {
         let mut whole = Vec::with_capacity(self.panels.len());
         let mut parts = Vec::new();
@@ -150,29 +150,29 @@ impl Segment {
         (-largest(-1.0), largest(1.0))
     }
 
-    /// The panel in which a time lies, and the time since its begin.
+    /// Returns the panel at a time, and the time since its start, s.
     pub fn panel_at(&self, after: f64) -> Option<(&Panel, f64)> {
         let index = self.index_at(after);
         Some((self.panels.get(index)?, after - self.begins[index]))
     }
 
-    /// A panel and the time at which it begins.
+    /// Returns a panel and its start time, s.
     pub fn panel(&self, index: usize) -> Option<(&Panel, f64)> {
         Some((self.panels.get(index)?, self.begins[index]))
     }
 
-    /// Number of the panel in which a time lies.
+    /// Returns the index of the panel at a time, s.
     pub fn index_at(&self, after: f64) -> usize {
         self.begins.partition_point(|begin| *begin <= after).max(1) - 1
     }
 
-    /// Largest kinetic energy at the ends of panels, J.
+    /// Returns the largest kinetic energy at the ends of panels, J.
     pub fn largest_kinetic(&self) -> f64 {
         let ends = self.panels.iter().map(|panel| panel.kinetic_at_end);
         ends.fold(0.0, f64::max)
     }
 
-    /// Number of panels.
+    /// Returns the number of panels.
     pub fn len(&self) -> usize {
         self.panels.len()
     }

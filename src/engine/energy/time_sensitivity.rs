@@ -1,29 +1,29 @@
-//! What errors of forces and energies make of the time on a panel.
+//! Error of the time on a panel due to errors of forces and energies.
 
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::Values;
 
-/// What is left of the rounding of the angles of a panel in the mean of its 33 points.
+/// Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel.
 const AVERAGED: f64 = 0.18;
 
-/// Kinetic and potential energy are products of three factors each, all rounded, which moves a turning point even where
-/// their difference is exact.
+/// Number of rounded factors in kinetic and potential energy: their rounding moves a turning point even where the
+/// energy difference is exact.
 const FACTORS: f64 = 3.0;
 
-/// How steep the force is on a panel.
+/// Variation and rounding of the force on a panel.
 pub(super) struct TimeSensitivity {
-    /// Force at the turning point, if there is one, N m,
+    /// Force at the turning point, if there is one, N m.
     at_turn: f64,
-    /// and how many times as large it is at the other end.
+    /// Ratio of the force at the other end to the force at the turning point.
     rise: f64,
-    /// How far the force is off at an end because angles are rounded, N m.
+    /// Rounding error of the force at an end, mainly due to the rounded angle, N m.
     rounding: f64,
-    /// How far the energy that is gained is off, J.
+    /// Rounding error of the energy gained, J.
     pub energy: f64,
 }
 
 impl TimeSensitivity {
-    /// Of a panel on which rounding may change the force by `noise`, N m, beside the rounding of angles.
+    /// Computes the sensitivity on a panel; `noise` is the rounding error of the force beyond that of angles, N m.
     pub fn of(piece: &Piece, force: &Values, noise: f64) -> TimeSensitivity {
         let (low, high) = force.iter().fold((f64::MAX, f64::MIN), |(low, high), f| {
             (low.min(*f), high.max(*f))
@@ -42,7 +42,7 @@ impl TimeSensitivity {
         }
     }
 
-    /// How far (rad) a turning point at the end may be off by the kinetic energy (J), and by the energies themselves.
+    /// Returns the error of a turning point at the end, rad, due to the error `off` (J) of the energy and to rounding.
     pub fn misplaced(&self, piece: &Piece, off: f64) -> f64 {
         match piece.turning {
             Turning::AtEnd => (FACTORS * off / self.at_turn).min(piece.span().abs()),
@@ -50,16 +50,16 @@ impl TimeSensitivity {
         }
     }
 
-    /// Relative error of the time on a panel that begins or ends at a turning point, where the kinetic energy (J) at
-    /// the other end is off by `off`.
+    /// Returns the relative error of the time on a panel with a turning point, for an error `off` (J) of the kinetic
+    /// energy (J) at the other end.
     ///
-    /// Both follow from a force that grows evenly from the turning point, F = F₀ (1 + (q − 1) u): the time is
-    /// arcosh(q)/λ, λ² the growth of the force by the inertia. That is where the errors become large, for next to an
-    /// unstable rest q is large. For q ≤ 1 they are at most those under a constant force.
+    /// The model is a force that grows linearly from the turning point, F = F₀ (1 + (q − 1) u): the time is
+    /// arcosh(q)/λ, λ² being the slope of the force over the inertia. Errors are large where q is, next to an unstable
+    /// equilibrium. For q ≤ 1 they are at most those under a constant force.
     pub fn at_turn(&self, piece: &Piece, kinetic: f64, off: f64) -> f64 {
-        // A force at the turning point that is less than the rounding of the other is none.
+        // A force at the turning point below the rounding of the other is zero.
         let q = self.rise.min(1.0 / f64::EPSILON);
-        // Half of the digits of q − 1 have to be left.
+        // Half of the digits of q − 1 have to remain.
         let (by_force, by_energy) = if q > 1.0 + f64::EPSILON.sqrt() {
             let arc = q.acosh();
             (
@@ -69,7 +69,7 @@ impl TimeSensitivity {
         } else {
             (0.5, 1.0)
         };
-        // More than as far as the rest the turning point cannot be off.
+        // The error of the turning point is limited by its distance from the equilibrium.
         let misplaced = by_force * (self.rounding / self.at_turn).min(2.0);
         if piece.turning == Turning::AtStart {
             return misplaced;

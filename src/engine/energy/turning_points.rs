@@ -1,10 +1,10 @@
-//! When a motion turns back, and between which speeds it runs.
+//! Turning points of a motion and the range of its speed.
 
 use super::Orbit;
 use super::segment::After;
 
 impl Orbit {
-    /// Smallest and largest speed until a time, with sign.
+    /// Returns the smallest and the largest speed up to a time (s), with sign, rad/s.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
         if until == 0.0 {
             return (self.speed, self.speed);
@@ -28,7 +28,7 @@ impl Orbit {
         if self.forward.after != After::TurnsBack || until <= there {
             return range;
         }
-        // The way back is the way there, from its end.
+        // The motion returns over the same states, beginning at the last.
         let back = (2.0 * there - until).max(0.0);
         widen(self.forward.speed_range(back, there), -self.direction);
         if let Some(segment) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
@@ -43,8 +43,8 @@ impl Orbit {
         range
     }
 
-    /// Times (s) of the turning points in a period, or in all of a motion that does not repeat; a start at rest is one at the
-    /// end of the period.
+    /// Returns the times (s) of the turning points in a period, or in a whole motion that does not repeat; a start at
+    /// rest counts at the end of the period.
     fn turnings(&self) -> Vec<f64> {
         let mut found = Vec::new();
         let there = self.forward.duration.0;
@@ -58,7 +58,7 @@ impl Orbit {
         found
     }
 
-    /// When it turns back, until a time.
+    /// Returns the times of the turning points up to a time, s.
     pub fn turning_times(&self, until: f64) -> Vec<f64> {
         let once = self.turnings();
         let Some((period, _)) = self.period().filter(|_| !once.is_empty()) else {

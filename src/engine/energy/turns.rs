@@ -1,4 +1,4 @@
-//! Many turns in one direction, each of which follows from the kinetic energy at its start.
+//! Many turns in one direction, each determined by the kinetic energy at its start.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,12 +8,12 @@ use super::interpolated_turns::{Interpolated, Mark, Turn};
 use super::segment::Segment;
 use crate::numeric::angle::Angle;
 
-/// How turns follow from each other.
+/// Map from a turn to the next.
 #[derive(Clone, Debug)]
 pub(in crate::engine) enum Map {
-    /// Each follows from the energy of the one before, by interpolation.
+    /// Interpolant of the energy after a cycle over the energy before it.
     Interpolated(Interpolated),
-    /// Each gains the same energy; a cell begins at each mark but the last.
+    /// Equal gains of energy; a cell begins at each mark but the last.
     Gaining(Vec<euler_maclaurin::EulerMaclaurinCell>),
 }
 
@@ -21,17 +21,17 @@ pub(in crate::engine) enum Map {
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Turns {
     pub map: Map,
-    /// Starts of some of the turns, in order, the first and the last turn among them.
+    /// Starts of some of the turns, in order, including the first and the last turn.
     pub marks: Vec<Mark>,
-    /// The last turns, as far as they were needed.
+    /// Panels of the last turns, up to the end of the run.
     pub last: Segment,
-    /// The turn that was asked for last.
+    /// Cache of the latest requested turn.
     pub recent: Recent,
-    /// How far times may be off, s, as far as the panels say.
+    /// Error bound of times, s, from the panels alone.
     pub error: f64,
 }
 
-/// The motion in one turn, with the mark at which it begins: rows and events of a turn follow each other.
+/// Motion in one turn with the mark of its start, cached because rows and events ask for the same turn repeatedly.
 #[derive(Debug, Default)]
 pub(in crate::engine) struct Recent(Mutex<Option<(Mark, Arc<Segment>)>>);
 
@@ -53,17 +53,17 @@ impl Clone for Recent {
     }
 }
 
-/// A place in many turns.
+/// Position in many turns.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
-    /// s
+    /// Time, s.
     Time(f64),
-    /// Whole turns before it.
+    /// Number of whole turns.
     Turns(f64),
 }
 
 impl Goal {
-    /// Turns like these until it.
+    /// Returns the number of cycles like `turn` from a mark to the goal.
     fn left(self, mark: &Mark, turn: &Turn) -> f64 {
         match self {
             Goal::Time(t) => mark.until(t) / turn.duration,
@@ -80,7 +80,7 @@ impl Goal {
 }
 
 impl Turns {
-    /// Index of the last mark before a goal.
+    /// Returns the index of the last mark before a goal.
     fn index(&self, goal: Goal) -> usize {
         self.marks
             .partition_point(|mark| goal.is_after(mark))
@@ -88,7 +88,7 @@ impl Turns {
             - 1
     }
 
-    /// The start of the last turn before a goal.
+    /// Returns the start of the last turn before a goal.
     fn find(&self, goal: Goal) -> Mark {
         let index = self.index(goal);
         let mut mark = self.marks[index];
@@ -120,12 +120,12 @@ impl Turns {
         }
     }
 
-    /// The last mark.
+    /// Returns the last mark.
     pub fn last_mark(&self) -> &Mark {
         &self.marks[self.marks.len() - 1]
     }
 
-    /// What is asked for of the motion in the turn that begins at a mark.
+    /// Applies a function to the motion in the turn that begins at a mark.
     fn on_leg<T>(&self, mark: &Mark, of: impl FnOnce(&Segment) -> T) -> T {
         if mark.turns >= self.last_mark().turns {
             return of(&self.last);
@@ -137,7 +137,7 @@ impl Turns {
         of(&self.recent.or_new(mark, segment))
     }
 
-    /// Angle from the start of the run's first turn, and speed.
+    /// Returns the angle counted from the first turn of the run, and the speed (rad/s) at a time, s.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
         let mark = self.find(Goal::Time(t));
         let (angle, speed) = self.on_leg(&mark, |segment| segment.state(mark.until(t)));
@@ -145,7 +145,7 @@ impl Turns {
         (angle, speed)
     }
 
-    /// When the crank has turned by `radians` from the start angle `rest` (rad), s, and its speed there (rad/s).
+    /// Returns the time (s) at which the crank has turned by `radians` from the angle `rest` (rad), and its speed.
     pub fn passage(&self, radians: f64, rest: f64, direction: f64) -> Option<(f64, f64)> {
         let whole = (radians / TAU).floor();
         let mark = self.find(Goal::Turns(whole));
@@ -155,14 +155,14 @@ impl Turns {
         Some((mark.t.0 + (mark.t.1 + after), speed))
     }
 
-    /// Smallest and largest |speed| until a time.
+    /// Returns the smallest and largest |speed| up to a time (s), rad/s.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
         let last = self.find(Goal::Time(until));
         let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
         let mut range = self.on_leg(&last, |segment| segment.speed_range(0.0, last.until(until)));
         let first = whole().next().copied();
-        // The energies of the turns rise or fall, but not all turns have marks.
+        // The energies of the turns are monotone, but not all turns have marks.
         let cycle = match &self.map {
             Map::Interpolated(map) => map.cells.first().map_or(1.0, |cell| cell.count),
             Map::Gaining(_) => 1.0,
@@ -183,12 +183,12 @@ impl Turns {
         range
     }
 
-    /// The time until which it is known, s.
+    /// Returns the time up to which the motion is known, s.
     pub fn end(&self) -> f64 {
         self.last_mark().t.0 + self.last.duration.0
     }
 
-    /// Largest kinetic energy at the starts of turns and in the last ones, as far as they begin before a time (s), J.
+    /// Returns the largest kinetic energy at the starts of turns and in the last turns, up to a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
         let reached = self.find(Goal::Time(until));
         let marks = self

@@ -1,4 +1,4 @@
-//! Whether the nodes of a panel or a step show the forces on it, or something is hidden between them.
+//! Resolution test: finds loads that the nodes of a panel or a step miss, by enclosures in Bernstein ellipses.
 
 mod steps;
 
@@ -8,50 +8,50 @@ use crate::numeric::enclosure::{Detail, ellipses, shown};
 
 pub use steps::{OnStep, hides};
 
-/// The motion on a panel or a step, over its part from 0 to 1.
+/// Force along a panel or a step, over the normalized position from 0 to 1.
 pub trait Interpolant {
-    /// What the force does between two parts of it, and in an ellipse of this size around that.
+    /// Returns the variation of the force between two positions, and in the Bernstein ellipse of ρ = `ellipse`.
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail;
 
-    /// Where a corner of the force is known to be inside a part of it, the first one.
+    /// Returns the first known corner of the force between two positions.
     fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
         None
     }
 
-    /// The force there less that which the nodes show.
+    /// Returns the force at a position minus its interpolant through the nodes.
     fn missed(&self, _at: f64) -> f64 {
         0.0
     }
 }
 
-/// How a panel or a step is looked at.
+/// Criterion for the nodes of a panel or a step to resolve a force.
 #[derive(Clone, Copy, Debug)]
 pub struct NodeCriterion {
     /// Number of nodes.
     pub nodes: usize,
-    /// Sizes of the ellipses that they need.
+    /// Parameters ρ of the Bernstein ellipses in which the force is enclosed, the smaller first.
     pub ellipses: [f64; 2],
-    /// What the nodes may leave out of the force, everywhere on it.
+    /// Largest error of the force that the nodes may leave anywhere, in the unit of the force.
     pub allowed: f64,
-    /// Part of it at either end that rounding does not tell from the end.
+    /// Distance from either end that rounding cannot resolve, as a fraction of the length.
     pub least: f64,
-    /// Whether its nodes tell the force between them, to be compared; else they show what is as wide as a quarter of it.
+    /// True if the nodes define an interpolant to compare with; else they resolve features of a quarter the length.
     pub compares: bool,
 }
 
-/// A corner or a jump is found to so many halvings of the whole: the place in a panel is rounded by more.
+/// Halvings of the interval that locate a corner or jump: positions on a panel are rounded by more.
 const HALVINGS: i32 = 46;
-/// Part of what is allowed that each corner may leave.
+/// Fraction of the allowed error that each corner may leave.
 const AT_CORNER: f64 = 1e-4;
-/// A step whose nodes are not to be compared shows what it shows on pieces of about a quarter: its stages are so far apart.
+/// Shortest resolved piece of a step without interpolant, as a fraction: its stages are about a quarter apart.
 const SHOWN_PIECE: f64 = 0.2;
-/// Most pieces of one panel that are looked at.
+/// Most pieces of one panel or step that are examined.
 const MOST_PIECES: usize = 400;
-/// Ends that are left out where a corner is at an end, off by what its place is off.
+/// Fractions 2⁻²⁰ and 2⁻⁴⁰, cut off at an end with a corner to cover the rounding error of the corner's position.
 const END_PARTS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
 
 impl NodeCriterion {
-    /// At a step from one time to another (s), which ends no closer to its start than some roundings of the time.
+    /// Returns the criterion for a step from one time to another (s), with `least` as 16 roundings of the time.
     pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> NodeCriterion {
         NodeCriterion {
             nodes,
@@ -63,16 +63,16 @@ impl NodeCriterion {
     }
 }
 
-/// Where a panel or a step has to end.
+/// Position at which a panel or a step has to end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hidden {
-    /// As part of it.
+    /// Position, as a fraction of the length.
     pub at: f64,
-    /// Whether the force has a corner or a jump there.
+    /// True if the force has a corner or a jump there.
     pub is_corner: bool,
 }
 
-/// Where a panel or a step has to end so that its nodes show the forces; none if they do.
+/// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
 pub fn hidden(way: &impl Interpolant, look: NodeCriterion) -> Option<Hidden> {
     if look.nodes_on(way, 0.0, 1.0).1.is_some() {
         return None;
@@ -81,7 +81,7 @@ pub fn hidden(way: &impl Interpolant, look: NodeCriterion) -> Option<Hidden> {
 }
 
 impl NodeCriterion {
-    /// What the force does on a piece, and how many nodes show it, where its own are enough.
+    /// Returns the detail of the force on a piece, and the number of nodes that resolve it, if at most [`Self::nodes`].
     fn nodes_on(&self, way: &impl Interpolant, from: f64, to: f64) -> (Detail, Option<usize>) {
         self.nodes_for(|ellipse| way.detail(from, to, ellipse))
     }
@@ -90,12 +90,12 @@ impl NodeCriterion {
         shown(detail, self.ellipses, self.allowed, self.nodes)
     }
 
-    /// Whether its nodes show a force, of which the detail in an ellipse of some size is given.
+    /// True if the nodes resolve a force whose detail is given as a function of the ellipse parameter.
     pub fn shows(&self, detail: impl Fn(f64) -> Detail) -> bool {
         self.nodes_for(detail).1.is_some()
     }
 
-    /// The part at an end that may be left out for a corner there.
+    /// Returns the fraction that may be cut off at an end for a corner there.
     fn end(&self, way: &impl Interpolant, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
@@ -106,7 +106,7 @@ impl NodeCriterion {
     }
 }
 
-/// A magnitude; what has no value is missed beyond all bounds.
+/// Returns the magnitude; infinity for NaN.
 fn size(missed: f64) -> f64 {
     if missed.is_nan() {
         f64::INFINITY
@@ -115,15 +115,15 @@ fn size(missed: f64) -> f64 {
     }
 }
 
-/// What was found from the start of a panel on.
+/// State of the search for the first unresolved feature.
 struct Search {
     look: NodeCriterion,
-    /// What is looked at: all but corners at the ends.
+    /// Interval searched: without corners at the ends.
     whole: [f64; 2],
-    /// Integral of what the nodes miss, before the first corner and behind it.
+    /// Integral of |force − interpolant| before the first corner and after it.
     missed: [f64; 2],
     is_missed: bool,
-    /// The first piece on which they miss anything.
+    /// First piece on which the nodes miss anything.
     first: Option<[f64; 2]>,
     corner: Option<f64>,
 }
@@ -140,12 +140,12 @@ impl Search {
         }
     }
 
-    /// Halves the panel until each piece is shown by as many nodes as the panel has, and compares there.
+    /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
     fn run(mut self, way: &impl Interpolant) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         let begin = self.look.end(way, |end| [0.0, end]);
         let end = self.look.end(way, |end| [1.0 - end, 1.0]);
-        // A corner that rounding makes up there would hide the first one inside.
+        // A corner made up by rounding there would hide the first one inside.
         self.whole = [begin.max(self.look.least), 1.0 - end.max(self.look.least)];
         left[0] = self.whole;
         let (mut count, mut pieces) = (1, 0);
@@ -180,7 +180,7 @@ impl Search {
             .flatten()
     }
 
-    /// Where a piece is divided: beside a corner that is known, or in the middle.
+    /// Returns the ends of the two parts of a piece: on either side of a known corner, or at the middle.
     fn divided(&mut self, way: &impl Interpolant, from: f64, to: f64) -> [f64; 2] {
         let least = self.look.least;
         let inside = |at: &f64| at - least > from && at + least < to;
@@ -198,7 +198,7 @@ impl Search {
         }
     }
 
-    /// Whether there is a corner so near to an end that the nodes are all on one side, and something on the other.
+    /// True if a corner is so near an end that all nodes lie on one side of it and the other side is missed.
     fn cuts_off(&self) -> bool {
         let [before, behind] = self.missed;
         let share = 10.0 * AT_CORNER * self.look.allowed;
@@ -206,7 +206,7 @@ impl Search {
         self.look.compares && missed.is_some_and(|missed| missed > share)
     }
 
-    /// The first corner, or else an end of the piece on which something was missed first.
+    /// Returns the first corner, or else an end of the first piece with a missed force.
     fn place(&self) -> Option<Hidden> {
         let [begin, end] = self.whole;
         let inside = |at: &f64| *at > begin && *at < end;

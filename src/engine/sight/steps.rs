@@ -1,4 +1,4 @@
-//! Loads between the nodes of a step in time.
+//! Resolution test for loads on a step in time.
 
 use super::{Hidden, Interpolant, NodeCriterion, hidden};
 use crate::engine::step::Step;
@@ -6,18 +6,18 @@ use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Detail, Interval, Reach};
 use crate::numeric::gauss::legendre_series;
 
-/// The motion on a step.
+/// Motion on a step.
 pub struct OnStep<'a> {
-    /// The motion.
+    /// Equation of motion.
     pub motion: &'a Counted<'a>,
-    /// The step.
+    /// Step.
     pub step: &'a Step,
-    /// Legendre coefficients of the acceleration, where the step has nodes of a collocation.
+    /// Legendre coefficients of the acceleration, for a collocation step.
     pub nodes: Option<&'a [f64; NODES]>,
 }
 
-/// The time (s) at which a step of a method of some order has to end so that it shows the acceleration on it; none if it does, or
-/// cannot be shorter. A method of some order is worth as many nodes.
+/// Returns the time (s) at which a step has to end to resolve the acceleration; none if it does, or cannot be shorter.
+/// A method of order n counts as n nodes.
 pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) -> Option<f64> {
     if !motion.has_detail() {
         return None;
@@ -52,7 +52,7 @@ impl Interpolant for OnStep<'_> {
                 let middle = self.time(0.5 * (from + to));
                 Interval::point(step.at(middle).1).widened(most * aside)
             }
-            // Between the ends the speed is off a straight line by less than the change of its slope makes.
+            // Between the ends the speed deviates from a straight line by less than the change of its slope allows.
             None => {
                 let bent = 0.5 * (step.end.alpha - step.start.alpha).abs() * aside;
                 Interval::between(first.1, last.1).widened(bent)

@@ -1,4 +1,4 @@
-//! A cell of the map: what turns do over a range of energies.
+//! Cell of the Poincaré map: turns computed at the points of a range of energies.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +14,7 @@ use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
 impl<D: Driven> LastTurns<'_, D> {
-    /// A cell over a range of energies.
+    /// Computes the cell over the energies middle ± half, J.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
         let rule = Rule::of(DEGREE);
         let mut turns = Vec::with_capacity(DEGREE + 1);
@@ -23,7 +23,7 @@ impl<D: Driven> LastTurns<'_, D> {
             let kinetic = middle + half * rule.points()[turns.len()];
             let (turn, its) = self.whole_turn(kinetic)?;
             speeds = Some(speeds.map_or(its, |all| all.hull(its)));
-            // All turns of a cell are cut in the same way.
+            // All turns of a cell have the same panels.
             if self.march.refined {
                 self.march.settle()?;
                 turns.clear();
@@ -37,7 +37,7 @@ impl<D: Driven> LastTurns<'_, D> {
         }
     }
 
-    /// Whether turns of so many energies show the loads at all speeds (rad/s) between them, around an energy (J).
+    /// True if the energies of a cell around `middle`, J, resolve the loads at all speeds in the range (rad/s).
     fn shows(&self, speeds: Interval, middle: f64) -> bool {
         let PanelStepper { driven, panels, .. } = &self.march;
         let look = NodeCriterion {
@@ -53,7 +53,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 .all(|panel| at_speeds(*driven, panel, speeds, look))
     }
 
-    /// A turn that begins with this energy, J, and its speeds, rad/s.
+    /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
     fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
         self.march.gives_up = false;
         let mut speeds: Option<Interval> = None;
@@ -64,7 +64,7 @@ impl<D: Driven> LastTurns<'_, D> {
             let here = self.march.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
             if self.march.hid {
-                // Panels that end at a place of this energy alone make another turn of it.
+                // Panels that end at a position specific to this energy make its turn unlike the others.
                 return Err(NotApplicable::NotSmooth);
             }
             if self.march.at_cycle() {
@@ -82,7 +82,7 @@ impl<D: Driven> LastTurns<'_, D> {
 }
 
 impl<D: Driven> PanelStepper<'_, D> {
-    /// Starts the panels anew, at the start of a cycle with another kinetic energy, J.
+    /// Restarts at the start of a cycle with another kinetic energy, J.
     pub fn restart(&mut self, kinetic: f64) {
         self.parts.clear();
         self.guide = None;

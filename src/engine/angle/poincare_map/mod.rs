@@ -1,4 +1,4 @@
-//! Long runs: the map of the kinetic energy over one cycle, interpolated. A turn is a cycle here.
+//! Long runs by the Poincaré map of the kinetic energy over one cycle, interpolated. A turn is a cycle here.
 
 mod cells;
 
@@ -17,16 +17,16 @@ use crate::numeric::angle::Angle;
 
 /// Degree of the interpolation over the energy.
 const DEGREE: usize = 16;
-/// The widest cell, relative to the energy at its start.
+/// Largest width of a cell, relative to the energy at its start.
 const WIDEST: f64 = 0.5;
-/// The narrowest.
+/// Least width of a cell, relative to the energy at its start.
 const NARROWEST: f64 = 1e-7;
-/// The next cell is made as wide as leaves this part of the tail allowed.
+/// Fraction of the allowed tail at which the width of the next cell aims.
 const SAFETY: f64 = 0.2;
-/// Most turns that are iterated, some seconds.
+/// Most turns that are iterated; they take some seconds.
 const MOST_TURNS: f64 = 1e8;
 
-/// Goes on from the start of a turn until the goal, or as far as the angle can be the independent variable.
+/// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Driven>(
     march: PanelStepper<'_, D>,
     leg: Segment,
@@ -97,7 +97,7 @@ pub(super) fn run<D: Driven>(
         orbit,
         end,
         work,
-        // As in the first turns.
+        // Errors grow as in the first turns.
         errors: Errors {
             late: errors.late * end / first,
             early: errors.early * end / first,
@@ -108,7 +108,7 @@ pub(super) fn run<D: Driven>(
     })
 }
 
-/// How the last turns end.
+/// End of the last turns.
 enum MapEnd {
     AtGoal(Box<Done>),
     Short(NotApplicable),
@@ -118,18 +118,18 @@ struct LastTurns<'a, D: Driven> {
     march: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
-    /// The turn in which the goal lies, or single turns where the map ends before.
+    /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
     tail: f64,
     width: f64,
-    /// Whether the energy rises from turn to turn.
+    /// True if the energy rises from turn to turn.
     rises: bool,
-    /// By how much it changed in the last turn, J.
+    /// Magnitude of the energy change in the last turn, J.
     lost: f64,
 }
 
 impl<D: Driven> LastTurns<'_, D> {
-    /// The start of the turn in which the goal lies, or of a turn before which the map ends, and why it does.
+    /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
         let mut mark = self.marks[0];
         let first = mark.turns;
@@ -141,7 +141,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 None => match self.extend(mark.kinetic) {
                     Ok(turn) => turn,
                     Err(why) => {
-                        // The turn before is one that is completed.
+                        // The turn before is known to be completed.
                         if before.turns > known.turns {
                             self.marks.push(before);
                         }
@@ -183,8 +183,8 @@ impl<D: Driven> LastTurns<'_, D> {
         }
     }
 
-    /// A cell that begins at this energy, J, and what its turn does; none where it would serve fewer turns than it
-    /// takes.
+    /// Adds the cell that begins at this energy, J, and returns the turn from there; an error where the cell would
+    /// serve fewer turns than it costs.
     fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
@@ -219,7 +219,7 @@ impl<D: Driven> LastTurns<'_, D> {
         }
     }
 
-    /// The turn in which the goal lies, as far as the goal; where the map ends before, single turns.
+    /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map.
     fn last_turns(
         &mut self,
         mark: &Mark,
