@@ -1,4 +1,4 @@
-//! The equation of motion as the integrators see it, and how much finer the second run of an estimate is.
+//! Equation of motion as the integrators see it, and tolerances of the second run of an error estimate.
 
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
@@ -65,31 +65,31 @@ impl Motion for Forward<'_> {
     }
 }
 
-/// Where rounding takes over from the decay of the coefficients of a series, as part of the largest.
+/// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// The second run of the estimate is so much tighter that its own error does not count, whatever the first
-/// one's happens to be: at the order of collocation two more digits take a fifth more evaluations.
+/// Ratio of the tolerances of the first run and of a second run by collocation: large enough that the error of the
+/// second run is negligible. At the order of collocation two more digits take a fifth more evaluations.
 pub(super) const MUCH_TIGHTER: f64 = 1e4;
-/// A short run is far better than a loose tolerance: the second one is never looser than at the default tolerance.
+/// Largest tolerance of a second run, that for the default 1e-10: short runs are far better than loose tolerances.
 const LOOSEST: f64 = 1e-10 / MUCH_TIGHTER;
-/// The second run of a loose joint, and where collocation does not get to the end, is so much tighter.
+/// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
 pub(super) const TIGHTER: f64 = 50.0;
-/// What is stated is larger than the distance of the two runs by this, for the error of the second.
+/// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
-/// Where rounding inside a step takes over.
+/// Least tolerance: below it rounding inside a step dominates.
 pub(super) const TIGHTEST: f64 = 1e-15;
 
-/// The method of the run again is tighter than this only by so much, for rounding inside the steps takes over, and they would
-/// collapse.
+/// Least tolerance of a second run by the method of the first, and the ratio of tolerances that is kept even below it:
+/// rounding inside the steps would make them collapse.
 const TIGHTEST_AGAIN: f64 = 1e-13;
 const A_LITTLE: f64 = 5.0;
 
-/// Tolerance of a second run that is so much tighter that its own error does not count.
+/// Returns the tolerance of a second run by collocation, with negligible error.
 pub(super) fn much_tighter(tolerance: f64) -> f64 {
     (tolerance / MUCH_TIGHTER).clamp(TIGHTEST, LOOSEST)
 }
 
-/// Tolerance of the method of the run again.
+/// Returns the tolerance of a second run by the method of the first.
 pub(super) fn tighter(tolerance: f64) -> f64 {
     (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
 }
