@@ -130,8 +130,8 @@ impl<const N: usize> Run<'_, N> {
 
     /// Returns the error of the slider position (m) that an error of the gap (m) causes through the impacts up to time
     /// t, s. In the deepest impact, of depth δ and force F, the energy 2Fδ/5 stops the free bodies of mass m,
-    /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force is 3/2 of that of the depth, and
-    /// so is that of 2v, which lasts until the next impact.
+    /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
+    /// velocity, is 3/2 of that of the depth; the next impact ends it.
     fn struck(&self, seen: &Followed, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);

@@ -1,5 +1,4 @@
-//! Record of bounded size for a run with a loose joint: the journal position at regular times, and contact statistics
-//! between them.
+//! Record of bounded size for a loose joint: journal positions at regular times, and contact statistics between.
 
 use super::result::ContactStatistics;
 
@@ -51,6 +50,7 @@ impl Tally {
 /// Largest number of samples; beyond it every second one is dropped.
 const SAMPLES_KEPT: usize = 1024;
 
+/// Journal positions and contact statistics of one run, at a spacing that grows with the run.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
     /// Spacing of the samples, s.
