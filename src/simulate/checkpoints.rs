@@ -1,5 +1,4 @@
-//! Comparison of a second run with states on the way of the first: where a motion returns to a course of its own, two
-//! runs may agree at the end and differ before.
+//! Comparison of a second run with states of the first: runs that return to one course may agree only at the end.
 
 use std::iter::{Chain, Peekable};
 use std::slice::Iter;
@@ -24,6 +23,7 @@ pub(super) struct Checkpoints {
 }
 
 impl Checkpoints {
+    /// Takes a step of the first run.
     pub fn pass(&mut self, step: &Step) {
         if self.first.len() < FIRST_KEPT {
             self.first.push(*step);

@@ -27,6 +27,7 @@ pub(super) struct Drive<'a> {
 const MOST_TURNS: f64 = 100.0;
 
 impl Drive<'_> {
+    /// Returns the driving torque at a time (s), friction at the guide included, N m.
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
         let torque = self.equation.driving_torque(t, angle, self.speed, 0.0);
@@ -52,8 +53,7 @@ impl Drive<'_> {
         }
     }
 
-    /// Finds the least, largest and mean driving torque: over one turn if all turns are equal and the run is longer,
-    /// otherwise over the run.
+    /// Finds least, largest and mean torque: over one turn if all are equal and the run is longer, else over the run.
     ///
     /// # Errors
     /// [`NoRange`] with the reason that the range is not known.

@@ -61,6 +61,7 @@ impl Record {
     }
 }
 
+/// Recorder of the rows, events, extreme speeds and motion of one run.
 pub(super) struct Recorder<'a> {
     task: &'a RunSetup<'a>,
     writer: RowWriter<'a>,
@@ -155,8 +156,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a step until a time (s) inside it: rows and motion, and the phase on a configuration curve, if any. True
-    /// if that failed, which ends the run.
+    /// Records a step until a time (s) inside it, in a phase of the curve or none; true if a row failed: the run ends.
     pub fn step(
         &mut self,
         step: &mut Step,

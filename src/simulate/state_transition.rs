@@ -1,9 +1,9 @@
 //! State transition matrix of angle and speed over a step, by the variational equation along the motion.
 //!
 //! δθ̈ = a δθ + b δθ̇ with the slopes a, b of the acceleration along the motion, taken at the nodes of the step. Small
-//! errors of the slopes would grow from turn to turn. But one perturbation is known exactly, the motion a little later,
-//! δ = (θ̇, θ̈), and so is the determinant, exp ∫ b dt (Liouville; Hairer, Nørsett, Wanner, Solving Ordinary
-//! Differential Equations I, 2nd ed., I.11): the slopes only determine the gain along the motion of a perturbation
+//! errors of the slopes would grow from turn to turn. But two facts are exact: the motion a little later is a
+//! perturbation, δ = (θ̇, θ̈), and the determinant is exp ∫ b dt (Liouville; Hairer, Nørsett, Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed., I.11). The slopes only determine the gain along the motion of a perturbation
 //! across it.
 
 use std::array::from_fn;

@@ -25,12 +25,12 @@ pub enum Why {
     /// The run reached its limit of evaluations.
     #[error("the work limit of evaluations is reached")]
     WorkLimit,
-    /// The steps are so short that the run would reach the work limit long before its end.
+    /// The steps are too short for the run to reach its end within the work limit.
     #[error(
         "the steps have become so short that the work limit of evaluations would be reached long before the end"
     )]
     WorkLimitAhead,
-    /// The crank turns so often that the run would reach the work limit long before its end.
+    /// The crank turns too often for the run to reach its end within the work limit.
     #[error(
         "the crank turns so often that the work limit of evaluations would be reached long before the end"
     )]
