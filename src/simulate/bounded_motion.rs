@@ -28,7 +28,7 @@ impl Swing {
             return None;
         };
         let loads = task.equation().loads();
-        // Friction brings most swings to rest, which says more; loads in time may push the crank later: both get time.
+        // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
         let enough = match task.scene.reduced().friction {
             _ if task.one_way => 0,
             _ if loads.reads().has(Variable::T) => 10_000,

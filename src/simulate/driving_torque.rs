@@ -74,7 +74,7 @@ impl Drive<'_> {
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
         }
-        // The ends of the quarter more than a turn have one neighbour only and are left out.
+        // The two ends of the range have one neighbour only and are left out.
         let ends = usize::from(whole);
         let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
