@@ -1,20 +1,20 @@
-//! The energy balance of a run.
+//! Energy balance of a run: residual of energy and work, and the largest energy that scales it.
 
 use super::run_setup::RunSetup;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
-/// Energy at the end minus energy at the start minus work of the loads.
+/// Residual of the energy balance: energy at the end minus energy at the start minus work of the loads.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance {
-    /// J
+    /// Residual, J.
     pub residual: f64,
-    /// Largest energy that occurs, J.
+    /// Largest absolute value of the energies that occur, J.
     pub largest: f64,
 }
 
 impl Balance {
-    /// From the residual and the energies that occur, J.
+    /// Makes a balance from a residual, J, and the energies that occur, J.
     pub fn new(residual: f64, energies: &[f64]) -> Balance {
         let largest = |largest: f64, energy: &f64| largest.max(energy.abs());
         Balance {
@@ -23,7 +23,7 @@ impl Balance {
         }
     }
 
-    /// Of a run whose largest kinetic energy (J) is known; `work` of the loads without potential, J.
+    /// Computes the balance of a crank motion to `at`: work of the loads without potential, largest kinetic energy, J.
     pub fn of_crank(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
         let equation = task.equation();
         let start = task.start();

@@ -1,34 +1,34 @@
-//! When a run of a number of turns is given up: a crank that swings to and fro has come no further for long.
+//! Bounded motion: detects a crank that swings to and fro and will not complete its turns, from its turning points.
 
 use super::run_setup::RunSetup;
 use super::stop::Why;
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Variable};
 
-/// A turning point counts as further out from this part of the swing on: far more than a run in time is off.
+/// Growth of the swing, as part of its range, at which a turning point is further out: far above errors in time.
 const FURTHER: f64 = 1e-3;
 
-/// The turning points of a run that ends after a number of turns.
+/// Record of the turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
-    /// Turning points furthest out, to both sides.
+    /// Outermost turning points on the lower and upper side, angles of the coordinate.
     reach: [Angle; 2],
-    /// Turning points since one led further out, and before it.
+    /// Number of turning points after the last one that was further out, and up to it.
     since: u64,
     before: u64,
-    /// Turning points without a further one after which the swing is taken to stay as it is.
+    /// Number of turning points without one further out from which the swing counts as bounded.
     enough: u64,
     turns: f64,
 }
 
 impl Swing {
-    /// None if the run has a last time. `start`: of the coordinate.
+    /// Starts a record at angle `start` of the coordinate; none if the run has a last time.
     pub fn new(task: &RunSetup<'_>, start: Angle) -> Option<Swing> {
         let Extent::Revolutions(turns) = task.extent else {
             return None;
         };
         let loads = task.equation().loads();
-        // Friction brings most swings to rest, which says more, and loads in time may push the crank later: both are waited for.
+        // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
         let enough = match task.scene.reduced().friction {
             _ if task.one_way => 0,
             _ if loads.reads().has(Variable::T) => 10_000,
@@ -56,13 +56,13 @@ impl Swing {
         }
     }
 
-    /// Whether it led no further for so long, and as long as it took to get there, that the run ends.
+    /// Whether the last turning points have led no further: at least `enough` of them, and as many as all those before.
     pub fn is_caught(&self) -> bool {
         let seen = self.since + self.before;
         seen > 0 && (self.enough == 0 || self.since >= self.enough.max(self.before))
     }
 
-    /// Why the run ends; `crank`: crank angle of the coordinate.
+    /// Returns the reason for the end if the crank is caught; `crank` maps the coordinate to the crank angle.
     pub fn why(&self, crank: impl Fn(Angle) -> Angle) -> Option<Why> {
         self.is_caught().then(|| Why::Caught {
             turns: self.turns,

@@ -1,5 +1,4 @@
-//! A second run on its way past the states of the first: two runs may end alike and differ before, where a motion comes back to
-//! a course of its own.
+//! Comparison of a second run with states of the first: runs that return to one course may agree only at the end.
 
 use std::iter::{Chain, Peekable};
 use std::slice::Iter;
@@ -8,22 +7,23 @@ use super::error_estimate::MARGIN;
 use super::result::ErrorEstimate;
 use crate::engine::step::Step;
 
-/// First steps of a run that are kept: 1 MB.
+/// Number of first steps of a run that are kept: 1 MB.
 const FIRST_KEPT: usize = 4096;
-/// Most of the later ones that are kept; then every other one goes.
+/// Largest number of later steps that are kept; when it is reached, every other one is dropped.
 const LATER_KEPT: usize = 128;
 
-/// Steps of a run, for a second one to be compared with and to set out from.
+/// Steps of a run, kept for comparison with a second run and as a predictor for it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Checkpoints {
     pub first: Vec<Step>,
-    /// One of 2^thinned steps.
+    /// Every 2^thinned-th of the later steps.
     later: Vec<Step>,
     thinned: u32,
     passed: u64,
 }
 
 impl Checkpoints {
+    /// Takes a step of the first run.
     pub fn pass(&mut self, step: &Step) {
         if self.first.len() < FIRST_KEPT {
             self.first.push(*step);
@@ -44,10 +44,10 @@ impl Checkpoints {
     }
 }
 
-/// The second run is compared at the ends of these steps.
+/// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
 pub(super) struct Compared<'a> {
     left: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
-    /// Largest distances so far, rad and rad/s of the crank.
+    /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
     farthest: [f64; 2],
 }
 
@@ -60,7 +60,7 @@ impl<'a> Compared<'a> {
         }
     }
 
-    /// Compares the states within a step. `rate` is that of the crank angle with the coordinate, at one.
+    /// Compares states inside a step of the second run. `rate`: derivative of the crank angle at a coordinate.
     pub fn pass(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
         while let Some(first) = self.left.next_if(|first| first.end.t <= step.end.t) {
             let node = &first.end;
@@ -76,7 +76,7 @@ impl<'a> Compared<'a> {
         }
     }
 
-    /// Error of the worst of these states and of the end, which is known.
+    /// Returns the larger of the known error at the end and the errors at the checkpoints.
     pub fn worst(&self, end: ErrorEstimate) -> ErrorEstimate {
         let [angle, speed] = self.farthest.map(|farthest| MARGIN * farthest);
         end.max(ErrorEstimate {

@@ -1,4 +1,4 @@
-//! Prescribed constant speed: nothing to integrate, the equation read backwards.
+//! Run at prescribed constant speed: the motion in closed form, its driving torque by inverse dynamics.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -43,7 +43,7 @@ pub(super) fn run<'a>(
         speed,
         end,
     };
-    // Towards a limit, or where the guide locks itself, torque and energy grow without bound.
+    // Towards a limit, or where the guide locks, torque and energy grow without bound.
     let unbounded = Balance {
         residual: f64::NAN,
         largest: f64::NAN,
@@ -111,7 +111,7 @@ fn reach(task: &RunSetup<'_>) -> Vec<[f64; 2]> {
     Limits::driven_reach(task.equation().linkage(), friction(task))
 }
 
-/// How long a run at constant speed (rad/s) takes, s.
+/// Returns the duration, s, of a run at constant speed, rad/s.
 pub(super) fn duration(extent: Extent, speed: f64) -> f64 {
     match extent {
         Extent::Duration(duration) => duration,
@@ -119,7 +119,7 @@ pub(super) fn duration(extent: Extent, speed: f64) -> f64 {
     }
 }
 
-/// When the crank reaches the end of the angles it can take, if there is one.
+/// Computes the time, s, at which the crank reaches the end of its range of angles; none if it reaches none.
 fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     let [from, to] = reach(task)
         .into_iter()

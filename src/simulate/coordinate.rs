@@ -1,4 +1,4 @@
-//! The coordinate along which steps in time are computed, as rows and events see it: the crank angle, or that of the
+//! Coordinate of integration in time, as rows and events see it: the crank angle, or the coordinate of the
 //! configuration curve.
 
 use super::row::Row;
@@ -10,17 +10,17 @@ use crate::mechanism::{CurveEquation, Reactor};
 use crate::numeric::angle::Angle;
 
 pub(super) trait Coordinate {
-    /// The equation of motion, by which steps are refined.
+    /// Equation of motion with which steps are refined.
     fn motion(&self) -> &dyn Motion;
 
-    /// Crank angle and speed (rad/s) at a time of a step, s.
+    /// Returns the crank angle and the crank speed (rad/s) at a time (s) of a step.
     fn crank(&self, step: &Step, t: f64) -> (Angle, f64);
 
-    /// The row of a time (s), an angle of the coordinate and its rate (rad/s).
+    /// Makes the row at a time (s), an angle of the coordinate and a rate of the coordinate (rad/s).
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
 }
 
-/// The crank angle.
+/// Crank angle as the coordinate.
 pub(super) struct Crank<'a> {
     pub maker: &'a RowMaker,
     pub motion: &'a Counted<'a>,
@@ -41,7 +41,7 @@ impl Coordinate for Crank<'_> {
     }
 }
 
-/// The coordinate of the configuration curve in one phase.
+/// Coordinate of the configuration curve in one phase.
 pub(super) struct AlongCurve<'a> {
     motion: InPhase<'a>,
     reactor: Option<&'a Reactor>,
@@ -59,7 +59,7 @@ impl<'a> AlongCurve<'a> {
         }
     }
 
-    /// Crank speed (rad/s) and its rate (rad/s²) at a time of a step, s.
+    /// Returns the crank speed (rad/s) and the crank acceleration (rad/s²) at a time (s) of a step.
     pub fn crank_speed(&self, step: &Step, t: f64) -> (f64, f64) {
         let (q, speed) = step.at(t);
         let place = self.motion.equation.curve().place(q);

@@ -1,4 +1,4 @@
-//! What drives a crank at prescribed speed: its torque, and the balance of its work.
+//! Driving torque of a crank at prescribed speed, by inverse dynamics, and the energy balance of its run.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,21 +12,22 @@ use crate::numeric::angle::Angle;
 use crate::numeric::{gauss, maximum};
 use crate::scene::Variable;
 
-/// A run at constant speed.
+/// Run at constant speed.
 pub(super) struct Drive<'a> {
     pub equation: &'a Equation,
     pub maker: &'a RowMaker,
     pub start: Angle,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub speed: f64,
     /// Last time, s.
     pub end: f64,
 }
 
-/// Turns of a run whose loads do not repeat that are looked at.
+/// Largest number of turns that are searched where the loads do not repeat from turn to turn.
 const MOST_TURNS: f64 = 100.0;
 
 impl Drive<'_> {
+    /// Returns the driving torque at a time (s), friction at the guide included, N m.
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
         let torque = self.equation.driving_torque(t, angle, self.speed, 0.0);
@@ -37,7 +38,7 @@ impl Drive<'_> {
         torque - friction * self.equation.linkage().pose(angle.rest).dx
     }
 
-    /// The torque has no finite value at a time (s).
+    /// Returns the reason that the torque has no finite value at a time, s.
     fn not_finite(&self, t: f64) -> NoRange {
         let angle = self.start.plus(self.speed * t);
         let at = Start {
@@ -52,11 +53,10 @@ impl Drive<'_> {
         }
     }
 
-    /// Smallest, largest and mean driving torque: over one turn if every turn is the same and the run is
-    /// longer, else over the run.
+    /// Finds least, largest and mean torque: over one turn if all are equal and the run is longer, else over the run.
     ///
     /// # Errors
-    /// Why it is not known.
+    /// [`NoRange`] with the reason that the range is not known.
     pub fn torque_range(&self) -> Result<TorqueRange, NoRange> {
         if self.speed == 0.0 {
             let torque = self.torque(0.0);
@@ -74,7 +74,7 @@ impl Drive<'_> {
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
         }
-        // A turn has no ends.
+        // The two ends of the range have one neighbour only and are left out.
         let ends = usize::from(whole);
         let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
@@ -105,8 +105,8 @@ impl Drive<'_> {
         TAU / self.speed.abs()
     }
 
-    /// Times close enough to show all that geometry and loads make: of one turn if every turn is the same and the run is longer,
-    /// else of the run. And whether it is a whole turn.
+    /// Returns times, s, close enough to resolve all that geometry and loads cause: of one turn if all turns are equal
+    /// and the run is longer, otherwise of the run. The flag is true for the whole turn.
     pub fn places(&self) -> Result<(Vec<f64>, bool), NoRange> {
         let turn = self.turn();
         let reads = self.equation.loads().reads();
@@ -115,7 +115,7 @@ impl Drive<'_> {
         if !whole && self.end > MOST_TURNS * turn {
             return Err(NoRange::TooManyTurns(MOST_TURNS));
         }
-        // A quarter more than a turn, so that each of its places has two neighbours.
+        // A quarter more than a turn: each place of the turn has two neighbours.
         let turned = if whole {
             1.25 * TAU
         } else {
@@ -124,13 +124,13 @@ impl Drive<'_> {
         Ok((self.times(turned), whole))
     }
 
-    /// Crank angles of a turn, close enough to show what the loads make.
+    /// Returns crank angles of a turn, rad, close enough to resolve the loads.
     fn grid(&self) -> Vec<f64> {
         let smooth = self.equation.loads().are_linear() && self.maker.guide.is_none();
         self.equation.linkage().turn_grid(smooth)
     }
 
-    /// Times at which the crank is at an angle of the grid until it has turned so far (rad), and the ends.
+    /// Returns the times, s, of the angles of the grid until the crank has turned by `until` (rad), with both ends.
     fn times(&self, until: f64) -> Vec<f64> {
         let (grid, sense) = (self.grid(), self.speed.signum());
         let turns = 0..=(until / TAU).ceil() as i64;
@@ -148,7 +148,7 @@ impl Drive<'_> {
         times
     }
 
-    /// Mean over time. Over whole turns inertia and gravity do no work.
+    /// Computes the mean torque over time, N m; none if not finite. Over whole turns inertia and gravity do no work.
     fn mean(&self, span: f64, whole: bool) -> Option<f64> {
         if whole && self.equation.loads().are_none() && self.maker.guide.is_none() {
             return Some(0.0);
@@ -167,8 +167,8 @@ impl Drive<'_> {
         integral.map(|integral| integral / way)
     }
 
-    /// Work that the equation asks for on the way, by quadrature, against the energies at its ends, J: ½ M' and
-    /// V' against M and V. Whole turns bring nothing.
+    /// Compares the work that the equation asks for, by quadrature of ½ M' and V', with the change of the energies from
+    /// M and V, J. Whole turns cancel and are left out.
     pub fn energy_balance(&self) -> Balance {
         let (equation, speed) = (self.equation, self.speed);
         let kinetic = |theta: f64| equation.kinetic_energy(theta, speed);
@@ -182,7 +182,7 @@ impl Drive<'_> {
     }
 }
 
-/// ∫ f over a range of crank angles, cut at ±90°, where a rod that is hardly long enough makes narrow peaks.
+/// Integrates f over a range of crank angles, cut at ±90°, where a rod that is hardly long enough makes narrow peaks.
 fn quarters(from: f64, to: f64, f: &dyn Fn(f64) -> f64, tolerance: f64) -> Option<f64> {
     if from == to {
         return Some(0.0);

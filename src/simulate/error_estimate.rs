@@ -1,4 +1,4 @@
-//! The equation of motion as the integrators see it, and how much finer the second run of an estimate is.
+//! Equation of motion as the integrators see it, and tolerances of the second run of an error estimate.
 
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
@@ -65,26 +65,27 @@ impl Motion for Forward<'_> {
     }
 }
 
-/// Where rounding takes over from the decay of the coefficients of a series, as part of the largest.
+/// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// Tolerance of the second run of an estimate by collocation. Rounding inside the steps takes over below it: a tenth of it
-/// takes up to four times as many evaluations for the same stated errors.
-const TIGHTEST: f64 = 1e-14;
-/// Ratio of the tolerances of the two runs, where the second one integrates by another method than collocation.
+/// Largest tolerance of a second run by collocation. Below it rounding inside the steps dominates: a tenth of it takes up
+/// to four times as many evaluations for equal stated errors.
+const TIGHT: f64 = 1e-14;
+/// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
 pub(super) const TIGHTER: f64 = 50.0;
-/// Least ratio of the two tolerances, near rounding.
-const A_LITTLE: f64 = 5.0;
-/// Least tolerance of a second run by another method than collocation: below it the steps would collapse.
-const TIGHTEST_AGAIN: f64 = 1e-13;
-/// Stated error over the distance of the two runs, for the error of the second one.
+/// Least ratio of the tolerances of both runs, near rounding.
+const LEAST_RATIO: f64 = 5.0;
+/// Least tolerance of a second run by the method of the first, unless [`LEAST_RATIO`] asks for less: below it rounding
+/// inside the steps would make them collapse.
+const TIGHT_AGAIN: f64 = 1e-13;
+/// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Tolerance of a second run by collocation, whose own error does not count.
+/// Returns the tolerance of a second run by collocation, with negligible error.
 pub(super) fn much_tighter(tolerance: f64) -> f64 {
-    TIGHTEST.min(tolerance / A_LITTLE)
+    TIGHT.min(tolerance / LEAST_RATIO)
 }
 
-/// Tolerance of a second run by the method of the first.
+/// Returns the tolerance of a second run by the method of the first.
 pub(super) fn tighter(tolerance: f64) -> f64 {
-    (tolerance / TIGHTER).max(TIGHTEST_AGAIN.min(tolerance / A_LITTLE))
+    (tolerance / TIGHTER).max(TIGHT_AGAIN.min(tolerance / LEAST_RATIO))
 }

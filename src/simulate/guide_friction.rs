@@ -1,4 +1,4 @@
-//! Coulomb friction at the guide of a crank that turns: the slider reverses at the dead centres only.
+//! Coulomb friction at the guide of a crank that turns fully: the slider reverses at the dead centres only.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -10,31 +10,31 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::scene::{Instant, Scene};
 
-/// Within this part of the crank length x' has no sign.
+/// |x'|, as part of the crank length, below which the crank is at a dead centre and x' has no sign.
 const AT_DEAD_CENTRE: f64 = 1e-12;
-/// How far beside an angle signs show and slopes are taken, rad.
+/// Distance from an angle, rad, at which signs are read and slopes are taken.
 pub(super) const BESIDE: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct Sliding {
     equation: CurveEquation,
-    /// Kinetic coefficient.
+    /// Kinetic coefficient of friction.
     mu: f64,
     jams: AtomicBool,
 }
 
-/// What loads do to the guide at one position of a panel.
+/// Effect of the loads on the guide at one position of a panel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Grip {
-    /// dN/dτ, 1/m
+    /// dN/dτ, change of the normal force with a crank torque, 1/m
     torque: f64,
-    /// dN/dF
+    /// dN/dF, change of the normal force with a slider force
     force: f64,
-    /// What friction drives the crank with for one newton of N without friction, N m/N.
+    /// Crank torque of the friction for one newton of frictionless normal force, N m/N.
     grip: f64,
 }
 
-/// The guide at the points of a panel.
+/// Guide at the nodes of a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guide<'a> {
     /// x', m/rad
@@ -45,28 +45,28 @@ pub(super) struct Guide<'a> {
 }
 
 impl Grip {
-    /// The part of a load in the normal force without friction, N.
+    /// Returns the part of a load in the frictionless normal force, N.
     pub fn pressed(&self, load: LoadValue) -> f64 {
         self.torque * load.torque + self.force * load.force
     }
 
-    /// What friction by it drives the crank with, N m.
+    /// Returns the crank torque of the friction that a load causes, N m.
     pub fn rubbed(&self, load: LoadValue) -> f64 {
         self.grip * self.pressed(load)
     }
 }
 
-/// A position as the loads see it.
+/// Position as the loads see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// x (m) and x' (m/rad).
+    /// Slider position x (m) and derivative x' (m/rad).
     pub at: [f64; 2],
-    /// Zero without friction.
+    /// Effect of the loads on the guide; zero without friction.
     pub grip: Grip,
 }
 
 impl Spot {
-    /// States as loads see them.
+    /// Converts states of the crank to instants of the loads.
     #[inline]
     pub fn instants<const N: usize>(at: &[State<'_, Spot>; N]) -> [Instant; N] {
         let mut instants = [Instant::default(); N];
@@ -85,7 +85,7 @@ impl Spot {
 }
 
 impl Sliding {
-    /// The guide of a scene; none without friction.
+    /// Makes the guide of a scene; none without friction.
     pub fn new(scene: &Scene, equation: &Equation) -> Option<Sliding> {
         scene.friction?;
         let constrained = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
@@ -97,7 +97,7 @@ impl Sliding {
         })
     }
 
-    /// The equation with the force of the guide.
+    /// Returns the equation of motion on the curve, with the force of the guide.
     pub fn equation(&self) -> &CurveEquation {
         &self.equation
     }
@@ -107,7 +107,7 @@ impl Sliding {
         self.jams.load(Relaxed)
     }
 
-    /// Adds friction to the table of a panel between two dead centres; `of_place`: the loads of the position alone.
+    /// Adds friction to the table of a panel between two dead centres; `of_place`: loads of the position alone.
     pub fn tabulate(
         &self,
         Guide { dx, normals, signs }: Guide<'_>,
@@ -115,7 +115,7 @@ impl Sliding {
         of_place: &[LoadValue],
         table: &mut Table<Spot>,
     ) {
-        // At the ends of a panel x' is rounding.
+        // At the ends of a panel x' is rounding: the middle gives the sign.
         let c = -self.mu * signs * dx[dx.len() / 2].signum();
         let [torque, force] = loads.dampings();
         let mut switch = table.switch.take().unwrap_or_default();
@@ -142,8 +142,8 @@ impl Sliding {
         table.switch = Some(switch);
     }
 
-    /// What friction at most drives the crank with, N m, for a load of one, at the ends and the middle of a range of angles
-    /// (rad): the points of a panel show what the linkage does between them.
+    /// Computes the largest crank torque of friction for a unit load, N m, at the ends and the middle of a range of
+    /// angles (rad): the nodes of a panel show the effect of the linkage between them.
     pub fn arms(&self, angle: Interval) -> Arms {
         let at = |theta: f64| {
             let normal = self.equation.across(theta).normal();
@@ -160,7 +160,7 @@ impl Sliding {
             .fold(Arms::default(), Arms::larger)
     }
 
-    /// θ̈ (rad/s²) and the forces of the guide; none at rest.
+    /// Returns θ̈ (rad/s²) and the forces of the guide; zeros at rest.
     pub fn state(&self, t: f64, angle: Angle, omega: f64) -> (f64, GuideForces) {
         if omega == 0.0 {
             return (0.0, GuideForces::default());
@@ -169,7 +169,7 @@ impl Sliding {
         let crank = self.equation.curve().linkage().r;
         let mut dx = free.velocity(1.0);
         if dx.abs() < AT_DEAD_CENTRE * crank {
-            // At a dead centre it is that before it, but at the start.
+            // At a dead centre x' is taken just before it, at the start of the run just after it.
             let way = BESIDE.copysign(if t == 0.0 { omega } else { -omega });
             dx = self.equation.curve().place(angle.rest + way).dx;
         }

@@ -1,7 +1,7 @@
-//! Largest joint forces of a run.
+//! Largest joint forces of a finished run, from its dense motion, by a grid search and Brent's method.
 //!
-//! The dense motion is looked at in rows that are close enough to show what geometry, loads and motion make, then by
-//! Brent's method beside those at which a force may be largest.
+//! The grid of rows is close enough to resolve geometry, loads and motion; Brent's method refines beside the rows at
+//! which a force may be largest.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,16 +12,16 @@ use crate::mechanism::{Linkage, Reactions};
 use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
-/// Most rows of a search, and most steps that are kept for it.
+/// Largest number of rows of a search, and number of steps that are kept for it.
 pub(super) const MOST_ROWS: usize = 400_000;
-/// Rows are close enough where every second of them shows the largest values to this part.
+/// Relative difference of the maxima over all rows and over every second row up to which the grid counts as resolved.
 const PART: f64 = 0.02;
-/// Most tops of a force that are looked at closely.
+/// Largest number of local maxima of a force that are refined.
 const MOST_TOPS: usize = 8;
-/// Part of the distance of two rows within which the place of a maximum is known.
+/// Uncertainty of the place of a maximum, as part of the distance of two rows.
 const LEFT: f64 = 1e-9;
 
-/// The largest forces of a finished run; none where it is too long to be looked through, or a force has no value.
+/// Searches the largest forces of a finished run; none if the run is too long to search, or if a force has no value.
 pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
     let mut way = AlongRun::of(scene, run, MOST_ROWS)?;
     loop {
@@ -45,21 +45,21 @@ pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
     }
 }
 
-/// The largest size of a force on every `stride`-th row.
+/// Returns the largest size of a force over every `stride`-th row, N.
 fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
     let rows = sizes.iter().step_by(stride);
     rows.fold(0.0, |largest, row| largest.max(row[force]))
 }
 
-/// Places with one more between each two.
+/// Inserts the midpoint of each interval between places.
 fn halved(places: &[f64]) -> Vec<f64> {
     let between = places.windows(2);
     let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
     between.chain(places.last().copied()).collect()
 }
 
-/// A force where it is largest: beside the rows that are no smaller than their neighbours, nor than the largest by more than
-/// rows may miss.
+/// Finds the maximum of a force: refines beside the rows that are local maxima and less than the error of the grid
+/// below the largest row.
 fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
     let last = sizes.len() - 1;
@@ -91,28 +91,28 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
     }
 }
 
-/// Least rows over time.
+/// Least number of intervals between rows over time.
 const LEAST_ROWS: f64 = 720.0;
 
-/// A run along a parameter.
+/// Parametrization of a run, with the joint forces along it.
 struct AlongRun<'a> {
-    /// Values of the parameter, in order.
+    /// Values of the parameter, in rising order.
     pub places: Vec<f64>,
-    /// Sizes of the forces there.
+    /// Sizes of the joint forces at a value of the parameter, N.
     pub sizes: Box<dyn Fn(f64) -> Option<[f64; FORCES]> + 'a>,
-    /// The time there, s.
+    /// Time at a value of the parameter, s.
     pub time: Box<dyn Fn(f64) -> f64 + 'a>,
 }
 
 impl<'a> AlongRun<'a> {
-    /// Over the crank angle if the motion is a function of it, else over time.
+    /// Parametrizes by the crank angle if the motion is a function of the angle, otherwise by time.
     pub fn of(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
         let way = at_constant_speed(run).or_else(|| over_orbit(run));
         way.or_else(|| over_time(scene, run, most))
     }
 }
 
-/// One turn if all are the same, else the whole run; as close as geometry and loads ask for.
+/// Parametrizes a run at constant speed by time: one turn if all are equal, otherwise all; resolves geometry and loads.
 fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
     let maker = run.dense.maker.as_ref()?;
@@ -133,12 +133,12 @@ fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     })
 }
 
-/// The points of the series of which the motion is made.
+/// Parametrizes a motion over the crank angle by its places: the nodes of the series of the motion.
 fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     let orbit = run.trajectory.as_ref()?.as_orbit()?;
     let end = run.summary.last.t_s;
     let maker = run.dense.maker.as_ref()?;
-    // The time of a place takes longer than all else.
+    // The time of a place costs more than all else: it is computed only where a load reads it.
     let timed = maker.equation.loads().reads().has(Variable::T);
     let reactions = move |at: f64| {
         let (angle, speed) = orbit.state_at_place(at)?;
@@ -152,7 +152,7 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     })
 }
 
-/// Rows at equal times: the crank turns by a degree at most between two of them.
+/// Parametrizes a run by time, with rows at equal times between which the crank turns by at most a degree.
 fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
@@ -167,7 +167,7 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<Alon
     })
 }
 
-/// Time between the rows, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
+/// Returns the time between rows, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
 fn first_step(scene: &Scene, summary: &Summary) -> f64 {
     let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
     let way = fastest * summary.last.t_s;
@@ -176,9 +176,9 @@ fn first_step(scene: &Scene, summary: &Summary) -> f64 {
     summary.last.t_s / (way / angle).max(LEAST_ROWS)
 }
 
-/// Least width in the crank angle, rad, of the peaks on a way (rad) from an angle. Rods that are hardly long enough make
-/// some of the width sqrt((l − |e ± r|)/r) where the crank stands normal to the guide; away from there nothing is narrower
-/// than the distance from it.
+/// Returns the least width in the crank angle, rad, of the peaks on a way (rad) from an angle. A rod that is hardly
+/// long enough makes peaks of width sqrt((l − |e ± r|)/r) where the crank is normal to the guide; elsewhere no peak is
+/// narrower than the distance from there.
 fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
     let Linkage { r, l, e, .. } = *linkage;
     let width = |side: f64| {
@@ -189,7 +189,7 @@ fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
     width(1.0).min(width(-1.0))
 }
 
-/// Sizes of the forces, N, in the order of [`Peaks`].
+/// Returns the sizes of the joint forces, N, in the order of [`Peaks`].
 pub(super) fn sizes(forces: &Reactions) -> [f64; FORCES] {
     let size = |[x, y]: [f64; 2]| (x * x + y * y).sqrt();
     [

@@ -1,4 +1,4 @@
-//! Crank angles at which panels end so that their nodes show the loads that depend on the position alone.
+//! Crank angles at which panels must end to resolve the loads of the position alone, from enclosures of these loads.
 
 use std::cell::RefCell;
 
@@ -6,23 +6,23 @@ use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Wanted, partition};
 
-/// Panels of the crank angle begin with 25 nodes, and end where series have decayed to rounding.
+/// Panels begin with 25 nodes and end where the series have decayed to rounding.
 const WANTED: Wanted = Wanted {
     nodes: 24,
     part: 1e-14,
 };
 
-/// Angles, rad, found where they were asked for.
+/// Panel ends for the loads of the position alone, rad, computed on demand.
 pub(super) struct Marks<'a> {
     equation: &'a Equation,
-    /// Angle and speed (rad/s) of the start.
+    /// Crank angle and speed (rad/s) at the start of the run.
     start: (Angle, f64),
-    /// The last interval that was looked at, and what was found there.
+    /// Interval of the last search, rad, and the marks found in it.
     last: RefCell<(Interval, Vec<f64>)>,
 }
 
 impl<'a> Marks<'a> {
-    /// None so far, of a motion from an angle and a speed (rad/s).
+    /// Makes an empty set for a motion from an angle and a speed, rad/s.
     pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> Marks<'a> {
         let nowhere = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
         Marks {
@@ -32,7 +32,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    /// Marks between two angles, in rising order.
+    /// Returns the marks between two angles, rad, in rising order.
     pub fn between(&self, low: f64, high: f64) -> Vec<f64> {
         let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
         if !loads.have_detail_of_place() || low >= high {
@@ -40,13 +40,13 @@ impl<'a> Marks<'a> {
         }
         let detail = |angle, ellipse| loads.detail_of_place(linkage, angle, ellipse);
         let (start, speed) = self.start;
-        // The energy of the start, and the work of its forces over a radian, J: what is little beside it is nothing.
+        // Energy of the start and work of its forces over a radian, J: unit beside which small details are negligible.
         let unit = self.equation.kinetic_energy(start.rest, speed)
             + self.equation.size_of_terms(0.0, start, speed);
         partition(detail, Interval::new(low, high), WANTED, unit)
     }
 
-    /// The first after `from` on the way to `to`, in either direction.
+    /// Returns the first mark after `from` on the way to `to`, in either direction, rad.
     pub fn next(&self, from: f64, to: f64) -> Option<f64> {
         if !self.equation.loads().have_detail_of_place() {
             return None;
@@ -69,7 +69,7 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// Angles in rising order; a corner that rounding has made two would make a panel without length.
+/// Sorts angles, rad, and merges those less than 1e-9 apart: a corner doubled by rounding makes an empty panel.
 pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut angles: Vec<f64> = angles.collect();
     angles.sort_by(f64::total_cmp);

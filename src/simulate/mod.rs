@@ -1,4 +1,4 @@
-//! Forward motion: scene in, trajectory, rows and summary out; the engines of the plan take turns between located events.
+//! Forward dynamics: a scene in; trajectory, rows and summary out; engines of the plan take turns between events.
 
 mod angle_model;
 mod balance;

@@ -1,25 +1,25 @@
-//! What is asked of a run.
+//! Options of a run.
 
 use crate::engine::WorkLimit;
 use crate::numeric::stop::Stop;
 use crate::plan::Method;
 
-/// What is asked of a run beside what the scene says.
+/// Options of a run, beside the settings of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The method; [`Method::Auto`] leaves it to the plan.
+    /// Method of integration; [`Method::Auto`] leaves the choice to the plan.
     pub method: Method,
-    /// Joint forces in the rows, and the largest of them.
+    /// Whether the rows hold the joint forces and the summary the largest of them.
     pub reactions: bool,
-    /// Driving torque in the rows, for prescribed motions.
+    /// Whether the rows hold the driving torque of a prescribed motion.
     pub driving_torque: bool,
-    /// Whether the global error is estimated, by a second run.
+    /// Whether the global error is estimated, by a second run unless the engine states the error itself.
     pub estimate: bool,
-    /// Most evaluations of the equation; the run ends there with what it has.
+    /// Largest number of evaluations of the equation; the run ends there and keeps its result up to then.
     pub max_evaluations: u64,
-    /// Most events that are listed; all are counted.
+    /// Largest number of events and of pieces that are listed; all events are counted.
     pub events_kept: usize,
-    /// A request to stop; the run ends where it is made with what it has.
+    /// Request to stop; the run ends at once and keeps its result up to then.
     pub stop: Option<Stop>,
 }
 

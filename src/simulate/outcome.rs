@@ -1,4 +1,4 @@
-//! The one place where a run becomes its result, whatever engine computed it.
+//! Conclusion of a run: its last state, errors, energy balance and record become the result, whatever the engine.
 
 use std::f64::consts::TAU;
 
@@ -15,37 +15,37 @@ use crate::plan::Engine;
 use crate::scene::Extent;
 use crate::trajectory::Trajectory;
 
-/// How a run ended.
+/// End of a run, as input of its result.
 pub(super) struct Outcome {
-    /// Last time, crank angle and speed.
+    /// Last time, crank angle and crank speed.
     pub at: Start,
-    /// The engine by whose name the run goes.
+    /// Engine that names the run.
     pub engine: Engine,
-    /// Way of the crank, rad, signed.
+    /// Signed rotation of the crank from the start, rad.
     pub turned: f64,
     pub estimate: Option<Estimate>,
     pub balance: Balance,
     pub evaluations: u64,
     pub steps: u64,
-    /// Wall time of the solution itself, s.
+    /// Wall time of the solution without rows, s.
     pub wall_s: f64,
     pub warnings: Vec<Warning>,
     pub stopped: Option<Why>,
     pub record: Record,
 }
 
-/// Global error of the last state, and what its estimate cost.
+/// Global error of a run, and the cost of its estimate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Estimate {
     pub error: ErrorEstimate,
-    /// Error of the worst state on the way, where it is known.
+    /// Error of the worst state on the way, if known.
     pub on_the_way: Option<ErrorEstimate>,
-    /// None without a second run.
+    /// Cost of the second run; none without one.
     pub cost: Option<Cost>,
 }
 
 impl Estimate {
-    /// Of the last state alone.
+    /// Makes an estimate with the error of the last state alone.
     pub fn of_end(error: ErrorEstimate, cost: Option<Cost>) -> Estimate {
         Estimate {
             error,
@@ -56,7 +56,7 @@ impl Estimate {
 }
 
 impl Outcome {
-    /// With speeds that are shown as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
+    /// Shows speeds as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
     pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
         let usual = task.speed.abs().max(self.at.speed.abs());
         let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
@@ -73,7 +73,7 @@ impl Outcome {
         self.record.speed = (shown(low), shown(high));
         for event in &mut self.record.events {
             let speed = event.omega_rad_per_s;
-            // There rounding leaves no sign: it is that of all speeds of a crank that does not turn back.
+            // Rounding leaves no sign there: a crank that does not turn back has the sign of all its speeds.
             event.omega_rad_per_s = match (is_bounded(speed), low > 0.0, high < 0.0) {
                 (true, ..) => speed,
                 (false, true, _) => f64::INFINITY,
@@ -165,13 +165,13 @@ impl Outcome {
     }
 }
 
-/// What is said of a run that ended short of its goal, or without a state, though no engine told why.
+/// Returns the reason for a run that misses its goal or ends without a finite state, though no engine gave one.
 fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
     let (goal, reached) = match extent {
         Extent::Duration(duration) => (duration, last.t_s),
         Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
     };
-    // Half of all digits: far more than a goal is missed by in rounding.
+    // Half of all digits: far more than the rounding of a goal.
     let missed = goal - reached > f64::EPSILON.sqrt() * goal;
     let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
     let is_state = state.iter().all(|number| number.is_finite());

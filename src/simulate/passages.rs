@@ -1,4 +1,4 @@
-//! Events and rows of a motion that is known as a whole.
+//! Events and rows of a motion that is known as a whole, over the crank angle or at constant speed.
 
 use std::f64::consts::TAU;
 
@@ -10,23 +10,23 @@ use crate::engine::energy::Orbit;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
-/// A motion over the crank angle, or a piece of one, in the time of the whole run.
+/// Motion over the crank angle, or a piece of one, placed in the time of the run.
 pub(super) struct Stretch<'a> {
-    /// Motion over the angle, whose own time begins at 0.
+    /// Motion over the angle; the time of the orbit begins at 0.
     pub orbit: &'a Orbit,
-    /// When it begins, s.
+    /// Time of the run at which the orbit begins, s.
     pub begin: f64,
-    /// Last time of its own, s.
+    /// Last time of the orbit, s.
     pub end: f64,
     pub task: &'a RunSetup<'a>,
 }
 
-/// What is as near to a dead centre as this is at it, rad: far from zero angles are rounded more.
+/// Returns the angle within which a dead centre counts as reached, rad: far from zero angles are rounded more.
 fn near(way: f64) -> f64 {
     (8.0 * f64::EPSILON * way).max(1e-12)
 }
 
-/// How far (rad) each dead centre is ahead of an angle in a direction: in (0, 2π], for the angle itself is not passed.
+/// Lists distance, rad in (0, 2π], and angle of each dead centre ahead in a direction: the start is not passed.
 fn ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
     let dead_centres = task.limits.dead_centres.iter();
     let mut all: Vec<(f64, f64)> = dead_centres
@@ -40,8 +40,8 @@ fn ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
     all
 }
 
-/// The dead centres that a crank passes on a way (rad) from an angle without turning back, with how far each is: the first
-/// ones, at most `kept`, and how many there are.
+/// Lists the dead centres that a crank passes on a way (rad) from an angle without turning back, at most `kept`, each
+/// with its distance (rad) and its angle, and counts all of them.
 fn on_way(
     task: &RunSetup<'_>,
     (from, direction): (Angle, f64),
@@ -57,7 +57,7 @@ fn on_way(
     (passed.collect(), first.iter().map(count).sum())
 }
 
-/// Passages of the dead centres at constant speed until a time (s): the first ones, in order, and how many there are.
+/// Lists the passages of dead centres at constant speed until a time (s): the first in order, and the number of all.
 pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
     let (start, speed) = (task.start(), task.speed);
     if speed == 0.0 {
@@ -73,7 +73,7 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
 }
 
 impl Stretch<'_> {
-    /// Dead centres of a motion that does not turn back until a time (s): the first ones, at most `kept`.
+    /// Lists the dead centres passed until a time (s) by a motion that does not turn back: the first, at most `kept`.
     fn one_way(&self, until: f64, kept: usize) -> Vec<Passage> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());
@@ -87,12 +87,12 @@ impl Stretch<'_> {
         passages.collect()
     }
 
-    /// How far a motion that does not turn back has come at a time (s), rad.
+    /// Returns the rotation, rad, at a time (s) of a motion that does not turn back.
     fn way(&self, t: f64) -> f64 {
         self.orbit.state(t).0.minus(self.orbit.start()).abs()
     }
 
-    /// Dead centres and turning points of a motion to and fro until a time (s), in its own time.
+    /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
     fn to_and_fro(&self, until: f64) -> Vec<Passage> {
         let orbit = self.orbit;
         let turnings = orbit.turning_times(until);
@@ -135,7 +135,7 @@ impl Stretch<'_> {
         found
     }
 
-    /// Dead centres and turning points in the order of time: the first ones, at most `kept`, and how many there are.
+    /// Lists dead centres and turning points in order of time: the first, at most `kept`, and the number of all.
     pub fn events(&self, kept: usize) -> (Vec<Event>, u64) {
         let (orbit, turns_back) = (self.orbit, self.orbit.turns_back());
         let repeats = orbit.period().filter(|(period, _)| *period < self.end);
@@ -173,18 +173,18 @@ impl Stretch<'_> {
     }
 }
 
-/// A dead centre or turning point in the time of a motion.
+/// Dead centre or turning point in the time of the orbit.
 struct Passage {
     kind: &'static str,
-    /// s
+    /// Time of the orbit, s.
     t: f64,
     angle: Angle,
-    /// rad/s
+    /// Crank speed, rad/s.
     speed: f64,
 }
 
 impl Passage {
-    /// A dead centre (rad) so far (rad, with sign) from an angle.
+    /// Makes the passage of a dead centre (rad) at a signed distance (rad) from an angle.
     fn new(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> Passage {
         let turns = ((from.rest + way - dead_centre) / TAU).round();
         let angle = Angle::new(from.turns + turns, dead_centre);
@@ -236,7 +236,7 @@ impl RowSource for Stretch<'_> {
     }
 }
 
-/// Whether a crank angle, rad, is that of a dead centre.
+/// True if a crank angle, rad, is that of a dead centre.
 pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
     task.limits.dead_centres.iter().any(|dead_centre| {
         let apart = (theta - dead_centre.theta).rem_euclid(TAU);

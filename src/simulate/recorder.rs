@@ -1,4 +1,4 @@
-//! The recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
+//! Recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
 
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
@@ -21,28 +21,28 @@ use crate::numeric::root;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// What was recorded of a run.
+/// Record of a run.
 #[derive(Debug, Default)]
 pub(super) struct Record {
-    /// The first events, at most as many as were asked for.
+    /// First events, at most `Options::events_kept`.
     pub events: Vec<Event>,
     pub events_total: u64,
     /// Least and largest crank speed, rad/s.
     pub speed: (f64, f64),
-    /// Pieces of the dense motion, if there was room for all.
+    /// Pieces of the dense motion; none without room for all.
     pub pieces: Option<Vec<Trajectory>>,
-    /// How the slider touched its guide, where the motion was computed along a configuration curve.
+    /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
     pub spells: Vec<Spell>,
-    /// Which engines ran, if they took turns.
+    /// Engines that ran, in order, if they took turns.
     pub engines: Vec<Piece>,
-    /// States on the way.
+    /// States on the way, for the error estimate.
     pub checkpoints: Checkpoints,
-    /// Time spent on rows.
+    /// Wall time spent on rows.
     pub row_time: Duration,
 }
 
 impl Record {
-    /// Of a run that starts with this speed, rad/s.
+    /// Makes an empty record that starts with this speed, rad/s.
     pub fn new(speed: f64) -> Record {
         Record {
             speed: (speed, speed),
@@ -50,26 +50,27 @@ impl Record {
         }
     }
 
-    /// Wall time since the run began, without that of its rows, s.
+    /// Returns the wall time since the run began without the time of the rows, s.
     pub fn wall_s(&self, begun: Instant) -> f64 {
         begun.elapsed().saturating_sub(self.row_time).as_secs_f64()
     }
 
-    /// Largest crank speed in either sense, rad/s.
+    /// Returns the largest crank speed in either sense, rad/s.
     pub fn fastest(&self) -> f64 {
         self.speed.0.abs().max(self.speed.1.abs())
     }
 }
 
+/// Recorder of the rows, events, extreme speeds and motion of one run.
 pub(super) struct Recorder<'a> {
     task: &'a RunSetup<'a>,
     writer: RowWriter<'a>,
-    /// Steps and pieces of the motion that may still be kept.
+    /// Number of steps and pieces of the motion that may still be kept.
     room: usize,
-    /// Refined steps of the piece under way.
+    /// Refined steps of the current piece.
     steps: Vec<Step>,
     record: Record,
-    /// What the sink of the rows said.
+    /// First error of the row sink.
     error: Option<Error>,
 }
 
@@ -93,17 +94,17 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Least and largest crank speed so far, rad/s.
+    /// Borrows the least and largest crank speed up to now, rad/s.
     pub fn speed(&mut self) -> &mut (f64, f64) {
         &mut self.record.speed
     }
 
-    /// Whether there is room for another event.
+    /// True if there is room for another event.
     pub fn keeps_events(&self) -> bool {
         self.record.events.len() < self.task.options.events_kept
     }
 
-    /// Counts an event, and keeps it if there is room.
+    /// Counts an event and keeps it if there is room.
     pub fn event(&mut self, event: impl FnOnce() -> Event) {
         self.record.events_total += 1;
         if self.keeps_events() {
@@ -111,7 +112,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Notes that an engine takes over at a time, s.
+    /// Records that an engine takes over at a time, s.
     pub fn begins(&mut self, engine: Engine, from_s: f64, why: Cow<'static, str>) {
         let engines = &mut self.record.engines;
         if let Some(last) = engines.last_mut() {
@@ -127,7 +128,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a piece over the crank angle: its events, its rows, its speeds.
+    /// Records a piece over the crank angle: events, rows and speeds.
     pub fn stretch(&mut self, stretch: &mut Stretch<'_>) -> Result<(), Error> {
         let left = self.task.options.events_kept - self.record.events.len();
         let (events, total) = stretch.events(left);
@@ -155,8 +156,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a step until a time (s) in it: its rows and its motion, in a phase of the configuration curve or none. True
-    /// if that failed, which ends the run.
+    /// Records a step until a time (s) inside it, in a phase of the curve or none; true if a row failed: the run ends.
     pub fn step(
         &mut self,
         step: &mut Step,
@@ -185,14 +185,14 @@ impl<'a> Recorder<'a> {
         false
     }
 
-    /// Keeps a step of the motion as it is, if there is room.
+    /// Keeps a step of the motion as it stands, if there is room.
     pub fn keep_step(&mut self, step: Step) {
         if self.record.pieces.is_some() && self.takes_room() {
             self.steps.push(step);
         }
     }
 
-    /// Keeps the steps since the last piece as one that ends at a time (s), or with its last step.
+    /// Joins the steps since the last piece into one that ends at a time (s), or at the end of the last step.
     pub fn end_piece(&mut self, end: f64) {
         let steps = std::mem::take(&mut self.steps);
         if let (Some(last), Some(pieces)) = (steps.last(), &mut self.record.pieces) {
@@ -201,7 +201,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Ends the record with the row of the last state, which is a row always if it has finite numbers.
+    /// Ends the record with the row of the last state, if `last` gives one.
     pub fn finish(mut self, last: impl FnOnce() -> Option<Row>) -> Result<Record, Error> {
         if let Some(error) = self.error.take() {
             return Err(error);
@@ -211,7 +211,7 @@ impl<'a> Recorder<'a> {
         Ok(self.record)
     }
 
-    /// Takes room for a step or a piece of the motion; where there is none, nothing of it is kept.
+    /// Takes room for a step or a piece of the motion; without room, no motion is kept at all.
     fn takes_room(&mut self) -> bool {
         let room = self.room.checked_sub(1);
         self.room = room.unwrap_or(0);
@@ -223,10 +223,10 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// A step until a time in it, refined where it is read inside.
+/// Step until a time inside it, refined where it is read between its ends.
 struct InStep<'a> {
     step: &'a mut Step,
-    /// s
+    /// Last time, s.
     until: f64,
     along: &'a dyn Coordinate,
     /// Crank angle at the start of the run.

@@ -1,4 +1,4 @@
-//! The result of a run in numbers.
+//! Result of a run in numbers.
 
 use std::borrow::Cow;
 
@@ -17,83 +17,83 @@ pub struct Summary {
     pub scene: String,
     /// Name of the engine.
     pub engine: String,
-    /// What was computed, and how.
+    /// Plan of the run: what was computed, and how.
     pub plan: Plan,
-    /// Which engine computed which part of the run, and why that one: the first parts, at most as many as events.
+    /// Engine of each part of the run and the reason for it: the first parts, at most `Options::events_kept`.
     pub pieces: Vec<Piece>,
     /// Last state.
     #[serde(rename = "final")]
     pub last: Final,
-    /// Turns made, negative clockwise.
+    /// Number of turns made, negative clockwise.
     pub revolutions: f64,
-    /// Estimate of the global error of the last state; none if it was not asked for or cannot be given.
+    /// Estimated global error of the last state; none if not asked for or not available.
     pub error_estimate: Option<ErrorEstimate>,
-    /// Error of the worst state on the way at which a second run is compared: a run may end better than it was before. None for
-    /// a loose joint, for a run that was handed from one engine to another, and without rows over the crank angle.
+    /// Error of the worst compared state on the way: a run may be more exact at its end than before. None with a loose
+    /// joint, at prescribed speed, for a run that changed engines, and over the crank angle without rows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_error: Option<ErrorEstimate>,
-    /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the
-    /// energies that occur; not finite for a prescribed speed that runs into a limit, where they grow without bound.
+    /// Energy at the end minus energy at the start minus work of the loads, divided by the largest of the energies that
+    /// occur; not finite for a prescribed speed that runs into a limit, where the energies grow without bound.
     pub energy_residual: f64,
     /// Energy residual, J.
     pub energy_residual_j: f64,
-    /// Evaluations of the equation for the solution.
+    /// Number of evaluations of the equation for the solution.
     pub evaluations: u64,
-    /// Steps taken.
+    /// Number of steps or panels.
     pub steps: u64,
-    /// Wall time of the solution itself, without rows and estimate, s.
+    /// Wall time of the solution, without rows and estimate, s.
     pub wall_s: f64,
-    /// What the error estimate cost beside it.
+    /// Additional cost of the error estimate; none without a second run.
     pub estimate_cost: Option<Cost>,
     /// Least crank speed, rad/s.
     pub omega_min: f64,
     /// Largest crank speed, rad/s.
     pub omega_max: f64,
-    /// Torque that keeps the prescribed speed, for prescribed motions.
+    /// Torque that keeps a prescribed speed; none for a free motion or if the range is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub driving_torque: Option<TorqueRange>,
-    /// Largest joint forces, if forces were asked for and the run came to its end.
+    /// Largest joint forces, if asked for and if the run came to its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peaks: Option<Peaks>,
-    /// The loose joint, if there is one.
+    /// Results of the loose joint, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<ClearanceSummary>,
-    /// The periodic motion, for a run that was started in it.
+    /// Periodic motion, for a run that was started in it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steady_state: Option<SteadyState>,
-    /// Dead centres, turning points, impacts and separations: the first of them, at most as many as were asked for.
+    /// Events in order of time: the first, at most [`Options::events_kept`](super::Options::events_kept).
     pub events: Vec<Event>,
-    /// How many there were.
+    /// Number of all events.
     pub events_total: u64,
-    /// What the reader should know.
+    /// Warnings for the reader.
     pub warnings: Vec<Warning>,
-    /// Why the run ended before its time, if it did.
+    /// Reason for an end before the goal; none if the run reached it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stopped: Option<Stopped>,
 }
 
-/// A last state.
+/// Last state of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Final {
-    /// s
+    /// Time, s.
     pub t_s: f64,
-    /// rad, unwrapped
+    /// Crank angle, rad, unwrapped.
     pub theta_rad: f64,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega_rad_per_s: f64,
 }
 
-/// Estimate of the global error, which is no bound.
+/// Estimate of a global error, which is no bound.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorEstimate {
-    /// rad
+    /// Error of the crank angle, rad.
     pub theta_rad: f64,
-    /// rad/s
+    /// Error of the crank speed, rad/s.
     pub omega_rad_per_s: f64,
 }
 
 impl ErrorEstimate {
-    /// The larger one of each.
+    /// Returns the larger error of each quantity.
     pub(super) fn max(self, other: ErrorEstimate) -> ErrorEstimate {
         ErrorEstimate {
             theta_rad: self.theta_rad.max(other.theta_rad),
@@ -102,80 +102,80 @@ impl ErrorEstimate {
     }
 }
 
-/// A part of a run that one engine computed.
+/// Part of a run that one engine computed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Piece {
     /// Name of the engine.
     pub engine: &'static str,
-    /// s
+    /// First time, s.
     pub from_s: f64,
-    /// s
+    /// Last time, s.
     pub to_s: f64,
-    /// Why this engine.
+    /// Reason for this engine.
     pub why: Cow<'static, str>,
 }
 
-/// Evaluations and time.
+/// Cost of a computation: evaluations and time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cost {
-    /// Evaluations of the equation.
+    /// Number of evaluations of the equation.
     pub evaluations: u64,
-    /// s
+    /// Wall time, s.
     pub wall_s: f64,
 }
 
-/// Range of the driving torque over the run.
+/// Range of the driving torque over the run, or over one turn if all turns are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TorqueRange {
-    /// N m
+    /// Least torque, N m.
     pub min_nm: f64,
-    /// N m
+    /// Largest torque, N m.
     pub max_nm: f64,
-    /// Mean over time, N m
+    /// Mean torque over time, N m.
     pub mean_nm: f64,
 }
 
-/// Something that happened.
+/// Event of a run: kind, time and crank state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Event {
     /// `dead-centre`, `turning-point`, `limit`, `stick`, `slip`, `rest`, `impact` or `separation`.
     pub kind: &'static str,
-    /// s
+    /// Time, s.
     pub t_s: f64,
-    /// rad, unwrapped
+    /// Crank angle, rad, unwrapped.
     pub theta_rad: f64,
-    /// rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound
+    /// Crank speed, rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound.
     pub omega_rad_per_s: f64,
 }
 
-/// Joint forces of which the largest are looked for.
+/// Number of joint forces whose maxima are searched.
 pub(super) const FORCES: usize = 5;
 
-/// The largest size of a force in a run.
+/// Largest size of a joint force in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Peak {
-    /// N
+    /// Size of the force, N.
     pub value_n: f64,
-    /// When, s.
+    /// Time of the maximum, s.
     pub t_s: f64,
-    /// Where the crank is then, rad, unwrapped.
+    /// Crank angle at the maximum, rad, unwrapped.
     pub theta_rad: f64,
-    /// What the last refinement added, N. The error of the motion itself comes on top.
+    /// Excess beside the maximum or, with a loose joint, gain over samples, N. The error of the motion comes on top.
     pub added_n: f64,
 }
 
-/// The largest sizes of the joint forces in a run.
+/// Largest sizes of the joint forces in a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Peaks {
-    /// Of the crank's bearing at O.
+    /// Force of the crank bearing at O.
     pub crank_bearing: Peak,
-    /// Between crank and rod.
+    /// Force between crank and rod.
     pub crank_pin: Peak,
-    /// Between rod and slider.
+    /// Force between rod and slider.
     pub wrist_pin: Peak,
-    /// Of the guide, normal to it.
+    /// Force of the guide, normal to it.
     pub guide: Peak,
-    /// Minus the rate of change of the momentum of the mechanism.
+    /// Shaking force: minus the rate of change of the momentum of the mechanism.
     pub shaking: Peak,
 }
 
@@ -192,7 +192,7 @@ impl Peaks {
         }
     }
 
-    /// All of them, with their names.
+    /// Lists all maxima with the names of their forces.
     pub fn named(&self) -> [(&'static str, Peak); FORCES] {
         [
             ("crank bearing", self.crank_bearing),

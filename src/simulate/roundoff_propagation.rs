@@ -1,4 +1,4 @@
-//! The spread of angle and speed, carried along the motion: what rounding does to a run in time grows and turns with it.
+//! Roundoff propagation: standard deviations of angle and speed, carried along a motion in time by state transitions.
 
 use super::state_transition::{Slopes, StateTransition};
 use super::stick_slip::{InPhase, Phase};
@@ -9,31 +9,31 @@ use crate::mechanism::{CurveEquation, Equation};
 
 /// Standard deviation of one rounding, in units of the last place.
 const ONE_ROUNDING: f64 = 0.3;
-/// Next to a balance several steps round in the same way, which adds up to this many times as much.
+/// Factor on the roundoff near a balance of forces, where several steps round in the same way.
 const CORRELATED_ROUNDING: f64 = 2.0;
-/// An acceleration that is smaller than what this angle (rad) changes in it may be a difference of larger ones. Half or twice
-/// as much changes the stated errors of 200 random runs by 1 % at most.
+/// Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as much
+/// changes the stated errors of 200 random runs by 1 % at most.
 const BALANCED: f64 = 0.1;
-/// Rounding of an evaluation of the acceleration on the configuration curve, and of that by the angle's, in units.
+/// Rounding of acceleration and coordinate, evaluated on the configuration curve, in units of the last place.
 const EVALUATION_ON_CURVE: f64 = 8.0;
 const PLACE_ON_CURVE: f64 = 4.0;
 
-/// What rounding does to a run in time.
+/// Roundoff of a run in time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rounding {
-    /// In units of the last place.
+    /// Standard deviations at the last step, in units of the last place.
     pub spread: Spread,
     /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
     rounds_states: bool,
-    /// Evaluations for slopes on the configuration curve.
+    /// Number of evaluations for slopes on the configuration curve.
     pub evaluations: u64,
-    /// Acceleration at the end of the last step on the curve, and its phase.
+    /// Acceleration at the end of the last step on the curve, and the phase of that step.
     before: Option<(f64, Phase)>,
 }
 
 impl Rounding {
-    /// Of a run that moves or stays in a balance. Tolerances are absolute for angles below one radian: of a motion less than a
-    /// unit in the last place of one is not resolved at the start, however small the angle.
+    /// Starts with one rounding of the angle if the run moves, with none in a balance. Tolerances are absolute below
+    /// one radian: the start is resolved to a unit in the last place of one, however small the angle.
     pub fn new(method: Method, moves: bool) -> Rounding {
         let angle = if moves { ONE_ROUNDING } else { 0.0 };
         Rounding {
@@ -44,13 +44,13 @@ impl Rounding {
         }
     }
 
-    /// A state is rounded.
+    /// Adds the rounding of a state: angle, rad, and speed, rad/s.
     pub fn round(&mut self, theta: f64, omega: f64) {
         let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
         self.spread = self.spread.plus(angle, speed);
     }
 
-    /// Carries it over a step of the crank angle, and adds what that rounds: one unit of the mean acceleration.
+    /// Carries the spread over a step of the crank angle; adds one unit of the end acceleration and the rounded angle.
     pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
         let slopes = Slopes::of(motion, step);
         let transition = slopes.transition(step);
@@ -70,11 +70,11 @@ impl Rounding {
         }
     }
 
-    /// Carries it over a step on the configuration curve in one phase.
+    /// Carries the spread over a step on the configuration curve in one phase and adds the roundoff of the step.
     pub fn step_on_curve(&mut self, equation: &CurveEquation, step: &Step, phase: Phase) {
         let before = self.before.take();
         if phase == Phase::Sticking {
-            // What it is off in speed is lost at rest.
+            // At rest an error of the speed is lost.
             self.spread = self.spread.with_speed_times(0.0);
             return;
         }
@@ -82,7 +82,7 @@ impl Rounding {
         let (start, end) = (&step.start, &step.end);
         let turned = start.omega == 0.0;
         if let Some((before, _)) = before.filter(|(before, _)| turned && *before != 0.0) {
-            // Turned back later or sooner, under another friction than before.
+            // An early or late turning point: the acceleration before and after it differs by the friction.
             spread = spread.with_speed_times(start.alpha / before);
         }
         if turned || before.is_none_or(|(_, before)| before != phase) {
@@ -106,55 +106,55 @@ impl Rounding {
     }
 }
 
-/// Standard deviations of angle (rad) and speed (rad/s), in units of the last place, as two perturbations (angle, speed)
-/// that have nothing to do with each other. Next to a limit, where all of them point along the motion for a while, what
-/// is across it would be lost in variances.
+/// Standard deviations of angle (rad) and speed (rad/s) in units of the last place, as two independent perturbations
+/// (angle, speed). Near a limit both point along the motion for a while: a covariance matrix would lose the part across
+/// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Spread([[f64; 2]; 2]);
 
 impl Spread {
-    /// This one, or the one before where numbers have become too large.
+    /// Returns this spread, or the one before if a number overflowed.
     fn or(self, before: &Spread) -> Spread {
         let finite = self.0.iter().flatten().all(|size| size.is_finite());
         if finite { self } else { *before }
     }
 
-    /// Of the angle, rad.
+    /// Returns the standard deviation of the angle, rad.
     pub fn angle(&self) -> f64 {
         self.0[0][0].hypot(self.0[1][0])
     }
 
-    /// Of the speed, rad/s.
+    /// Returns the standard deviation of the speed, rad/s.
     pub fn speed(&self) -> f64 {
         self.0[0][1].hypot(self.0[1][1])
     }
 
-    /// With errors of angle (rad) and speed (rad/s) that have nothing to do with it.
+    /// Adds independent errors of angle (rad) and speed (rad/s).
     pub fn plus(self, angle: f64, speed: f64) -> Spread {
         self.along(angle, 0.0).along(0.0, speed)
     }
 
-    /// With an error of the acceleration (rad/s²) that lasts over a step of length h (s), at the end of the step.
+    /// Adds an error of the acceleration (rad/s²) that lasts over a step of length h (s), seen at the end of the step.
     pub fn pushed(self, acceleration: f64, transition: &StateTransition, h: f64) -> Spread {
         let speed = transition[0][1] * acceleration;
         self.along(0.5 * h * speed, speed)
     }
 
-    /// With errors of angle (rad) and speed (rad/s) that are one.
+    /// Adds one error with components in angle (rad) and speed (rad/s).
     pub fn along(self, angle: f64, speed: f64) -> Spread {
-        // Rotated among each other until the angle is in the first alone, three perturbations are two.
+        // Rotated until only the first has an angle, three perturbations become two.
         let [first, second] = self.0;
         let [first, second] = rotated(first, second);
         let [first, third] = rotated(first, [angle, speed]);
         Spread([first, [0.0, second[1].hypot(third[1])]]).or(&self)
     }
 
-    /// With all of the speed times a factor.
+    /// Multiplies the speed of both perturbations by a factor.
     pub fn with_speed_times(self, factor: f64) -> Spread {
         Spread(self.0.map(|[angle, speed]| [angle, factor * speed])).or(&self)
     }
 
-    /// After a transition.
+    /// Applies a transition matrix.
     pub fn carried(self, [[c11, c12], [c21, c22]]: &StateTransition) -> Spread {
         let carried =
             |[angle, speed]: [f64; 2]| [c11 * angle + c12 * speed, c21 * angle + c22 * speed];
@@ -162,7 +162,7 @@ impl Spread {
     }
 }
 
-/// Two perturbations, rotated until the second has no angle.
+/// Rotates two perturbations until the second has no angle.
 fn rotated(a: [f64; 2], b: [f64; 2]) -> [[f64; 2]; 2] {
     let angle = a[0].hypot(b[0]);
     if angle == 0.0 {
@@ -192,7 +192,7 @@ mod tests {
         assert_close(faster.speed(), 26.0);
     }
 
-    /// A limit that is passed fast changes the speed a lot with the angle, and back again.
+    /// A limit that is passed fast changes the speed much with the angle, and back again.
     #[test]
     fn what_is_small_beside_a_large_spread_is_kept() {
         let steep = |slope: f64| [[1.0, 0.0], [slope, 1.0]];

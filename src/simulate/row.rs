@@ -3,16 +3,16 @@
 use crate::error::Error;
 use crate::mechanism::Reactions;
 
-/// One output row, SI and radians.
+/// Output row: state of the mechanism at one time, in SI units and radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// rad, unwrapped
+    /// Crank angle, rad, unwrapped.
     pub theta: f64,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega: f64,
-    /// rad/s²
+    /// Crank acceleration, rad/s².
     pub alpha: f64,
     /// Slider position, m
     pub x: f64,
@@ -22,29 +22,28 @@ pub struct Row {
     pub a: f64,
     /// Rod inclination, rad
     pub phi: f64,
-    /// Joint and guide forces, if asked for.
+    /// Joint and guide forces, N, if asked for.
     pub reactions: Option<Reactions>,
-    /// Torque that drives the crank beside the loads, N m, if asked for.
+    /// Torque that drives the crank in addition to the loads, N m, if asked for.
     pub driving_torque: Option<f64>,
-    /// What a loose joint does, if there is one; `x`, `v`, `a` and `phi` are then those of the free rod.
+    /// State of the loose joint, if there is one; `x`, `v`, `a` and `phi` then belong to the free rod.
     pub clearance: Option<LooseRow>,
 }
 
-/// A loose joint at one time, SI.
+/// Loose joint at one time, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LooseRow {
-    /// Position (m), velocity (m/s) and acceleration (m/s²) of the slider with ideal joints, at the same
-    /// crank motion
+    /// Position (m), velocity (m/s) and acceleration (m/s²) of a slider with ideal joints at this crank motion.
     pub ideal: [f64; 3],
-    /// Centre of the journal from the centre of the bearing, m
+    /// Position of the journal centre relative to the bearing centre, m.
     pub journal: [f64; 2],
-    /// Normal force in the joint, N
+    /// Normal force in the joint, N.
     pub force: f64,
 }
 
-/// Takes the rows of a run as they are computed.
+/// Receiver of the rows of a run, as they are computed.
 pub trait RowSink {
-    /// Whether rows are wanted at all; if not, none are computed.
+    /// Whether rows are wanted; if not, none are computed.
     fn wants_rows(&self) -> bool {
         true
     }
@@ -55,7 +54,7 @@ pub trait RowSink {
     /// An error ends the run.
     fn row(&mut self, row: &Row) -> Result<(), Error>;
 
-    /// Whether states at steps of the computation are wanted too, where a joint is loose: its impacts are shorter than the
+    /// Whether states at steps of the computation are wanted in addition: impacts in a loose joint are shorter than the
     /// time between rows.
     fn wants_steps(&self) -> bool {
         false
@@ -70,7 +69,7 @@ pub trait RowSink {
     }
 }
 
-/// No rows.
+/// Receiver that wants no rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoRows;
 

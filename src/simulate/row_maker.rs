@@ -1,4 +1,4 @@
-//! Makes rows from states.
+//! Maker of output rows from states of the crank: kinematics, accelerations and joint forces.
 
 use std::sync::Arc;
 
@@ -14,21 +14,21 @@ pub(super) struct RowMaker {
     pub equation: Arc<Equation>,
     pub reactor: Option<Arc<Reactor>>,
     pub driving_torque: bool,
-    /// The guide of a prescribed motion, if it has friction.
+    /// Guide of a prescribed motion, if it has friction.
     pub guide: Option<Arc<CurveEquation>>,
-    /// The guide of a crank that turns freely, if it has friction.
+    /// Guide of a crank that turns freely, if it has friction.
     pub sliding: Option<Arc<Sliding>>,
 }
 
 impl RowMaker {
-    /// The load without a finite value at a state, if there is one.
+    /// Returns the load without a finite value at a state, if there is one.
     pub fn without_value(&self, at: Start) -> Option<Load> {
         let pose = self.equation.linkage().pose(at.angle.rest);
         let now = pose.instant(at.t, at.angle, at.speed);
         self.equation.loads().without_value(&now).cloned()
     }
 
-    /// Friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks itself.
+    /// Returns the friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
         self.guide.as_ref().map_or(0.0, |guide| {
             let touch = guide.driven(t, angle, omega, alpha);
@@ -36,7 +36,7 @@ impl RowMaker {
         })
     }
 
-    /// θ̈ of a free motion, rad/s², and the friction on the slider, N.
+    /// Returns θ̈ of a free motion, rad/s², and the friction on the slider, N.
     pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
         match &self.sliding {
             Some(sliding) => {
@@ -47,7 +47,7 @@ impl RowMaker {
         }
     }
 
-    /// The joint forces of a free motion, or with `alpha` of a prescribed one, if they are asked for.
+    /// Computes the joint forces, N, of a free motion or, with `alpha`, of a prescribed one; none if not asked for.
     pub fn reactions(
         &self,
         t: f64,
@@ -60,7 +60,7 @@ impl RowMaker {
         self.forces(t, angle, &pose, [omega, alpha], friction)
     }
 
-    /// θ̈, rad/s², and the friction on the slider, N.
+    /// Returns θ̈, rad/s², and the friction on the slider, N.
     fn acceleration(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> (f64, f64) {
         match alpha {
             Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
@@ -83,7 +83,7 @@ impl RowMaker {
         })
     }
 
-    /// The row of a free motion, or with `alpha` of a prescribed one.
+    /// Makes the row of a free motion or, with `alpha`, of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
         let pose = self.equation.linkage().pose(angle.rest);
         let (alpha, friction) = self.acceleration(t, angle, omega, alpha);

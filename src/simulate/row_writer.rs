@@ -1,4 +1,4 @@
-//! Writes the rows that are due, whatever engine computes the motion.
+//! Writer of the rows that are due, whatever engine computes the motion.
 
 use std::time::{Duration, Instant};
 
@@ -6,45 +6,45 @@ use super::row::{Row, RowSink};
 use super::schedule::{Schedule, passed, refuse_rows};
 use crate::error::Error;
 
-/// A part of a motion that is known between two times, as rows see it.
+/// Part of a motion between two times, as rows see it.
 pub(super) trait RowSource {
-    /// First and last time, s.
+    /// Returns the first and the last time, s.
     fn times(&self) -> [f64; 2];
 
-    /// How far the crank has turned from the start of the run at a time (s), rad.
+    /// Returns the rotation of the crank since the start of the run at a time (s), rad.
     fn turned(&mut self, t: f64) -> f64;
 
-    /// When (s) it has turned so far (rad), between two times.
+    /// Finds the time (s) between two times at which the crank has turned by `turned` (rad) since the start of the run.
     fn time_of(&mut self, turned: f64, between: [f64; 2]) -> Option<f64>;
 
-    /// When the crank turns back, s, in order.
+    /// Lists the times at which the crank turns back, s, in order.
     fn turning_times(&mut self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// The row of a time, s.
+    /// Makes the row at a time, s.
     fn row(&mut self, t: f64) -> Row;
 }
 
-/// A curve through so many points of a step shows its shape.
+/// Number of states of a step that a sink of steps receives: enough to show the shape of the motion.
 const PLACES: u32 = 4;
 
 pub(super) struct RowWriter<'a> {
     rows: &'a mut dyn RowSink,
     schedule: Schedule,
-    /// Index of the next row at a time; 0 before the first row of all.
+    /// Index of the next row at a time; 0 before the very first row.
     next: u64,
-    /// Time spent on rows.
+    /// Wall time spent on rows.
     pub spent: Duration,
-    /// The last row that was due: it is left out if the last state, which is a row always, has the same time.
+    /// Last row that was due; dropped if the row of the last state, which is always written, has the same time.
     held: Option<Row>,
-    /// Time of the row before it, s.
+    /// Time of the row before the held one, s.
     before: f64,
-    /// Rows that the sink has taken.
+    /// Number of rows handed to the sink.
     taken: u64,
 }
 
-/// A row due this much of the spacing before the end is the end, but for the rounding of its time.
+/// Distance from the end, as part of the row spacing, within which a row is the end but for rounding of its time.
 const SAME_TIME: f64 = 1e-9;
 
 impl<'a> RowWriter<'a> {
@@ -60,7 +60,7 @@ impl<'a> RowWriter<'a> {
         }
     }
 
-    /// The rows that are due in a part of the motion, which follows the one before.
+    /// Writes the rows that are due in a part of the motion, which follows the part before.
     pub fn write(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         if !self.rows.wants_rows() {
             return Ok(());
@@ -78,7 +78,7 @@ impl<'a> RowWriter<'a> {
         result
     }
 
-    /// After the last row that is due, that of the last state.
+    /// Writes the last row that is due, then the row of the last state.
     pub fn finish(mut self, last: impl FnOnce() -> Option<Row>) -> Result<(), Error> {
         let last = self.rows.wants_rows().then(last).flatten();
         let before = self.before;
@@ -95,7 +95,7 @@ impl<'a> RowWriter<'a> {
             .try_for_each(|row| self.rows.row(row))
     }
 
-    /// Hands on the row before.
+    /// Holds a row and hands the row before it to the sink.
     fn put(&mut self, row: Row) -> Result<(), Error> {
         let Some(due) = self.held.replace(row) else {
             return Ok(());
@@ -115,7 +115,7 @@ impl<'a> RowWriter<'a> {
         Ok(())
     }
 
-    /// States inside a part and at its end.
+    /// Hands states inside a part and at its end to the sink.
     fn inside(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         let [from, until] = part.times();
         (1..=PLACES).try_for_each(|k| {
@@ -131,14 +131,14 @@ impl<'a> RowWriter<'a> {
             self.put(part.row(from))?;
             self.next = 1;
         }
-        // Between the times at which the crank turns back its angle is monotone.
+        // Between turning times the crank angle is monotone.
         let mut cuts = part.turning_times();
         cuts.retain(|t| *t < until);
         cuts.push(until);
         for to in cuts {
             let [before, after] = [from, to].map(|t| part.turned(t) / spacing);
             for k in passed(before, after) {
-                // A turning point may fall short of its angle by rounding.
+                // Rounding may leave a turning point short of the angle of its row.
                 let t = part.time_of(k * spacing, [from, to]).unwrap_or(to);
                 self.put(part.row(t))?;
             }

@@ -1,4 +1,4 @@
-//! Forward motion: scene -> mechanism -> plan -> engine -> trajectory.
+//! Forward run: scene -> mechanism -> plan -> engine -> trajectory.
 
 use super::angle_model::AngleModel;
 use super::joint_force_maxima::{self, MOST_ROWS};
@@ -16,8 +16,8 @@ use crate::scene::{Extent, MotionKind, Scene};
 /// Simulates a scene and keeps its dense trajectory.
 ///
 /// # Errors
-/// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed. A run that ends
-/// before its time is no error: see [`Summary::stopped`](super::Summary::stopped).
+/// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed. A run that ends before its
+/// goal is no error: see [`Summary::stopped`](super::Summary::stopped).
 ///
 /// ```
 /// use slider_crank::scene::Scene;
@@ -33,7 +33,7 @@ pub fn simulate(scene: &Scene, options: &Options) -> Result<Simulation, Error> {
 /// Simulates a scene and hands its rows to `rows` as they are computed; memory does not grow with the run.
 ///
 /// # Errors
-/// As [`simulate`], and the errors of `rows`.
+/// Errors of [`simulate`], and errors of `rows`.
 pub fn simulate_rows(
     scene: &Scene,
     options: &Options,
@@ -45,7 +45,7 @@ pub fn simulate_rows(
 /// Simulates a scene, hands its rows to `rows` and keeps its dense trajectory.
 ///
 /// # Errors
-/// As [`simulate_rows`].
+/// Errors of [`simulate_rows`].
 pub fn simulate_with_rows(
     scene: &Scene,
     options: &Options,
@@ -92,7 +92,7 @@ fn run(
     Ok(run)
 }
 
-/// Whether how long a run of turns takes, and so how many rows at times it has, is known at its end only.
+/// True if the duration of a run of turns, and with it the number of rows at times, is known only at its end.
 fn is_open(task: &RunSetup<'_>) -> bool {
     let at_times = matches!(task.schedule(), Schedule::Times { .. });
     let of_turns = matches!(task.extent, Extent::Revolutions(_));

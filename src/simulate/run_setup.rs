@@ -1,4 +1,4 @@
-//! A run that is ready to be computed.
+//! Set-up of a run: a scene with its plan, equation, limits and integration settings.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::numeric::angle::Angle;
 use crate::plan::{Plan, Stepper};
 use crate::scene::{Extent, MotionKind, Scene};
 
-/// A scene with all that its engine needs.
+/// Scene with all that its engine needs.
 #[derive(Clone)]
 pub(super) struct RunSetup<'a> {
     pub scene: &'a Scene,
@@ -26,14 +26,14 @@ pub(super) struct RunSetup<'a> {
     pub speed: f64,
     /// Whether the run ends where the crank turns back.
     pub one_way: bool,
-    /// Most steps or pieces of the dense motion that are kept.
+    /// Largest number of steps or pieces of the dense motion that are kept.
     pub kept: usize,
     pub limits: Limits,
     pub maker: RowMaker,
 }
 
 impl<'a> RunSetup<'a> {
-    /// Plans a scene; its run keeps so many steps or pieces of its motion.
+    /// Plans a scene; the run keeps at most `kept` steps or pieces of its motion.
     ///
     /// # Errors
     /// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed.
@@ -81,17 +81,17 @@ impl<'a> RunSetup<'a> {
         Angle::from(self.scene.motion.angle).reduced()
     }
 
-    /// The whole angle of a crank angle (rad) beside the turns of the start.
+    /// Returns the angle that is a crank angle (rad) beyond the whole turns of the start.
     pub fn angle(&self, theta: f64) -> Angle {
         Angle::new(self.start().turns, theta)
     }
 
-    /// Whether the crank turns right round.
+    /// True if the crank turns fully.
     pub fn turns_fully(&self) -> bool {
         self.limits.class == Class::RotatingCrank
     }
 
-    /// Whether the inertia vanishes at the dead centres, where the speed of a crank without inertia has no bound.
+    /// True if the inertia vanishes at a dead centre, where the speed of a crank without inertia has no bound.
     pub fn inertia_vanishes(&self) -> bool {
         let inertia = |theta: f64| self.equation().terms(theta).inertia.m;
         let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
@@ -99,7 +99,7 @@ impl<'a> RunSetup<'a> {
         dead_centres.any(|dc| vanishes(dc.theta))
     }
 
-    /// The state of the crank at the start.
+    /// Returns the state of the crank at the start.
     pub fn first_state(&self) -> Start {
         Start {
             t: 0.0,
@@ -108,7 +108,7 @@ impl<'a> RunSetup<'a> {
         }
     }
 
-    /// Why a run ends at its limit of work.
+    /// Returns the reason for an end at the work limit: a request to stop or the limit itself.
     pub fn limited(&self) -> Why {
         match &self.options.stop {
             Some(stop) if stop.is_requested() => Why::Interrupted,
@@ -116,7 +116,7 @@ impl<'a> RunSetup<'a> {
         }
     }
 
-    /// How the run is integrated in time.
+    /// Returns the settings of the integration in time.
     pub fn settings(&self) -> Settings<'_> {
         let inertia = self.equation().terms(self.scene.motion.angle).inertia.m;
         let unit = 0.5 * inertia * self.speed.powi(2).max(1.0);
@@ -139,7 +139,7 @@ impl<'a> RunSetup<'a> {
     }
 }
 
-/// The guide of a prescribed motion, if it has friction.
+/// Makes the guide of a prescribed motion; none without friction.
 fn guide(scene: &Scene, equation: &Equation) -> Option<CurveEquation> {
     scene.friction?;
     let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));

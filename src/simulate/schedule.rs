@@ -1,15 +1,15 @@
-//! When output rows are due. Times come from an index, never from adding up.
+//! Schedule of output rows at regular times or crank angles. Times come from an index, never from a sum of steps.
 
 use std::f64::consts::TAU;
 
 use crate::error::Error;
 use crate::scene::{Every, Extent, MOST_ROWS};
 
-/// Rows of a run without `output_every`.
+/// Number of rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
 
-/// Whole numbers passed on the way from `a` to `b`, in the order of passing: `a` does not count, `b` does. What
-/// is off a whole number by rounding only counts as the whole number.
+/// Lists the whole numbers passed on the way from `a` to `b`, in the order of passing, without `a` and with `b`. A
+/// number within 1e-9 of a whole number, as by rounding, counts as the whole number.
 pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     let snapped = |x: f64| {
         if (x - x.round()).abs() < 1e-9 {
@@ -27,7 +27,7 @@ pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     (1..=way.abs() as u64).map(move |i| start + (i as f64).copysign(way))
 }
 
-/// Refuses more rows than a run may have until a time, s.
+/// Refuses more rows until a time (s) than a run may have.
 pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
     if rows <= MOST_ROWS {
         return Ok(());
@@ -40,12 +40,12 @@ pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
     ))
 }
 
-/// Rows at regular times or crank angles. The first and the last state are rows always.
+/// Rows at regular times or crank angles, in addition to the rows of the first and the last state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Schedule {
-    /// At index·step of time, until before `end`.
+    /// Rows at times index·step, s, before `end`, s.
     Times { step: f64, end: f64 },
-    /// Each time the angle from the start passes a multiple of this, rad.
+    /// Rows at rotations from the start that are multiples of `step`, rad.
     Angles { step: f64 },
 }
 
@@ -69,8 +69,8 @@ impl Schedule {
         }
     }
 
-    /// At a constant speed, rad/s, angles are times until the end, s. A crank at rest passes none: its first state and its last
-    /// are the rows.
+    /// Makes a schedule at constant speed (rad/s) until `end` (s), with times in place of angles. A crank at rest
+    /// passes no angle and has two rows, of the first and the last state.
     pub fn at_speed(every: Option<Every>, speed: f64, end: f64) -> Schedule {
         match Schedule::new(every, Extent::Duration(end)) {
             Schedule::Angles { .. } if speed == 0.0 => Schedule::Times { step: end, end },
@@ -82,8 +82,8 @@ impl Schedule {
         }
     }
 
-    /// Time of the row with this index, if rows are due at times and it is due before the end; the end
-    /// itself is the last state's.
+    /// Returns the time of the row with this index, if rows are due at times and the row before the end; the row at the
+    /// end is that of the last state.
     pub fn time(&self, index: u64) -> Option<f64> {
         match *self {
             Schedule::Times { step, end } => {
@@ -94,7 +94,7 @@ impl Schedule {
         }
     }
 
-    /// Rows that are due at times until this one (s) of a run without a last time.
+    /// Returns the number of rows due at times up to `t`, s, for a run without a last time.
     pub fn rows_until(&self, t: f64) -> f64 {
         match *self {
             Schedule::Times { step, end } => t.min(end) / step,
@@ -102,7 +102,7 @@ impl Schedule {
         }
     }
 
-    /// Distance in crank angle, rad, if rows are due at angles.
+    /// Returns the spacing in crank angle, rad, if rows are due at angles.
     pub fn angle_step(&self) -> Option<f64> {
         match *self {
             Schedule::Angles { step } if step > 0.0 => Some(step),

@@ -1,4 +1,4 @@
-//! A finished run and its motion at any time.
+//! Finished run, with the state and the row at any time.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use super::stick_slip::Phase;
 use crate::mechanism::CurveEquation;
 use crate::trajectory::Trajectory;
 
-/// A finished run.
+/// Finished run.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// Key figures, error and events.
+    /// Key figures, errors and events.
     pub summary: Summary,
     /// Dense motion, if it was recorded.
     pub trajectory: Option<Trajectory>,
@@ -22,14 +22,14 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Unwrapped crank angle (rad) and speed (rad/s) at time `t` (s); none outside the run.
+    /// Returns the unwrapped crank angle (rad) and the crank speed (rad/s) at time `t` (s); none outside the run.
     pub fn at(&self, t: f64) -> Option<(f64, f64)> {
         self.trajectory.as_ref()?.at(t)
     }
 
-    /// The whole row at time `t` (s): crank and slider, their velocities and accelerations, and with
-    /// [`Options::reactions`](super::Options::reactions) the joint forces. None outside the run, with a loose joint, and where a number is not
-    /// finite.
+    /// Returns the row at time `t` (s): position, velocity and acceleration of crank and slider, and the joint forces
+    /// if [`Options::reactions`](super::Options::reactions) is set. None outside the run, with a loose joint, and where
+    /// a number is not finite.
     ///
     /// ```
     /// use slider_crank::scene::Scene;
@@ -45,12 +45,12 @@ impl Simulation {
     }
 }
 
-/// A time during which the slider touches its guide in one way, on the configuration curve.
+/// Interval of time in which the slider is in one phase in its guide, on the configuration curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spell {
-    /// s
+    /// First time, s.
     pub from: f64,
-    /// s
+    /// Last time, s.
     pub until: f64,
     pub phase: Phase,
 }
@@ -62,20 +62,20 @@ pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: 
     }
 }
 
-/// What makes rows of a finished run.
+/// Maker of the rows of a finished run.
 #[derive(Clone, Debug)]
 pub(super) struct DenseRows {
     pub maker: Option<RowMaker>,
-    /// Crank acceleration of a prescribed motion, rad/s².
+    /// Crank acceleration of a prescribed motion, rad/s²; none for a free one.
     pub alpha: Option<f64>,
-    /// The configuration curve whose coordinate the whole run follows, if it does.
+    /// Configuration curve, if the whole run follows its coordinate.
     pub curve: Option<Arc<CurveEquation>>,
-    /// When the motion was computed along a configuration curve, in order.
+    /// Intervals of motion along a configuration curve, in order.
     pub spells: Vec<Spell>,
 }
 
 impl DenseRows {
-    /// The row at a time, s; none outside the run, of a loose joint, and where a number is not finite.
+    /// Makes the row at a time, s; none outside the run, with a loose joint, and where a number is not finite.
     pub fn row(&self, trajectory: &Trajectory, t: f64) -> Option<Row> {
         let maker = self.maker.as_ref()?;
         let (angle, speed) = trajectory.coordinate(t)?;

@@ -1,4 +1,4 @@
-//! A crank that has stalled: next to a balance of its torques, out of which its energy does not lift it.
+//! Detection of a stalled crank: near a balance of its torques, from which its energy does not lift it.
 
 use std::f64::consts::TAU;
 
@@ -9,10 +9,10 @@ use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::{Load, Variable};
 
-/// A crank has stalled where it cannot leave a balance by more than this part of the way it came.
+/// Distance to a balance, as part of the way the crank came, within which the crank has stalled.
 const OF_ITS_WAY: f64 = 1e-3;
 
-/// What drives the crank at rest at an angle (rad), and what it is to move: forces on the slider and weight.
+/// Returns the driving torque on the crank at rest at an angle (rad) and the load: forces on the slider and weight.
 pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
     let equation = task.equation();
     let drive = equation.load(0.0, theta, 0.0).torque;
@@ -24,8 +24,8 @@ pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
     }
 }
 
-/// Why a run was stopped at a state in which the crank had stalled: next to a balance, to which loads of the state alone bring
-/// it back, and out of which its energy does not lift it. None if it had not.
+/// Returns the reason if the crank has stalled at the last state: loads bring it back to a balance, and its energy does
+/// not lift it out. None otherwise, and with friction, dry loads, loads in time, clearance or limits.
 pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
     let (equation, reduced) = (task.equation(), task.scene.reduced());
     let loads = equation.loads();

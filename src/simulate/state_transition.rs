@@ -1,10 +1,10 @@
-//! What a small change of angle and speed at the start of a step has become at its end.
+//! State transition matrix of angle and speed over a step, by the variational equation along the motion.
 //!
-//! δθ̈ = a δθ + b δθ̇ with the slopes a, b of the acceleration along the motion, taken at a few places of the step.
-//! Small errors would grow by themselves from turn to turn. But one perturbation is known exactly, that of a
-//! motion a little later, δ = (θ̇, θ̈), and the determinant is exp ∫ b dt (Liouville; Hairer, Nørsett, Wanner, Solving
-//! Ordinary Differential Equations I, 2nd ed., I.11): only what a perturbation across the motion gains along it is
-//! left to the slopes.
+//! δθ̈ = a δθ + b δθ̇ with the slopes a, b of the acceleration along the motion, taken at the nodes of the step. Small
+//! errors of the slopes would grow from turn to turn. But two facts are exact: the motion a little later is a
+//! perturbation, δ = (θ̇, θ̈), and the determinant is exp ∫ b dt (Liouville; Hairer, Nørsett, Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed., I.11). The slopes only determine the gain along the motion of a perturbation
+//! across it.
 
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -22,45 +22,45 @@ const RULE: [(f64, f64); NODES] = [
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
 
-/// Changes from which slopes of the acceleration are taken, about the square root of a rounding: of the angle, rad, of the
-/// speed, in parts of itself, and of the time, in parts of the step. The angle changes by no more than in the step, next to a limit
-/// the slope may be steep on a way that short, but enough to stand out from rounding.
+/// Differences for the slopes, about the square root of a rounding: of the angle, rad, no more than in the step, as
+/// slopes near a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
+/// time, relative to the step.
 const CHANGE: f64 = 1e-7;
 const LEAST_CHANGE: f64 = 1e-9;
 const LATER: f64 = 1e-5;
 
-/// On a way this short, rad, the motion a little later is no guide: angle and speed are rounded.
+/// Least rotation in a step, rad, for which the motion a little later is used: angle and speed are rounded.
 const SHORTEST_WAY: f64 = 1e-11;
 
-/// Nothing is known of a step of which an exponent is larger.
+/// Largest element of a dimensionless system matrix for which a transition is computed.
 const STEEPEST: f64 = 1e12;
 
-/// Where the time changes the motion by more than this part of it in a step, the one a little later is another one.
+/// Largest effect of the time in a step, relative to the motion, for which the motion a little later is used.
 const PUSHED: f64 = 0.3;
 
-/// A 2 by 2 matrix, row by row.
+/// Transition matrix of angle and speed, 2 by 2, row by row.
 pub(super) type StateTransition = [[f64; 2]; 2];
 
-/// Slopes of the acceleration at the nodes of a step.
+/// Partial derivatives of the acceleration at the nodes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slopes {
-    /// 1/s²
+    /// By the angle, 1/s².
     by_angle: [f64; NODES],
-    /// 1/s
+    /// By the speed, 1/s.
     by_speed: [f64; NODES],
-    /// rad/s³
+    /// By the time, rad/s³.
     by_time: [f64; NODES],
 }
 
 impl Slopes {
-    /// Of the motion in a step.
+    /// Computes the slopes at the nodes of a step, by forward differences.
     pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         let aside = (end.theta - start.theta).abs().clamp(LEAST_CHANGE, CHANGE);
         let timed = motion.depends_on_time();
         let later = LATER * h;
         let mut faster = [0.0; NODES];
-        // The state at each node, and with another angle, speed and time.
+        // Four states at each node: on the motion, and with another angle, speed and time.
         let mut beside = Batch {
             turns: step.turns,
             ..Batch::default()
@@ -90,18 +90,18 @@ impl Slopes {
         }
     }
 
-    /// Mean slope by the angle, 1/s².
+    /// Returns the mean slope by the angle, 1/s².
     pub fn by_angle(&self) -> f64 {
         mean(&self.by_angle)
     }
 
-    /// What a perturbation at the start of the step has become at its end.
+    /// Computes the transition over the step, from the slopes and, where exact enough, the motion a little later.
     pub fn transition(&self, step: &Step) -> StateTransition {
         let h = step.length();
         let (plain, pushed) = self.plain(h);
         let travel = (step.end.theta - step.start.theta).abs();
         let along = [step.start.omega, step.start.alpha];
-        // What the time changes in the forces moves the motion a little later in another way.
+        // The time changes the forces: this part of the state is no perturbation of the motion a little later.
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
         let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
         if travel < SHORTEST_WAY || size(pushed) > PUSHED * size(along) {
@@ -112,12 +112,12 @@ impl Slopes {
         if finite { found } else { plain }
     }
 
-    /// What a perturbation at the start of a step of length h has become at its end, and what the time then changes in
-    /// angle and speed. Slopes that stay are met exactly.
+    /// Computes the transition over a step of length h (s) from the slopes alone, and the change of angle and speed
+    /// that the time adds; exact for constant slopes.
     fn plain(&self, h: f64) -> (StateTransition, [f64; 2]) {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
-        // Of the angle, the speed in angles over h, and one.
+        // State of the linear system: angle, speed times h, and one.
         let [first, middle, last]: [Matrix3<f64>; NODES] = from_fn(|i| {
             let (by_angle, by_speed) = (h * h * self.by_angle[i], h * self.by_speed[i]);
             let push = h * h * self.by_time[i] / unit;
@@ -132,8 +132,8 @@ impl Slopes {
         (transition, pushed)
     }
 
-    /// The transition that takes `along` to `then`, with the right determinant; the rest as in another one. Speeds
-    /// are measured by angles over h.
+    /// Computes the transition that takes `along` to `then` and has the right determinant; the rest comes from `other`.
+    /// The metric multiplies speeds by h.
     fn with_motion(
         &self,
         other: &StateTransition,
@@ -142,7 +142,7 @@ impl Slopes {
         h: f64,
     ) -> StateTransition {
         let product = |x: [f64; 2], y: [f64; 2]| x[0] * y[0] + h * h * x[1] * y[1];
-        // Across the motion, with along ∧ across = 1.
+        // Vector across the motion, with along ∧ across = 1.
         let across = |[speed, acceleration]: [f64; 2]| {
             let squared = product([speed, acceleration], [speed, acceleration]);
             [-h * h * acceleration / squared, speed / squared]
@@ -162,9 +162,9 @@ impl Slopes {
     }
 }
 
-/// The solution of y' = A(s) y over 0 < s < 1, from A at the nodes. Magnus's series at order six (Blanes, Casas, Oteo, Ros,
-/// Physics Reports 470, 2009, eq. 253) where it is known to converge, ∫ ‖A‖ < π (section 2.7 there); where losses are
-/// steeper, each A for its part of the step, which decays where A does.
+/// Solves y' = A(s) y over 0 < s < 1, from A at the nodes. Magnus's series of order six (Blanes, Casas, Oteo, Ros,
+/// Physics Reports 470, 2009, eq. 253) where it is known to converge, ∫ ‖A‖ < π (section 2.7 there); for steeper losses
+/// a product of exponentials, one A for each part of the step, which decays where A does.
 fn exponential([first, middle, last]: [Matrix3<f64>; NODES]) -> Matrix3<f64> {
     let size = |a: &Matrix3<f64>| a.iter().fold(0.0f64, |most, entry| most.max(entry.abs()));
     let largest = [&first, &middle, &last].map(size);
@@ -204,7 +204,7 @@ mod tests {
     use crate::numeric::angle::Angle;
     use crate::scene::{Crank, Expression, Load, Scene};
 
-    /// A pendulum with losses, pushed by so much in time.
+    /// Damped pendulum with a periodic torque of amplitude `push`, N m.
     fn pendulum(push: f64) -> Equation {
         let torque = format!("{push}*cos(3*t) - 4*sin(theta) - 0.1*omega");
         let torque = Expression::parse(&torque).expect("a formula");
@@ -219,7 +219,7 @@ mod tests {
         )
     }
 
-    /// The steps from a start to a time.
+    /// Steps of a run from a start to a time.
     fn steps(motion: &Forward<'_>, start: Start, t_end: f64) -> Vec<Step> {
         let settings = Settings {
             method: Method::Picard,
@@ -238,8 +238,8 @@ mod tests {
         steps
     }
 
-    /// Swings with turning points in the steps, turns onwards, with and without a load in time: against runs from
-    /// starts to both sides of the step's.
+    /// Compares with runs from starts on both sides of the step: swings with turning points in the steps, full turns,
+    /// with and without a load in time.
     #[test]
     fn transitions_are_those_of_runs_from_starts_beside() {
         let aside = 1e-4;

@@ -1,4 +1,4 @@
-//! Motion between two changes of the friction: the signs of slider velocity and normal force stay.
+//! Phases of stick-slip motion: between two changes of friction the signs of slider velocity and normal force stay.
 
 use std::cell::Cell;
 
@@ -11,7 +11,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
-/// The watched quantities.
+/// Indices of the event functions, in the order of their values.
 pub(super) const SPEED: usize = 0;
 pub(super) const DEAD_CENTRE: usize = 1;
 pub(super) const LIMIT: usize = 2;
@@ -23,13 +23,13 @@ pub(super) const QUANTITIES: usize = 7;
 
 pub(super) type Signs = [f64; QUANTITIES];
 
-/// How the slider touches its guide.
+/// Phase of the slider in its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Phase {
     Sliding {
-        /// −μ sgn(v) sgn(N), zero without friction.
+        /// c = −μ sgn(v) sgn(N), zero without friction.
         c: f64,
-        /// What dry loads oppose, if there are any.
+        /// Signs of the speeds that dry loads oppose; zero without dry loads.
         against: Sense,
     },
     Sticking,
@@ -46,14 +46,14 @@ impl Phase {
     };
 }
 
-/// The equation in one phase.
+/// Equation of motion on the configuration curve in one phase.
 pub(super) struct InPhase<'a> {
     pub equation: &'a CurveEquation,
     pub phase: Phase,
 }
 
 impl InPhase<'_> {
-    /// Acceleration (rad/s² of the coordinate), forces of the guide, and power (W) of all that has no potential.
+    /// Returns acceleration (rad/s² of the coordinate), guide forces, and power (W) of all that has no potential.
     pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, GuideForces, f64) {
         match self.phase {
             Phase::Sliding { c, against } => {
@@ -69,7 +69,7 @@ impl InPhase<'_> {
         }
     }
 
-    /// Torque and force of the loads at a position.
+    /// Returns torque and force of the loads at a position, dry loads included.
     pub fn load(&self, place: &CurvePose, t: f64, angle: Angle, speed: f64) -> LoadValue {
         let equation = self.equation;
         let dry = match self.phase {
@@ -124,13 +124,13 @@ impl Motion for InPhase<'_> {
     }
 }
 
-/// What is looked at during a run.
+/// Event functions of a run on the configuration curve.
 pub(super) struct Quantities<'a> {
     pub equation: &'a CurveEquation,
-    /// The crank angle of the start, and how far the crank may turn, rad.
+    /// Crank angle at the start and largest rotation of the crank from there, rad.
     pub turning: Option<(Angle, f64)>,
     pub evaluations: Cell<u64>,
-    /// What dry loads oppose.
+    /// Signs of the speeds that dry loads oppose.
     pub against: Cell<Sense>,
 }
 
@@ -150,7 +150,7 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
         let turned = self.turning.map_or(1.0, |(start, limit)| {
             limit - curve.crank_angle(angle).minus(start).abs()
         });
-        // In the order of their indices.
+        // In the order of the indices.
         [
             speed,
             place.dx,
@@ -163,8 +163,8 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
     }
 }
 
-/// The signs with which motion in `direction` (±1 of the coordinate) begins: where a quantity is zero but for the
-/// rounding of the angle, that of `ahead`, its value a little further.
+/// Returns the signs at the start of a motion in `direction` (±1 of the coordinate). Where a value is zero but for the
+/// rounding of the angle, the value `ahead`, a little further on, decides.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
         let nothing = values[i].abs() <= ROUNDED / BESIDE * ahead[i].abs();
@@ -176,7 +176,7 @@ pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     signs
 }
 
-/// The phase that goes with signs.
+/// Returns the sliding phase that belongs to the signs.
 pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
     let friction = equation.friction();
     let mu = friction.map_or(0.0, |friction| friction.coefficient);
@@ -186,7 +186,7 @@ pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
     }
 }
 
-/// What dry loads oppose, if there are any.
+/// Returns the signs of the speeds that dry loads oppose; zero without dry loads.
 pub(super) fn against(equation: &CurveEquation, signs: &Signs) -> Sense {
     match equation.loads().are_dry() {
         true => Sense::of(

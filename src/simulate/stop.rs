@@ -1,4 +1,4 @@
-//! Why a run ends before its goal: a reason with its values and the state, and the words for it.
+//! Reasons for the end of a run before its goal, with values and state, and the messages for them.
 
 use std::fmt;
 
@@ -9,87 +9,87 @@ use crate::engine::time::Start;
 use crate::mechanism::Jam;
 use crate::scene::Load;
 
-/// A run that ended before its goal.
+/// End of a run before its goal.
 #[derive(Clone, Debug)]
 pub struct Stopped {
-    /// Why.
+    /// Reason for the end.
     pub why: Why,
-    /// Time (s), crank angle and speed (rad/s) there.
+    /// Time (s), crank angle and speed (rad/s) at the end.
     pub at: Start,
 }
 
-/// The reason.
+/// Reason for an end before the goal.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Why {
-    /// The work limit of evaluations is reached.
+    /// The run reached its limit of evaluations.
     #[error("the work limit of evaluations is reached")]
     WorkLimit,
-    /// The steps have become so short that it would be reached long before the end.
+    /// The steps are too short for the run to reach its end within the work limit.
     #[error(
         "the steps have become so short that the work limit of evaluations would be reached long before the end"
     )]
     WorkLimitAhead,
-    /// The crank turns so often that it would be.
+    /// The crank turns too often for the run to reach its end within the work limit.
     #[error(
         "the crank turns so often that the work limit of evaluations would be reached long before the end"
     )]
     TooManyTurns,
-    /// Somebody asked to stop.
+    /// The caller asked the run to stop.
     #[error("interrupted")]
     Interrupted,
-    /// The crank needs for ever for so many turns.
+    /// The crank does not complete this number of turns within 1e9 s.
     #[error("the crank does not complete {}", Turns(*.0))]
     Turns(f64),
-    /// A periodic swing.
+    /// The crank swings periodically and does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: shown is one period of {period} s",
         Turns(*turns)
     )]
     Period {
-        /// Turns that were asked for.
+        /// Number of turns asked for.
         turns: f64,
-        /// s
+        /// Period of the swing, s.
         period: f64,
     },
-    /// So many turning points led no further than between two angles, rad.
+    /// The last turning points led no further than between two angles: the crank does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {} rad and {} rad",
         Turns(*turns), reach[0], reach[1]
     )]
     Caught {
-        /// Turns that were asked for.
+        /// Number of turns asked for.
         turns: f64,
-        /// Turning points since one led further.
+        /// Number of turning points since the last one further out.
         since: u64,
-        /// rad
+        /// Outermost crank angles, rad.
         reach: [f64; 2],
     },
-    /// At rest for good.
+    /// The crank comes to rest for good before its turns are complete.
     #[error("the crank comes to rest{} and does not complete {}", held(held_by.as_ref()), Turns(*turns))]
     AtRest {
-        /// Turns that were asked for.
+        /// Number of turns asked for.
         turns: f64,
-        /// What friction holds.
+        /// Torques that friction holds; none if the crank cannot turn fully.
         held_by: Option<Torques>,
     },
-    /// Next to the balance of its torques, at a crank angle in rad.
+    /// The crank stalled near a balance of its torques.
     #[error(
         "the crank stalled at theta = {theta} rad, {torques}{}",
         turns.map_or_else(String::new, |turns| format!(" and does not complete {}", Turns(turns)))
     )]
     Stalled {
-        /// rad
+        /// Crank angle of the balance, rad.
         theta: f64,
-        /// What balances there.
+        /// Torques that balance there.
         torques: Torques,
-        /// Turns that were asked for, if they were.
+        /// Number of turns asked for, if any.
         turns: Option<f64>,
     },
-    /// At a limit of its motion, where the rod stands normal to the guide.
+    /// The crank reaches a limit of its motion, where the rod is normal to the guide.
     #[error("the crank reaches the limit of its motion, where the rod stands normal to the guide")]
     AtLimit,
-    /// A crank of prescribed speed at its limit.
+    /// A crank of prescribed speed reaches a limit of its motion.
     #[error(
         "the crank reaches the limit of its motion: the rod stands normal to the guide there and no constant speed passes it"
     )]
@@ -105,9 +105,9 @@ pub enum Why {
         asked.t, asked.angle.radians(), asked.speed, outside(load.as_ref())
     )]
     NoValue {
-        /// Where it was asked for.
+        /// State of the evaluation.
         asked: Start,
-        /// Which.
+        /// Load without a value, if known.
         load: Option<Load>,
     },
     /// The effective inertia vanishes.
@@ -116,15 +116,15 @@ pub enum Why {
     /// The effective inertia nearly vanishes.
     #[error("the effective inertia nearly vanishes and the speed grows without bound")]
     NearlyNoInertia,
-    /// At a limit or dead centre on the configuration curve.
+    /// The effective inertia vanishes at a limit or dead centre on the configuration curve.
     #[error(
         "the effective inertia vanishes at this limit of its motion or dead centre, where the speed has no bound"
     )]
     NoInertiaOnCurve,
-    /// A load or the speed is too large for a number.
+    /// A load or the speed is too large for a floating-point number.
     #[error("a load or the crank speed is too large to be computed with")]
     TooLarge,
-    /// The steps have become too small.
+    /// The steps became too small: the equation is singular or too stiff.
     #[error("the equation is singular or too stiff for this method")]
     Singular,
     /// The slider jams in its guide.
@@ -133,11 +133,11 @@ pub enum Why {
         match solutions { Jam::NoSolution => "no", Jam::TwoSolutions => "more than one" }
     )]
     Jam {
-        /// How many accelerations there are.
+        /// No acceleration, or more than one, satisfies the equations.
         solutions: Jam,
         /// Coefficient of friction.
         mu: f64,
-        /// |dN/dF| of the guide.
+        /// |dN/dF| of the guide, dimensionless.
         kappa: f64,
     },
     /// A slider with a loose joint jams.
@@ -148,13 +148,13 @@ pub enum Why {
     /// The contact is too stiff for steps in double precision.
     #[error("the contact is too stiff for steps in double precision")]
     ContactTooStiff,
-    /// No engine told why.
+    /// No engine gave a reason: a defect of the program.
     #[error("the run ended before its goal and no engine gave a reason, a defect of this program")]
     Untold,
 }
 
 impl Why {
-    /// What would be right.
+    /// Returns the advice for this reason, if there is any.
     fn cure(&self) -> Option<&'static str> {
         Some(match self {
             Why::WorkLimit => "raise --max-evaluations, shorten the run or loosen the tolerance",
@@ -190,7 +190,7 @@ impl fmt::Display for Stopped {
     }
 }
 
-/// Ends are the same if they say the same.
+/// Ends are equal if their messages are.
 impl PartialEq for Stopped {
     fn eq(&self, other: &Stopped) -> bool {
         self.to_string() == other.to_string()
@@ -203,7 +203,7 @@ impl Serialize for Stopped {
     }
 }
 
-/// A number of turns in words.
+/// Number of turns, for messages.
 struct Turns(f64);
 
 impl fmt::Display for Turns {
@@ -229,10 +229,10 @@ fn outside(load: Option<&Load>) -> String {
     })
 }
 
-/// Torques that balance, N m.
+/// Driving torque and load that balance, N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torques {
-    /// Whether a motor is what drives.
+    /// Whether a motor drives the crank.
     pub(super) by_motor: bool,
     pub(super) drive: f64,
     pub(super) load: f64,
@@ -250,7 +250,7 @@ impl fmt::Display for Torques {
     }
 }
 
-/// Why a motion over the crank angle does not go on.
+/// Returns the reason that a motion over the crank angle is not applicable, as a clause of a message.
 pub(super) fn unserved(why: NotApplicable) -> &'static str {
     match why {
         NotApplicable::Equilibrium => "it starts at rest without a force",

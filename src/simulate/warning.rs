@@ -1,15 +1,15 @@
-//! What the reader of a result should know: warnings with their values, and the words for them.
+//! Warnings of a run for the reader of a result: values and messages.
 
 use serde::{Serialize, Serializer};
 
 use crate::engine::time::Start;
 use crate::scene::Load;
 
-/// A warning of a run.
+/// Warning of a run.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Warning {
-    /// The second run of the estimate did not get to the end within its share of work.
+    /// The second run of the error estimate did not reach the end within its share of work.
     #[error("the error could not be estimated: the second, tighter run did not finish")]
     NotEstimated,
     /// The lengths make a change point.
@@ -17,22 +17,22 @@ pub enum Warning {
         "the lengths make a change point: it is passed so that all velocities stay continuous, and the branch changes there; a slightly longer or shorter rod moves differently"
     )]
     ChangePoint,
-    /// The lengths are so many crank lengths from a change point.
+    /// The lengths are close to a change point, at this distance in crank lengths.
     #[error(
         "the lengths are {0:e} crank lengths from a change point: which way the mechanism goes there depends on their last digits"
     )]
     NearChangePoint(f64),
-    /// The inertia vanishes at the dead centres.
+    /// The inertia vanishes at the dead centres, where the speed has no bound.
     #[error(
         "the effective inertia vanishes at the dead centres, where the crank speed has no bound"
     )]
     UnboundedSpeed,
-    /// Of so many events only the first are listed.
+    /// More events occurred than are listed.
     #[error("{total} events occurred; the first {kept} are listed")]
     EventsLeftOut {
-        /// How many there were.
+        /// Number of events.
         total: u64,
-        /// How many are listed.
+        /// Number of listed events.
         kept: usize,
     },
     /// The largest joint forces are not known.
@@ -43,47 +43,47 @@ pub enum Warning {
     /// The range of the driving torque is not known.
     #[error("the range of the driving torque is not given: {0}")]
     NoTorqueRange(NoRange),
-    /// The second run of a loose joint did not finish.
+    /// The second run of a loose joint did not reach the end.
     #[error("the reproducible horizon is not known: the second, tighter run did not finish")]
     NoHorizon,
-    /// The motion of a loose joint is reproducible up to a time, s.
+    /// The motion of a loose joint is reproducible up to a time only.
     #[error(
         "the motion is reproducible up to t = {t:.6} s ({turns:.2} turns); beyond it only its statistics mean something"
     )]
     HorizonAt {
-        /// s
+        /// Reproducible horizon, s.
         t: f64,
-        /// Turns of the crank until then.
+        /// Number of turns of the crank up to the horizon.
         turns: f64,
     },
-    /// The crank at the end lies beyond the horizon.
+    /// The end lies beyond the horizon: the error of the crank is not known.
     #[error("the crank at the end lies beyond the reproducible horizon: its error is not stated")]
     BeyondHorizon,
-    /// The penetration (m) is more than the clearance.
+    /// The penetration, m, exceeds the clearance.
     #[error(
         "the penetration reaches {0:.1e} m, more than the clearance: Hertz's law for a small spot of contact does not describe it"
     )]
     DeepContact(f64),
-    /// A massless link is drawn for this part of the time.
+    /// A massless link is in tension for this part of the time.
     #[error("the massless link is drawn for {:.1} % of the time: there a journal would leave the bearing's wall", 100.0 * .0)]
     DrawnLink(f64),
 }
 
-/// Why the range of a driving torque is not known.
+/// Reason that the range of a driving torque is not known.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoRange {
-    /// Loads that do not repeat, over more turns than are looked at.
+    /// The loads do not repeat, and the run has more turns than this, the largest number that is searched.
     #[error("the loads depend on the time or the crank angle, and the run has more than {0} turns")]
     TooManyTurns(f64),
     /// The torque is not finite at a state.
     #[error("{} at t = {} s, theta = {} rad", not_finite(*at_limit, load.as_deref()), at.t, at.angle.radians())]
     NotFinite {
-        /// The crank stands at a limit there.
+        /// Whether the crank is at a limit of its motion.
         at_limit: bool,
-        /// The load that has no value.
+        /// Load without a value, if any.
         load: Option<Box<Load>>,
-        /// Time, angle and speed.
+        /// Time, crank angle and speed.
         at: Start,
     },
     /// The mean over the angle is not finite.
@@ -91,7 +91,7 @@ pub enum NoRange {
     Mean,
 }
 
-/// What of a torque is not finite.
+/// Returns the cause of a torque that is not finite, as a clause of a message.
 fn not_finite(at_limit: bool, load: Option<&Load>) -> String {
     match load {
         _ if at_limit => "the crank is at a limit".to_owned(),

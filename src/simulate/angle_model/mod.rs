@@ -1,4 +1,4 @@
-//! The mechanism as the energy engine sees it: inertia, potential and force over the crank angle.
+//! Model over the crank angle for the energy and angle engines: inertia, potential and generalized force of a scene.
 
 mod profile;
 mod work;
@@ -18,34 +18,34 @@ use crate::numeric::enclosure::{Detail, Reach};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 
-/// Inertia, potential and force of an equation whose loads depend on the position alone.
+/// Inertia, generalized force and loads of an equation as functions of the crank angle.
 pub(super) struct AngleModel<'a> {
     equation: &'a Equation,
     sliding: Option<&'a Sliding>,
-    /// Whole turns of the start, beside all angles: loads over theta need not be the same in each turn.
+    /// Whole turns of the start, added to all angles: loads over theta may differ from turn to turn.
     turns: f64,
-    /// Dead centres and corners of loads.
+    /// Dead centres and corners of loads in a turn, rad.
     corners: Vec<f64>,
-    /// Turns after which the loads are the same again.
+    /// Number of turns after which the loads repeat.
     cycle: u32,
-    /// Corners of loads in a cycle, and these with its dead centres.
+    /// Corners of loads in a cycle, rad, without and with the dead centres of the cycle.
     of_loads: Vec<f64>,
     of_cycle: Vec<f64>,
-    /// Corners and narrow parts of formulas, where they are no corners of each turn.
+    /// Corners and narrow parts of formulas; the flag is set where they are corners of each turn.
     marks: Marks<'a>,
     marks_are_corners: bool,
     repeats: bool,
-    /// Work of the loads in one turn, J, and its error, if they are the same in each.
+    /// Work of the loads in one turn and the error of this work, J, if all turns are equal.
     work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
-    /// On the positions of a motion made of its energy.
+    /// Limit on the number of positions of a motion from its energy.
     limit: WorkLimit<'a>,
     shared: Option<RefCell<Panels<Spot>>>,
 }
 
 impl<'a> AngleModel<'a> {
-    /// The mechanism of a run; angles are those beside the whole turns of its start. Panels end at the rows of tables over the
-    /// crank angle, and may end at the dead centres, where the inertia of a mechanism without crank inertia has a corner.
+    /// Makes the model of a run; angles exclude the whole turns of the start. Panels end at the rows of tables over the
+    /// crank angle, and may end at dead centres, where the inertia of a mechanism without crank inertia has a corner.
     pub fn of(task: &'a RunSetup<'_>) -> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
@@ -81,7 +81,7 @@ impl<'a> AngleModel<'a> {
         model
     }
 
-    /// For many runs of one cycle: what depends on the position is tabulated once.
+    /// Shares the tables of all positions, for many runs of one cycle.
     pub fn with_shared_panels(self) -> AngleModel<'a> {
         AngleModel {
             shared: Some(RefCell::default()),
@@ -89,13 +89,13 @@ impl<'a> AngleModel<'a> {
         }
     }
 
-    /// Takes loads that are the same again after so many turns.
+    /// Adopts loads that repeat after a number of turns.
     fn take_cycle(&mut self, turns: u32, dead_centres: &[f64]) {
         self.cycle = turns;
         let length = f64::from(turns) * TAU;
         let marks = self.marks.between(0.0, length);
         if turns > 1 {
-            // Those at its start are its own.
+            // Corners at the start of the cycle belong to the cycle.
             let before = -1e-9;
             let loads = self.equation.loads();
             self.of_loads = loads.corners_between(before, length + before);
@@ -112,12 +112,12 @@ impl<'a> AngleModel<'a> {
         self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
     }
 
-    /// Positions at which inertia and force were computed so far.
+    /// Returns the number of positions evaluated up to now.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
     }
 
-    /// The whole angle.
+    /// Returns the angle with the whole turns of the start.
     fn angle(&self, theta: f64) -> Angle {
         Angle::new(self.turns, theta)
     }
@@ -172,7 +172,7 @@ impl Driven for AngleModel<'_> {
             }
         }
         if let Some((sliding, normals)) = guide {
-            // Panels run in the direction of the motion.
+            // Panels run in the direction of motion.
             let direction = (angles[count - 1] - angles[0]).signum();
             let guide = Guide {
                 dx: &at.dx[..count],
@@ -228,7 +228,7 @@ impl Driven for AngleModel<'_> {
     }
 
     fn corners(&self) -> &[f64] {
-        // Friction changes its sign at the dead centres.
+        // Friction changes sign at the dead centres.
         match self.sliding {
             Some(_) => &self.of_cycle,
             None => &self.of_loads,

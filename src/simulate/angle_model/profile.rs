@@ -1,4 +1,4 @@
-//! Inertia and forces of the position alone, for motions in closed form.
+//! Inertia and force of loads of the position alone, for motions from their energy.
 
 use std::f64::consts::TAU;
 
@@ -34,7 +34,7 @@ impl Profile for AngleModel<'_> {
         let angle = self.angle(theta);
         let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
         if !self.equation.loads().have_potential() {
-            // What a formula makes of the angle is rounded as the angle is.
+            // A formula of the angle is rounded with the angle.
             let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
             size += (0.5 * change / BESIDE * angle.radians()).abs();
         }
@@ -50,7 +50,7 @@ impl Profile for AngleModel<'_> {
     }
 
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
-        // The same corner again, off by rounding, is not a next one.
+        // The last corner itself, off by rounding, is not the next one.
         let apart = (to - from).signum() * 1e-12 * from.abs().max(1.0);
         let turns = self.turns * TAU;
         let loads = self.equation.loads();

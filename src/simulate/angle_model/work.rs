@@ -1,4 +1,4 @@
-//! Work of the loads, by a quadrature of its own, and where their formulas are narrow.
+//! Work of the loads, by adaptive Gauss quadrature independent of the engines, and marks of narrow formulas.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 
 impl AngleModel<'_> {
-    /// The first mark of a formula after `from` on the way to `to`, in either direction, that is no corner of each turn.
+    /// Returns the first mark after `from` towards `to`, in either direction, rad, that is no corner of each turn.
     pub(super) fn mark(&self, from: f64, to: f64) -> Option<f64> {
         let before = self.turns * TAU;
         let mark = || self.marks.next(from + before, to + before);
@@ -16,7 +16,7 @@ impl AngleModel<'_> {
             .map(|mark| mark - before)
     }
 
-    /// Work of the loads in a turn, J, and its error: of loads that depend on the position alone and are the same in each.
+    /// Computes the work of one turn and the error of it, J, for loads of the position alone that repeat each turn.
     pub(super) fn work_of_one_turn(&self) -> (f64, f64) {
         let torque = TAU * self.equation.loads().constant_torque();
         let (mut work, mut size) = (torque, torque.abs());
@@ -27,7 +27,7 @@ impl AngleModel<'_> {
         (work, f64::EPSILON * size)
     }
 
-    /// Work (J) of the loads without potential between two angles, by a quadrature of its own.
+    /// Computes the work (J) of the loads without potential between two angles, independently of the engine.
     pub fn work(&self, from: Angle, to: Angle) -> f64 {
         if self.equation.loads().have_potential() {
             return 0.0;
@@ -44,7 +44,7 @@ impl AngleModel<'_> {
         whole + self.work_between(from.rest, to.rest)
     }
 
-    /// Generalized force (N m) of the loads without potential at an angle.
+    /// Returns the generalized force (N m) of the loads without potential at an angle, rad.
     pub(super) fn push(&self, theta: f64) -> f64 {
         let pose = self.equation.linkage().pose(theta);
         let loads = self.equation.loads();

@@ -1,4 +1,4 @@
-//! The result of a run with a loose joint.
+//! Conclusion of a run with a loose joint: summary, errors, reproducible horizon and warnings.
 
 use std::f64::consts::TAU;
 
@@ -39,7 +39,7 @@ impl<const N: usize> Run<'_, N> {
         let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
-        // Each step rounds, independently of the others.
+        // Steps round independently of each other.
         let rounding = 8.0 * f64::EPSILON * (1.0 + ended.steps as f64).sqrt();
         let error = |value: fn(&LooseState) -> f64, size: f64| {
             against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
@@ -104,7 +104,7 @@ impl<const N: usize> Run<'_, N> {
         run
     }
 
-    /// Until when the journal's path is that of the tighter run, and what both runs say of the time after.
+    /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
     fn horizon(&self, seen: &Followed, tighter: &Tighter, end: &LooseState) -> Horizon {
         let distance = 0.01 * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
@@ -115,7 +115,7 @@ impl<const N: usize> Run<'_, N> {
         };
         Horizon {
             t_s: t,
-            // The mean speed will do for a number of turns.
+            // The mean speed suffices for a number of turns.
             revolutions: match end.t > 0.0 {
                 true => ((end.theta - self.start.theta) * t / end.t).abs() / TAU,
                 false => 0.0,
@@ -128,10 +128,10 @@ impl<const N: usize> Run<'_, N> {
         }
     }
 
-    /// What an error of the gap (m) makes of the slider's place (m) by way of the impacts until time t, s. In the
-    /// deepest one of depth δ and force F, the energy 2Fδ/5 stopped the free bodies of mass m, v = √(4Fδ/5m), and sent
-    /// them back about as fast; the force is off by 3/2 of what the depth is, relatively, and so is 2v, until the
-    /// next impact sets them right.
+    /// Returns the error of the slider position (m) that an error of the gap (m) causes through the impacts up to time
+    /// t, s. In the deepest impact, of depth δ and force F, the energy 2Fδ/5 stops the free bodies of mass m,
+    /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
+    /// velocity, is 3/2 of that of the depth; the next impact ends it.
     fn struck(&self, seen: &Followed, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
@@ -211,7 +211,7 @@ impl<const N: usize> Run<'_, N> {
         .collect()
     }
 
-    /// Adds the dead centres of a crank at constant speed to the impacts and separations, in the order of time.
+    /// Adds the dead centres of a crank at constant speed to impacts and separations, in order of time.
     fn add_dead_centres(&self, record: &mut Recorded, end: f64) {
         let (passages, count) = passages::at_constant_speed(self.task, end);
         record.events.extend(passages);

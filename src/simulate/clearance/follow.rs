@@ -1,4 +1,4 @@
-//! Follows a run with a loose joint: rows, events, and what the contact does.
+//! Follower of a run with a loose joint: rows, events and contact statistics, step by step.
 
 use super::super::recorder::Recorder;
 use super::super::result::{Event, FORCES, Peak};
@@ -17,7 +17,7 @@ pub(super) struct Followed {
     pub record: Record,
     pub total: Tally,
     pub separations: u64,
-    /// Largest of the energy put in so far, J.
+    /// Largest absolute energy up to now, J: of the start, and of work minus loss.
     pub energy: f64,
     pub ends_at: Option<LooseState>,
     pub peaks: Option<[Peak; FORCES]>,
@@ -45,13 +45,13 @@ pub(super) struct Follow<'a, const N: usize> {
     pub task: &'a RunSetup<'a>,
     /// Dead centres, rad in [0, 2π).
     pub dead_centres: Vec<f64>,
-    /// None for the run that another one is compared with.
+    /// Recorder of rows and events; none for the run of comparison.
     pub recorder: Option<Recorder<'a>>,
     pub seen: Followed,
 }
 
 impl<'a, const N: usize> Follow<'a, N> {
-    /// Takes a stretch; true ends the run.
+    /// Follows an accepted step; true ends the run.
     pub fn take(&mut self, stretch: &mut AcceptedStep<'_, N>) -> bool {
         self.follow_phase(stretch);
         self.follow_guide(stretch);
@@ -77,7 +77,7 @@ impl<'a, const N: usize> Follow<'a, N> {
         fails || self.seen.ends_at.is_some()
     }
 
-    /// The last time (s) of a stretch that belongs to the run.
+    /// Returns the last time (s) of a step that belongs to the run.
     pub(super) fn until(&self, stretch: &AcceptedStep<'_, N>) -> f64 {
         self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
     }
@@ -126,7 +126,7 @@ impl<'a, const N: usize> Follow<'a, N> {
         self.event(kind, s.t, s.theta, s.omega);
     }
 
-    /// Where friction holds the slider and lets it go; a slider that is held has no velocity at all.
+    /// Records where friction holds and releases the slider; a held slider has exactly zero velocity.
     fn follow_guide(&mut self, stretch: &AcceptedStep<'_, N>) {
         let (from, to) = (
             self.model.state(&stretch.start),
@@ -140,7 +140,7 @@ impl<'a, const N: usize> Follow<'a, N> {
         self.seen.sticking = sticking;
     }
 
-    /// Dead centres, turning points, extreme speeds and the turn limit of a crank that moves by itself.
+    /// Records dead centres, turning points, extreme speeds and the turn limit of a free crank.
     fn follow_crank(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         let node = |s: LooseState, alpha: f64| Node {
             t: s.t,
@@ -191,7 +191,7 @@ pub(super) struct LooseRows<'a, const N: usize> {
 }
 
 impl<const N: usize> LooseRows<'_, N> {
-    /// Slider and rod as they move, and the slider of the ideal joints beside it.
+    /// Makes the row of slider and rod, with the slider of ideal joints for comparison.
     pub fn row(&self, s: &LooseState, phase: Phase) -> Row {
         let mechanism = self.model.mechanism;
         let linked = matches!(phase, Phase::Link).then(|| mechanism.relinked(s));
@@ -219,10 +219,10 @@ impl<const N: usize> LooseRows<'_, N> {
     }
 }
 
-/// A stretch until a time in it.
+/// Accepted step until a time inside it.
 struct InStretch<'s, 'y, 'a, const N: usize> {
     stretch: &'s mut AcceptedStep<'y, N>,
-    /// s
+    /// Last time, s.
     until: f64,
     loose: LooseRows<'a, N>,
 }
@@ -247,7 +247,7 @@ impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     }
 }
 
-/// Inclination φ of the rod from its direction, rad.
+/// Returns the inclination φ of the rod from its direction ψ, rad.
 pub(super) fn phi(psi: f64, branch: f64) -> f64 {
     let (sin, cos) = psi.sin_cos();
     (-sin).atan2(branch * cos)

@@ -1,4 +1,4 @@
-//! Motion with a loose joint: flight and contact, by the contact engine.
+//! Motion with a loose joint: alternating flight and contact, integrated by the contact engine.
 
 mod conclude;
 mod follow;
@@ -31,7 +31,7 @@ use follow::{Follow, Followed};
 use motion::{DRIVEN, FREE, Loose};
 use record::Record;
 
-/// Samples of the journal's path in a turn, while there are few enough turns.
+/// Number of samples of the journal path in a turn; halved again and again in a long run.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
 
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
@@ -170,7 +170,7 @@ impl<'a, const N: usize> Run<'a, N> {
         contact::run(model, start, self.linked(), settings, follower)
     }
 
-    /// A second run at a tighter tolerance: its end, its record and its cost. None if it does not get there.
+    /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
     fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
         let begun = Instant::now();
         let mut follow = self.follow(model, None);
@@ -206,7 +206,7 @@ impl<'a, const N: usize> Run<'a, N> {
         }
     }
 
-    /// A load that ends at a state, or a few roundings after it.
+    /// Returns the load without a value at a state, or a few roundings after it.
     fn without_value(&self, last: &LooseState) -> Option<&Load> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
         let at = |dt: f64| State {

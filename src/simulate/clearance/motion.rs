@@ -1,35 +1,35 @@
-//! The mechanism with a loose joint as the integrator sees it.
+//! Mechanism with a loose joint as the contact engine sees it: state vector, rates, gap and scales.
 
 use crate::engine::contact::{Contact, Phase, Sample};
 use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
 use crate::numeric::enclosure::{Detail, Interval};
 
-/// Numbers of a state whose crank moves by itself: t, θ, ψ, x and their rates, the work of the loads and the
-/// energy lost in the contact and by friction at the guide.
+/// Length of the state of a free crank: t, θ, ψ, x, the rates of θ, ψ and x, the work of the loads, and the energy lost
+/// in the contact and by friction at the guide.
 pub(super) const FREE: usize = 9;
-/// Numbers of a state whose crank has a prescribed speed: the same without θ and its rate; the work is that of
-/// the drive too.
+/// Length of the state of a crank at prescribed speed: without θ and the rate of θ; the work includes that of the
+/// drive.
 pub(super) const DRIVEN: usize = 7;
 
-/// The mechanism with sizes for the error, and N numbers.
+/// Mechanism with scales for the error control; its state has N numbers.
 pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
     /// Crank angle (rad) and speed (rad/s) at the start.
     pub start: (f64, f64),
-    /// Size of the positions, m.
+    /// Scale of the positions, m.
     pub length: f64,
-    /// Size of the angles, rad.
+    /// Scale of the angles, rad.
     pub angle: f64,
-    /// Size of speeds over that of positions, 1/s.
+    /// Ratio of the scales of speeds and positions, 1/s.
     pub pace: f64,
     /// Size of the mechanism, m.
     pub reach: f64,
-    /// The next time at which a load has a corner, s.
+    /// Returns the next time at which a load has a corner, s.
     pub corners: &'a dyn Fn(f64) -> f64,
 }
 
 impl<const N: usize> Loose<'_, N> {
-    /// The state in these numbers.
+    /// Unpacks a state vector.
     #[inline(always)]
     pub fn state(&self, y: &[f64; N]) -> LooseState {
         if N == DRIVEN {
@@ -56,13 +56,13 @@ impl<const N: usize> Loose<'_, N> {
         }
     }
 
-    /// The numbers of a state, with work and loss, J.
+    /// Packs a state with work and loss, J.
     pub fn numbers(&self, s: &LooseState, [work, lost]: [f64; 2]) -> [f64; N] {
         let free = [s.t, s.theta, s.psi, s.x, s.omega, s.spin, s.v, work, lost];
         Self::packed(&free)
     }
 
-    /// Work of loads and drive, and energy lost in the contact and by friction at the guide, J.
+    /// Returns the work of loads and drive, and the energy lost in the contact and by friction at the guide, J.
     pub fn work(&self, y: &[f64; N]) -> [f64; 2] {
         [y[N - 2], y[N - 1]]
     }
@@ -74,7 +74,7 @@ impl<const N: usize> Loose<'_, N> {
     }
 }
 
-/// How a phase acts on the bodies.
+/// Returns the action of a phase on the bodies.
 #[inline(always)]
 pub(super) fn touch(phase: Phase, depth: Option<f64>) -> JointTouch {
     match phase {
@@ -84,7 +84,7 @@ pub(super) fn touch(phase: Phase, depth: Option<f64>) -> JointTouch {
     }
 }
 
-/// Where the links are and how the slider rubs, at a state nearby.
+/// Directions of the links and friction of the slider at a nearby state.
 #[derive(Clone, Copy)]
 pub(super) struct Near {
     turned: Turned,
@@ -123,7 +123,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
         let rubbing = match near.rubbing {
             Rubbing::Sticks => self.mechanism.let_go(&self.state(soon), touch),
             _ => {
-                // What is left of the velocity is rounding.
+                // The remaining velocity is rounding.
                 let s = LooseState {
                     v: 0.0,
                     ..self.state(y)
@@ -168,7 +168,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
         self.mechanism.pressing(rate, approach)
     }
 
-    /// A crank angle rounds by more as it grows, and the crank pin with it.
+    /// A crank angle rounds by more as it grows, and with it the crank pin.
     fn rounding(&self, y: &[f64; N]) -> f64 {
         let crank = self.length / self.angle;
         f64::EPSILON * (8.0 * self.reach + 2.0 * crank * self.state(y).theta.abs())

@@ -1,4 +1,4 @@
-//! The largest joint forces of a run with a loose joint, step by step: impacts are too short for rows.
+//! Largest joint forces of a run with a loose joint, step by step: impacts are too short for rows.
 
 use super::super::joint_force_maxima::sizes;
 use super::super::result::{FORCES, Peak};
@@ -8,11 +8,11 @@ use crate::engine::PIECES;
 use crate::engine::contact::{AcceptedStep, Phase};
 use crate::numeric::maximum;
 
-/// A force this near to the largest so far may be larger between the places that are looked at.
+/// Part of the largest force up to now from which a force may exceed it between the samples of a step.
 const NEAR_LARGEST: f64 = 0.9;
 
 impl<const N: usize> Follow<'_, N> {
-    /// Sizes of the joint forces in a state of a step, N.
+    /// Returns the sizes of the joint forces in a state of a step, N.
     fn sizes(&self, y: &[f64; N], phase: Phase) -> [f64; FORCES] {
         let mechanism = self.model.mechanism;
         let s = match phase {
@@ -26,7 +26,7 @@ impl<const N: usize> Follow<'_, N> {
         })
     }
 
-    /// The largest sizes so far: at the places, then between the neighbours of one that may be larger.
+    /// Updates the largest sizes: over samples of the step, then by Brent's method where one may be exceeded.
     pub(super) fn follow_forces(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         if !self.task.options.reactions || self.recorder.is_none() {
             return;

@@ -1,4 +1,4 @@
-//! What the contact does during a step.
+//! Contact statistics of a step: time, impulse, force and penetration.
 
 use super::follow::Follow;
 use super::motion::touch;
@@ -7,11 +7,11 @@ use crate::engine::contact::{AcceptedStep, Phase, Sample};
 use crate::numeric::interpolate::quintic;
 use crate::numeric::maximum;
 
-/// A step with a large force is looked at in so many places.
+/// Number of intervals at whose ends a step with a large force is sampled.
 const PLACES: u32 = 32;
 
 impl<const N: usize> Follow<'_, N> {
-    /// Time, impulse and peak of the contact force, by Simpson's rule along the depth's quintic.
+    /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
     pub(super) fn follow_contact(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         let begin = stretch.start[0];
         let end = self.until(stretch);
@@ -29,7 +29,7 @@ impl<const N: usize> Follow<'_, N> {
         self.seen.record.spread(begin, end, &tally);
     }
 
-    /// Of the first `h` seconds of a step.
+    /// Returns the statistics of the first `h` seconds of a step in contact.
     fn pressed(&self, stretch: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
         let (length, begin) = (stretch.length(), stretch.start[0]);
         let (before, after) = (&stretch.before, &stretch.after);
@@ -50,7 +50,7 @@ impl<const N: usize> Follow<'_, N> {
         let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
         let mut tally = simpson([first.0, middle.0, last.0], h);
         tally.deepest = first.1.max(middle.1).max(last.1);
-        // A peak between is looked for only where it would count.
+        // A peak inside the step is sought only where it could be the largest.
         if 1.05 * tally.peak > self.seen.total.peak {
             let places = (0..=PLACES).map(|i| part * f64::from(i) / f64::from(PLACES));
             let top = |value: &dyn Fn(f64) -> f64| {
@@ -58,7 +58,7 @@ impl<const N: usize> Follow<'_, N> {
                 maximum::beside_best(value, &known)
             };
             let (u, force) = top(&|u| at(u).0);
-            // The quintic finds the place; the force there is that of the motion.
+            // The quintic gives the place, the motion the force there.
             let s = self.model.state(&stretch.at(begin + u * length));
             let phase = Phase::Contact { approach };
             let moved = self.model.mechanism.rates(&s, touch(phase, None)).normal;

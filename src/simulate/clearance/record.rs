@@ -1,15 +1,14 @@
-//! What a run leaves behind in memory that does not grow with it: the journal's place at regular times, and what
-//! the contact did between them.
+//! Record of bounded size for a loose joint: journal positions at regular times, and contact statistics between.
 
 use super::result::ContactStatistics;
 
-/// What the contact did over some time.
+/// Contact statistics of an interval of time, as sums and maxima.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
     pub impacts: u64,
     /// Time in contact, s.
     pub touching: f64,
-    /// Time in which a massless link was drawn, s.
+    /// Time in which a massless link was in tension, s.
     pub drawn: f64,
     /// ∫ F dt, N s
     pub impulse: f64,
@@ -32,14 +31,14 @@ impl Tally {
         self.deepest = self.deepest.max(other.deepest);
     }
 
-    /// Over the time from one (s) to another.
+    /// Converts the sums to means over the time from `from` to `to`, s.
     pub fn statistics(&self, from: f64, to: f64) -> ContactStatistics {
         let mean = |sum: f64| if to > from { sum / (to - from) } else { 0.0 };
         ContactStatistics {
             from_s: from,
             to_s: to,
             impacts: self.impacts,
-            // The parts of the time add up to all of it but for rounding.
+            // The parts of the time add up to the whole but for rounding.
             contact_share: mean(self.touching).min(1.0),
             force_peak_n: self.peak,
             force_mean_n: mean(self.impulse),
@@ -48,19 +47,20 @@ impl Tally {
     }
 }
 
-/// Most samples kept; beyond them every second one goes.
+/// Largest number of samples; beyond it every second one is dropped.
 const SAMPLES_KEPT: usize = 1024;
 
+/// Journal positions and contact statistics of one run, at a spacing that grows with the run.
 #[derive(Clone, Debug)]
 pub(super) struct Record {
-    /// Distance of the samples, s.
+    /// Spacing of the samples, s.
     width: f64,
     samples: Vec<[f64; 2]>,
     tallies: Vec<Tally>,
 }
 
 impl Record {
-    /// Samples this far apart, s, or twice, four times... as far in a long run.
+    /// Makes a record with samples at this spacing, s; the spacing doubles whenever a long run fills the record.
     pub fn new(width: f64) -> Record {
         Record {
             width,
@@ -69,12 +69,12 @@ impl Record {
         }
     }
 
-    /// When the next sample is due, s.
+    /// Returns the time of the next sample, s.
     pub fn due(&self) -> f64 {
         self.samples.len() as f64 * self.width
     }
 
-    /// The journal's place at the time that is due.
+    /// Adds the journal position at the time that is due, m.
     pub fn sample(&mut self, journal: [f64; 2]) {
         self.samples.push(journal);
         if self.samples.len() > SAMPLES_KEPT {
@@ -93,7 +93,7 @@ impl Record {
         }
     }
 
-    /// What the contact did about time t, s.
+    /// Adds contact statistics at time t, s.
     pub fn tally(&mut self, t: f64, tally: &Tally) {
         let index = (t / self.width) as usize;
         if index >= self.tallies.len() {
@@ -104,8 +104,8 @@ impl Record {
         self.tallies[index.min(last)].add(tally);
     }
 
-    /// What the contact did from one time (s) to another, parted where records of shorter times meet: impacts and the
-    /// largest values belong to the middle.
+    /// Adds contact statistics from one time (s) to another, shared between the intervals of the record in proportion;
+    /// impacts and largest values go to the middle.
     pub fn spread(&mut self, from: f64, to: f64, tally: &Tally) {
         self.tally(
             0.5 * (from + to),
@@ -133,7 +133,7 @@ impl Record {
         }
     }
 
-    /// All tallies from time t (s) on, and where that begins.
+    /// Sums the statistics from time t (s) on, and returns the time at which the sum begins.
     pub fn since(&self, t: f64) -> (Tally, f64) {
         let first = (t / self.width).round() as usize;
         let mut sum = Tally::default();
@@ -142,7 +142,7 @@ impl Record {
         (sum, first as f64 * self.width)
     }
 
-    /// The last sample time, s, up to which two records agree to within a distance, m; none if to the end.
+    /// Returns the last sample time, s, up to which two records agree within a distance, m; none if throughout.
     pub fn agrees_until(&self, other: &Record, distance: f64) -> Option<f64> {
         let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
             let off = (a[0] - b[0]).hypot(a[1] - b[1]);
@@ -157,7 +157,7 @@ impl Record {
 mod tests {
     use super::*;
 
-    /// Steps that do not end where the record's times do, all of them in contact under a constant force.
+    /// Takes steps that end between the times of the record, all in contact under a constant force.
     #[test]
     fn a_contact_without_end_takes_all_of_the_time() {
         let (end, step) = (10.0, 0.7);

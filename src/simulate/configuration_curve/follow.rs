@@ -1,4 +1,4 @@
-//! Motion piece by piece: between the changes of friction it is smooth.
+//! Motion on the configuration curve, piece by piece: smooth integration between located changes of friction.
 
 use std::cell::Cell;
 
@@ -25,14 +25,14 @@ pub(super) struct Run<'a, 'o> {
     pub piece: Piece,
 }
 
-/// What ends a piece of the motion.
+/// End of a smooth piece of the motion.
 enum Cut {
     At {
         t: f64,
         index: usize,
     },
     Ended(Finish),
-    /// Before a position without inertia.
+    /// The inertia vanishes next to the end of the piece.
     NoInertia,
     Stopped,
 }
@@ -75,13 +75,13 @@ impl Follow<'_> {
         self.equation.friction()
     }
 
-    /// Whether anything may hold the mechanism at rest.
+    /// Whether friction or a dry load may hold the mechanism at rest.
     pub fn may_stick(&self) -> bool {
         self.friction().is_some() || self.equation.loads().are_dry()
     }
 }
 
-/// The event that the change of a quantity is, if it is one.
+/// Returns the kind of event of an event function, if it reports one.
 fn event(index: usize) -> Option<&'static str> {
     match index {
         SPEED => Some("turning-point"),
@@ -157,7 +157,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// One piece of sliding, up to the next change of friction.
+    /// Integrates one piece of sliding, up to the next change of friction.
     fn slide(&mut self) -> Cut {
         let equation = self.follow.equation;
         let friction = self.follow.friction();
@@ -238,7 +238,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// The step ended at a change inside it, integrated anew.
+    /// Integrates the step anew up to a change inside it.
     fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
         let settings = &self.follow.settings;
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {

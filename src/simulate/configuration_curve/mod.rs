@@ -1,4 +1,4 @@
-//! Motion in time on the configuration curve: past the limits of a rocker, and with Coulomb friction.
+//! Motion in time on the configuration curve, past the limits of a rocker and with Coulomb friction or dry loads.
 
 mod follow;
 mod release;
@@ -16,23 +16,23 @@ use crate::engine::time::{Finish, Settings, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
-/// Crank lengths from a change point within which the last digits of the lengths decide.
+/// Distance from a change point, in crank lengths, within which the last digits of the lengths decide.
 const NEAR_CHANGE_POINT: f64 = 1e-6;
 
-/// The equation on the configuration curve, and the start of the run on it.
+/// Equation on the configuration curve through the start, and the state of the coordinate at the start.
 #[derive(Clone)]
 pub(super) struct OnCurve {
     pub equation: Arc<CurveEquation>,
     pub start: Start,
 }
 
-/// Whether a free motion in time is computed here.
+/// Whether a free motion in time follows the configuration curve.
 pub(super) fn serves(task: &RunSetup<'_>) -> bool {
     let may_stick = task.scene.reduced().friction.is_some() || task.equation().loads().are_dry();
     !task.turns_fully() || may_stick
 }
 
-/// What the reader should know about the lengths.
+/// Returns the warning about lengths at or near a change point, if any.
 pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
     let near = task.equation().linkage().nearness_to_change_point();
     match task.limits.class {
@@ -42,7 +42,7 @@ pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
 }
 
 impl OnCurve {
-    /// The equation on the curve of the start, and the start on it; none where no curve goes through it.
+    /// Places a run on the curve through its start; none where no curve passes through it.
     pub fn through_start(task: &RunSetup<'_>) -> Option<OnCurve> {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
         let speed = match task.speed {
@@ -58,8 +58,7 @@ impl OnCurve {
         Some(OnCurve { equation, start })
     }
 
-    /// Energy at the end of the last step against that at the start and the work (J), for a run whose crank was this fast
-    /// (rad/s).
+    /// Computes the energy balance up to the end of the last step, from work (J) and the largest crank speed (rad/s).
     pub fn energy_balance(
         &self,
         equation: &Equation,
@@ -83,45 +82,46 @@ impl OnCurve {
     }
 }
 
-/// Takes what is computed in time.
+/// Receiver of motion in time, step by step.
 pub(super) trait Observer {
-    /// A part of the motion in a phase of the curve, or in none where the crank angle is the coordinate of a smooth motion;
-    /// true ends the run.
+    /// Takes a step in a phase of the curve, or in none with the crank angle as a smooth coordinate; true ends the run.
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool;
 
-    /// Something that happened on the curve.
+    /// Takes an event on the curve.
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
 }
 
+/// Run in time on the configuration curve: equation, settings, start and turn limit.
 pub(super) struct Follow<'a> {
     pub equation: &'a CurveEquation,
     pub settings: Settings<'a>,
-    /// Of the coordinate.
+    /// State of the coordinate at the start.
     pub start: Start,
-    /// How far the crank may turn from `turned_from`, rad.
+    /// Largest rotation of the crank from `turned_from`, rad; none without a turn limit.
     pub turn_limit: Option<f64>,
     pub turned_from: Angle,
 }
 
-/// How a run in time ended.
+/// End of a piece in time.
 #[derive(Clone, Debug, Default)]
 pub(super) enum End {
-    /// At its time, or after its turns, or another piece follows.
+    /// The piece reached its time or its turns, or another piece follows.
     #[default]
     Done,
-    /// At rest for good before its turns are complete.
+    /// The mechanism is at rest for good before its turns are complete.
     AtRest,
-    /// The observer ended it.
+    /// The observer ended the piece.
     Stopped,
     /// The integrator could not go on, or the work limit is reached.
     Integrator(Finish),
-    /// For a reason that is known at once.
+    /// A reason that is known at once.
     Named(Box<Why>),
 }
 
+/// Result of a piece in time: last step, work, counts and end.
 pub(super) struct Piece {
     pub last: Step,
-    /// Work of all that has no potential, J.
+    /// Work of friction and of the loads without potential, J.
     pub work: f64,
     pub steps: u64,
     pub evaluations: u64,
@@ -130,7 +130,7 @@ pub(super) struct Piece {
     pub impossible: Option<Start>,
 }
 
-/// Time, crank angle and speed (rad/s) at a state of the coordinate.
+/// Converts a state of the coordinate to time, crank angle and crank speed (rad/s).
 pub(super) fn crank_state(curve: &Curve, at: Start) -> Start {
     Start {
         t: at.t,

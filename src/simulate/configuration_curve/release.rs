@@ -1,28 +1,28 @@
-//! When loads that change in time tear a sticking slider loose.
+//! Release of a sticking slider by loads in time: first zero of the static margin, by sampling and load enclosures.
 
 use crate::engine::WorkLimit;
 use crate::mechanism::AtRest;
 use crate::numeric::root;
 
-/// Where inside an interval the band is looked at: unevenly, so that no period of a load hides between.
+/// Sample places in an interval, as parts of its length: uneven, as a periodic load could hide between even ones.
 const PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
-/// The first interval, as part of the time that is left, and the shortest.
+/// Longest interval, also the first, and shortest interval, as parts of the time left.
 const FIRST_INTERVAL: f64 = 1.0 / 317.0;
 const SHORTEST_INTERVAL: f64 = 1e-9;
 
-/// What a search found.
+/// Result of a search for release.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Release {
-    /// The static band does not hold after this time, s.
+    /// The static friction gives way after this time, s.
     At(f64),
-    /// The slider sticks all the time.
+    /// The slider sticks for all of the time.
     Never,
-    /// The search was not allowed to go further than this time, s.
+    /// The work limit ended the search at this time, s.
     Unknown(f64),
 }
 
-/// The first time between `from` and `to` (s) after which the static band does not hold, and how often it was
-/// evaluated.
+/// Finds the first time between `from` and `to` (s) after which static friction gives way, and counts the evaluations
+/// of the margin.
 pub(super) fn time(
     rest: &AtRest<'_>,
     mu_static: f64,
@@ -46,13 +46,13 @@ pub(super) fn time(
         });
         let values = times.map(band);
         count += PLACES.len() as u64;
-        // How far the values are from a straight line says how far the band may dip between them.
+        // The distance of the samples from a straight line indicates the dip of the margin between them.
         let line = |part: f64| values[0] + part * (values[4] - values[0]);
         let bend = (1..4)
             .map(|i| (values[i] - line(PLACES[i])).abs())
             .fold(0.0, f64::max);
         let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-        // A band that is zero throughout, as at a dead centre without weight, holds.
+        // A margin that is zero throughout, as at a dead centre without weight, holds.
         let even = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
         let change = rest.margin_change(mu_static, [t, end]);
         let calm = even && least >= change;
@@ -66,7 +66,7 @@ pub(super) fn time(
             && change == 0.0
             && values[..i].windows(2).all(|w| w[1] <= w[0])
         {
-            // It falls all the way to where it is exceeded.
+            // The margin falls all the way to the crossing.
             return (Release::At(crossing(band, times[i - 1], times[i])), count);
         } else {
             length = 0.5 * (end - t);

@@ -1,4 +1,4 @@
-//! From motion to rest and from rest to motion, and where rigid bodies do not say how it goes on.
+//! Transitions between motion and rest, and jamming, where rigid bodies leave the motion undetermined.
 
 use super::super::guide_friction::BESIDE;
 use super::super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
@@ -13,11 +13,11 @@ use crate::engine::time::{Finish, Start};
 use crate::mechanism::FromRest;
 use crate::scene::Variable;
 
-/// How far ahead a run without a last time looks for a release, in units of its time so far.
+/// Span in which a run without a last time seeks a release, in units of its time up to then, or of 1 s.
 const FAR_AHEAD: f64 = 1e3;
 
 impl Run<'_, '_> {
-    /// Goes on from rest: none if it moves. `before`: the direction in which it moved.
+    /// Leaves rest; none if the motion goes on, otherwise the end of the run. `before`: previous direction of motion.
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
         if !self.follow.may_stick() {
             return None;
@@ -43,8 +43,7 @@ impl Run<'_, '_> {
         self.check_jam()
     }
 
-    /// Stays at rest until the static band does not hold any more: the direction in which it then slips, or how
-    /// the run ends.
+    /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
     fn rest(&mut self, mu_static: f64) -> Result<f64, End> {
         let Start { t, angle, .. } = self.now;
         let equation = self.follow.equation;
@@ -89,6 +88,7 @@ impl Run<'_, '_> {
         Ok(if pull.pulls_forward() { 1.0 } else { -1.0 })
     }
 
+    /// Returns the end of the run if rigid bodies jam at the current state.
     pub fn check_jam(&mut self) -> Option<End> {
         let friction = self.follow.friction()?;
         let Start { t, angle, speed } = self.now;
@@ -107,7 +107,7 @@ impl Run<'_, '_> {
         }))
     }
 
-    /// A run whose steps became too small next to jamming has jammed.
+    /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
     pub fn singular(&self, finish: Finish) -> End {
         let Start { t, angle, speed } = self.now;
         if finish == Finish::StepTooSmall
@@ -121,11 +121,11 @@ impl Run<'_, '_> {
         End::Integrator(finish)
     }
 
-    /// The signs with which motion in `direction` (±1 of the coordinate) begins.
+    /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate).
     pub fn signs_for(&self, direction: f64) -> Signs {
         let equation = self.follow.equation;
         if equation.loads().are_dry() {
-            // The sign of N follows from those of the speeds.
+            // The signs of the speeds determine the sign of N.
             let seen = self.seen(direction);
             self.quantities.against.set(against(equation, &seen));
         }
@@ -139,7 +139,7 @@ impl Run<'_, '_> {
             .quantities
             .values(t, angle.plus(direction * BESIDE), speed);
         let mut signs = signs(values, ahead, direction);
-        // A start without speed says nothing about its direction.
+        // A start at rest has no direction: the acceleration gives it.
         if speed == 0.0 && !self.follow.may_stick() {
             let motion = self.in_phase(Phase::FREE);
             if motion.acceleration(t, angle, speed) < 0.0 {
@@ -149,7 +149,7 @@ impl Run<'_, '_> {
         signs
     }
 
-    /// Where dry loads turn round, the normal force jumps.
+    /// Updates the signs where dry loads reverse and the normal force jumps.
     pub fn oppose(&mut self, index: usize) {
         let equation = self.follow.equation;
         if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {

@@ -1,4 +1,4 @@
-//! What a pass hands on, why its pieces end, and where it arrives.
+//! Interface of a pass to its recorder, ends of its pieces, and the state in which it arrives.
 
 use std::borrow::Cow;
 
@@ -11,21 +11,21 @@ use crate::engine::time::{Settings, Start};
 use crate::error::Error;
 use crate::plan::Engine;
 
-/// Takes what is computed.
+/// Receiver of the pieces of a pass.
 pub(super) trait Sink: Observer {
-    /// An engine takes over at a time, s.
+    /// Takes note that an engine takes over at a time, s.
     fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
 
-    /// A piece over the angle.
+    /// Takes a piece over the angle.
     fn over_angle(&mut self, driven: &Driven) -> Result<(), Error>;
 
     /// Keeps the motion of a piece over the angle that is one of several.
     fn keep(&mut self, _driven: Driven) {}
 
-    /// A piece in time begins, on a configuration curve or with the crank angle as its coordinate.
+    /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate.
     fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>);
 
-    /// A piece in time has ended; the last step, if the run ends inside it.
+    /// Ends a piece in time; returns the shortened last step if the run ends inside it.
     fn end_in_time(
         &mut self,
         _motion: &Counted<'_>,
@@ -36,7 +36,7 @@ pub(super) trait Sink: Observer {
     }
 }
 
-/// A piece over the angle in the time of the run.
+/// Piece over the crank angle, placed in the time of the run.
 pub(super) struct Driven {
     pub driving: Driving,
     pub engine: Engine,
@@ -44,14 +44,14 @@ pub(super) struct Driven {
     pub to: Start,
 }
 
-/// Why a piece ended.
+/// Reason for the end of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Why {
-    /// The run is at its goal, or cannot go on.
+    /// The run reached its goal or cannot go on.
     Ended,
-    /// The crank turns safely again.
+    /// The crank is clear of rest again.
     Clear,
-    /// The engine cannot go on, or not begin.
+    /// The engine cannot begin or go on.
     NotApplicable(NotApplicable),
 }
 
@@ -60,17 +60,17 @@ pub(super) struct Arrived {
     pub now: Start,
     /// Last step, if the pass ended in time.
     pub last: Option<Step>,
-    /// Whether that followed the configuration curve.
+    /// Whether the last piece followed the configuration curve.
     pub on_curve: bool,
-    /// Last piece, if that was over the angle, until another one follows; at the end, if it is the only one.
+    /// Last piece, if over the angle, until the next piece begins; after the pass, the piece if it is the only one.
     pub driven: Option<Driven>,
-    /// Work of all that has no potential, J.
+    /// Work of friction and of the loads without potential, J.
     pub work: f64,
     /// Largest kinetic energy at the ends of panels and steps, J.
     pub largest_kinetic: f64,
     pub evaluations: u64,
     pub steps: u64,
-    /// Pieces over the angle, and in time.
+    /// Number of pieces over the angle, and number of pieces in time.
     pub over_angle: u64,
     pub in_time: u64,
     pub end: End,

@@ -1,4 +1,4 @@
-//! When a crank that was near to rest turns safely again.
+//! Hand-over from time to angle: detects that a crank that was near to rest turns safely again.
 
 use std::f64::consts::TAU;
 
@@ -11,27 +11,27 @@ use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
-/// With less than this part of the largest kinetic energy since it turned the crank is not handed over.
+/// Least kinetic energy for a hand-over, as part of the largest since the last turning point.
 const FAST: f64 = 0.25;
-/// A hand-over keeps this far from corners, rad: they may be events.
+/// Least distance of a hand-over from corners, rad: they may be events.
 const APART: f64 = 1e-6;
 
-/// A crank that is followed in time until it turns safely again.
+/// Observer of a crank in time until it turns safely again.
 pub(super) struct Until<'a, 'o> {
     course: &'a Course<'a>,
     observer: &'o mut dyn Sink,
     wait: f64,
-    /// Where it turned last.
+    /// Crank angle at the last turning point.
     turned: Angle,
-    /// Largest kinetic energy since then, J.
+    /// Largest kinetic energy since the last turning point, J.
     since: f64,
     pub clear: Clear,
 }
 
-/// What was seen of the crank.
+/// State of the hand-over.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Clear {
-    /// Whether the angle may take over.
+    /// Whether the angle engine may take over.
     pub is_reached: bool,
     /// Largest kinetic energy at the ends of steps, J.
     pub largest_kinetic: f64,
@@ -50,7 +50,7 @@ impl Observer for Until<'_, '_> {
 }
 
 impl<'a, 'o> Until<'a, 'o> {
-    /// From a state on until the crank has turned by `wait` (rad) in one direction.
+    /// Observes from a state until the crank has turned by `wait` (rad) in one direction.
     pub fn new(
         course: &'a Course<'a>,
         from: Start,
@@ -67,7 +67,7 @@ impl<'a, 'o> Until<'a, 'o> {
         }
     }
 
-    /// Whether the angle may take over at the end of a step.
+    /// Whether the angle engine may take over at the end of a step.
     fn is_reached(&mut self, step: &Step) -> bool {
         if self.wait == f64::INFINITY {
             return false;

@@ -1,4 +1,4 @@
-//! The loop of a free motion: the engines of the plan take turns until the goal is met.
+//! Loop of a free motion: the engines of the plan take turns until the goal is met.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -16,21 +16,21 @@ use crate::error::Error;
 use crate::plan::{Engine, Method};
 use crate::scene::Extent;
 
-/// What is run, and how finely.
+/// Settings of one pass: set-up, first engine, extent and resolution.
 #[derive(Clone)]
 pub(super) struct Course<'a> {
     pub task: &'a RunSetup<'a>,
     pub position: &'a AngleModel<'a>,
     pub first: Engine,
-    /// Whether it is the pass that another one is compared with.
+    /// Whether this is the second pass, with which the first is compared.
     pub is_second: bool,
     pub extent: Extent,
     pub resolution: Resolution<'a>,
     pub settings: Settings<'a>,
-    /// How far (rad) the crank turns in one direction before the angle takes over again.
+    /// Crank rotation in one direction, rad, after which the angle engine resumes.
     pub wait: f64,
     pub limit: WorkLimit<'a>,
-    /// The configuration curve, once a piece follows it.
+    /// Configuration curve through the start, once a piece follows it.
     pub curve: OnceCell<OnCurve>,
 }
 
@@ -39,15 +39,15 @@ pub(super) struct Pass<'a, 'o> {
     pub motion: &'a Counted<'a>,
     pub sink: &'o mut dyn Sink,
     pub arrived: Arrived,
-    /// Positions tabulated before it.
+    /// Positions of the angle model evaluated before this pass.
     places: u64,
-    /// Evaluations of loads over the angle and along the configuration curve.
+    /// Number of evaluations of loads over the angle and along the configuration curve.
     pub beside: u64,
     pub wait: f64,
 }
 
 impl Course<'_> {
-    /// Runs to the end. What else is evaluated of the motion meanwhile counts for the work limit, too.
+    /// Runs to the end. All evaluations of `motion` during the pass count for the work limit.
     pub fn run(&self, motion: &Counted<'_>, sink: &mut dyn Sink) -> Result<Arrived, Error> {
         let mut pass = Pass {
             course: self,
@@ -78,7 +78,7 @@ impl<'a> Pass<'a, '_> {
         places + self.beside + self.motion.evaluations()
     }
 
-    /// What is left of the work limit.
+    /// Returns the rest of the work limit.
     pub fn left(&self) -> WorkLimit<'a> {
         self.course.limit.after(self.spent())
     }
@@ -86,7 +86,7 @@ impl<'a> Pass<'a, '_> {
     fn pieces(&mut self) -> Result<(), Error> {
         let mut engine = self.course.first;
         let mut reason = self.course.task.plan.reason.clone();
-        // How far the crank turns in time before the angle takes over; for ever, where its speed is not what stops the angle.
+        // Rotation, rad, before the angle engine resumes; infinite unless that engine stopped at low speed.
         let mut wait = f64::INFINITY;
         loop {
             let why = match engine {
@@ -106,7 +106,7 @@ impl<'a> Pass<'a, '_> {
         }
     }
 
-    /// The engine that follows; none at the end.
+    /// Returns the next engine; none at the end of the run.
     fn next(&mut self, engine: Engine, why: Why) -> Result<Option<Engine>, Error> {
         use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
         let why = match why {
@@ -119,7 +119,7 @@ impl<'a> Pass<'a, '_> {
             if self.course.task.options.method != Method::Auto && !self.course.is_second {
                 return Err(stop_reason::refusal(self.course.task, why));
             }
-            // What an engine that could not begin has tabulated is not of this run.
+            // Evaluations of an engine that could not begin do not count for this run.
             self.places = self.course.position.evaluations();
         }
         Ok(match (engine, why) {
@@ -140,13 +140,13 @@ impl<'a> Pass<'a, '_> {
         self.arrived.over_angle + self.arrived.in_time > 0
     }
 
-    /// Whether the angle may take over from the time.
+    /// Whether the angle engine may resume after a piece in time.
     fn hands_back(&self) -> bool {
         let task = self.course.task;
         task.plan.has(Engine::Angle) && task.turns_fully()
     }
 
-    /// Why an engine takes over.
+    /// Returns the reason for the next engine.
     fn reason(&self, next: Engine, why: Why) -> Cow<'static, str> {
         match why {
             Why::NotApplicable(why) if next == Engine::Time => {

@@ -1,4 +1,4 @@
-//! Errors of motions over the crank angle: by rounding of times and places, and by what their series leave out.
+//! Errors of motions over the crank angle, from roundoff of times and positions and from truncation of the series.
 
 use super::super::balance::Balance;
 use super::super::error_estimate::MARGIN;
@@ -11,29 +11,29 @@ use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 
-/// Relative error of times by rounding, of the angle engine.
+/// Relative roundoff of times of the angle engine.
 pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
 
-/// Times of a run at which its rows are judged.
+/// Number of times of a run at which row errors are sampled.
 const LOOKED_AT: u32 = 64;
 
-/// Error of the worst row of a run until a time (s), by that of rows spread over the run.
+/// Returns the error of the worst row of a run until a time (s), from samples over the run.
 pub(super) fn worst_row(
     end: f64,
     last: ErrorEstimate,
     error: impl Fn(f64) -> ErrorEstimate,
 ) -> ErrorEstimate {
-    // Multiples of the golden section fall everywhere in panels, however these divide the run.
+    // Multiples of the golden section lie everywhere in panels, however these divide the run.
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * end);
     times.fold(last, |worst, t| worst.max(error(t)))
 }
 
-/// How far an angle in its turn is rounded at most, rad.
+/// Largest roundoff of an angle within its turn, rad.
 pub(super) const PLACE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// Error of a state if its time may be off by `late` (s): it moves the state along the motion. The angle in its
-/// turn is right to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
+/// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
+/// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
 /// terms, whose sum is rounded by half of √33 units. These errors are independent.
 pub(super) fn late_by(
     task: &RunSetup<'_>,
@@ -50,7 +50,7 @@ pub(super) fn late_by(
     }
 }
 
-/// Error of the last state, and of the worst row.
+/// Returns the error of the last state and of the worst row of the energy engine.
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
     driving: &Driving,
@@ -68,11 +68,11 @@ pub(super) fn by_energy(
     }
 }
 
-/// Error of a state by that of its time, and by the rounding of its place and of energies.
+/// Returns the error of a state from that of its time and from the roundoff of position and energies.
 fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
     let rests = task.speed == 0.0 || orbit.turns_back();
-    // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time hangs on the force: a
-    // difference, which is rounded more.
+    // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time depends on the
+    // force, a difference with more roundoff.
     let roundings = if rests { 4.0 } else { 1.0 };
     let late = orbit.time_error(t) + roundings * f64::EPSILON * t;
     let place = orbit
@@ -82,15 +82,15 @@ fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) 
     error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
     let (angle, omega) = state;
     let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
-    // Not a number at rest.
+    // At rest: not a number.
     let kinetic = 0.5 * momentum * omega.abs();
     let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(omega.abs());
     error.omega_rad_per_s = error.omega_rad_per_s.hypot(by_energy);
     error
 }
 
-/// How far the speed may be off that of its angle, rad/s: what the series leave out of it there, or less if
-/// the energy of the state says so.
+/// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
+/// shows it.
 fn left_out(
     task: &RunSetup<'_>,
     (orbit, end): (&Orbit, f64),
@@ -109,7 +109,7 @@ fn left_out(
     (orbit.speed_error(end) * omega.abs()).min(seen)
 }
 
-/// Error of a row at a time, s.
+/// Returns the error of a row at a time, s.
 fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let state = orbit.state(t);
     let mut error = rounded(task, (orbit, t), state);
@@ -117,7 +117,7 @@ fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     error
 }
 
-/// Error of a row at a time (s) of two motions, the error of the last one added.
+/// Returns the error of a row at a time (s) from the distance of two motions, plus the error of the last row.
 pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> ErrorEstimate {
     let [(angle, speed), (other, faster)] = orbits.map(|orbit| orbit.state(t));
     ErrorEstimate {

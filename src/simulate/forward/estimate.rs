@@ -1,8 +1,8 @@
-//! Global error of a free motion: its distance from a second, much finer run, and what rounding may have added to both.
+//! Global error of a free motion: distance from a second, much finer run, plus the propagated roundoff of both.
 //!
-//! Rounding: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a
-//! rounded angle changes the acceleration. These errors are carried to the end along the linearised motion, for
-//! near a balance they grow with it; independent ones add up by their squares.
+//! Roundoff: each step rounds θ and θ̇ to half a unit in the last place, independently of the others, and a rounded
+//! angle changes the acceleration. The linearised motion carries these errors to the end, as they grow with it near a
+//! balance; independent errors add up by their squares.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -32,17 +32,17 @@ use crate::mechanism::{CurveEquation, Equation};
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// The second run is handed over at other places, rad.
+/// Rotation before the angle engine resumes in the second run, rad: different from that of the first.
 const OTHER_WAIT: f64 = 1.4 * TAU;
-/// Evaluations of the second run for one of the first, and beside them, in time or over the angle, where tables are made.
+/// Evaluations of the second run for one of the first, plus a constant, in time or over the angle, for tables.
 const FOR_ONE: u64 = 20;
 const BESIDE: [u64; 2] = [20_000, 200_000];
-/// What is stated of rounding, in standard deviations.
+/// Stated roundoff, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
-/// Less of an error of the energy than this is forgotten. Half or twice as much changes none of 200 random runs.
+/// Remaining part of an energy error that is neglected. Half or twice as much changes none of 200 random runs.
 const FORGOTTEN: f64 = 0.1;
 
-/// Global error of a run; none where no second run gets to its end.
+/// Estimates the global error of a run; none where no second run reaches the end.
 pub(super) fn estimate(
     course: &Course<'_>,
     arrived: &Arrived,
@@ -59,6 +59,7 @@ pub(super) fn estimate(
     }
 }
 
+/// Estimates the error by a second run, by collocation or, where that does not arrive, by the method of the run.
 fn by_second_run(
     course: &Course<'_>,
     arrived: &Arrived,
@@ -82,7 +83,7 @@ fn by_second_run(
         guide: &record.checkpoints.first,
         ..plain
     };
-    // Where collocation does not get to the end.
+    // Used where collocation does not reach the end.
     let again = Settings {
         tolerance: tighter(tolerance),
         ..plain
@@ -137,7 +138,7 @@ fn by_second_run(
     })
 }
 
-/// Distance of two runs at the end, and what rounding may add.
+/// Returns the distance of two runs at the end, plus the roundoff.
 fn distance(
     course: &Course<'_>,
     arrived: &Arrived,
@@ -168,7 +169,7 @@ fn distance(
     }
 }
 
-/// The spread of a coordinate at the end as that of the crank: of its angle and its speed.
+/// Converts the spread of a coordinate at the end to that of crank angle and crank speed.
 fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] {
     let (angle, speed) = (spread.angle(), spread.speed());
     let on = course.curve.get().filter(|_| arrived.on_curve);
@@ -181,12 +182,12 @@ fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] 
     [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
 }
 
-/// What is seen of the second run: what rounding does to it, and how far it is from the states of the first.
+/// Observer of the second run: propagates roundoff and compares with the states of the first.
 struct Second<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: Rounding,
-    /// The configuration curve of the last piece in time, if it follows one.
+    /// Configuration curve of the last piece in time, if it follows one.
     on: Option<Arc<CurveEquation>>,
     compared: Compared<'a>,
 }
@@ -196,7 +197,7 @@ impl<'m, 'a> Second<'m, 'a> {
         let Start { t, angle, speed } = course.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
-        // Panels over the angle state themselves what rounding does to them.
+        // Panels over the angle state their roundoff themselves.
         let moves = moves && course.first == Engine::Time;
         Second {
             equation: course.task.equation(),
@@ -207,13 +208,12 @@ impl<'m, 'a> Second<'m, 'a> {
         }
     }
 
-    /// What becomes of a perturbation over a piece over the angle: it is early by a time, which stays, and has another
-    /// energy, which makes it early, too.
+    /// Computes the transition over a piece over the angle: a lead in time stays, and an energy error adds to it.
     fn transition(&self, [from, to]: [&Start; 2], errors: &Errors) -> StateTransition {
         let [inertia, then] = [from, to].map(|at| self.inertia(at));
         let [alpha, after] = [from, to].map(|at| self.acceleration(at));
         let energy = [-inertia * alpha, inertia * from.speed];
-        // A piece that loses nearly all of its energy forgets what it had.
+        // A piece that loses nearly all of its energy forgets an energy error.
         let by_energy = if errors.kept < FORGOTTEN {
             0.0
         } else {
@@ -250,7 +250,7 @@ impl Sink for Second<'_, '_> {
         };
         let errors = &driving.errors;
         let transition = self.transition([from, &to], errors);
-        // Its own rounding is stated, not a standard deviation.
+        // The roundoff of the piece is a stated error, no standard deviation.
         let unit = DEVIATIONS * f64::EPSILON;
         let [late, off] = [errors.late, errors.off].map(|error| error / unit);
         let carried = self.rounding.spread.carried(&transition);

@@ -1,5 +1,5 @@
-//! Pieces in time: with the crank angle as the coordinate where it is smooth and turns fully, else along the configuration
-//! curve, past the limits of a crank and where friction or a dry load may hold it.
+//! Pieces in time, with the crank angle as the coordinate where it is smooth and turns fully, otherwise along the
+//! configuration curve, past the limits of a crank and where friction or a dry load may hold it.
 
 use std::borrow::Cow;
 
@@ -16,7 +16,7 @@ use crate::plan::Engine;
 use crate::scene::Extent;
 
 impl Pass<'_, '_> {
-    /// A piece in time, to the end or until the crank has turned by `wait` (rad) in one direction.
+    /// Runs a piece in time, to the end or until the crank has turned by `wait` (rad) in one direction.
     pub fn in_time(&mut self, wait: f64, reason: Cow<'static, str>) -> Result<Why, Error> {
         self.keep();
         let course = self.course;
@@ -62,7 +62,7 @@ impl Pass<'_, '_> {
         Ok(Why::Ended)
     }
 
-    /// With the crank angle as the coordinate.
+    /// Runs a piece with the crank angle as the coordinate.
     fn of_crank(&mut self, wait: f64) -> (Piece, Clear) {
         let from = self.arrived.now;
         let settings = Settings {
@@ -98,7 +98,7 @@ impl Pass<'_, '_> {
         (piece, clear)
     }
 
-    /// Along the curve.
+    /// Runs a piece along the configuration curve.
     fn along_curve(&mut self, on: &OnCurve, wait: f64) -> (Piece, Clear) {
         let course = self.course;
         let begins = self.arrived.over_angle + self.arrived.in_time == 0;
@@ -108,7 +108,7 @@ impl Pass<'_, '_> {
                 limit: self.left(),
                 ..course.settings
             },
-            // Only a crank that turns fully is handed over, and its angle is the coordinate.
+            // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
             start: if begins { on.start } else { self.arrived.now },
             turn_limit: course.extent.angle(),
             turned_from: course.task.start(),
@@ -125,7 +125,7 @@ impl Pass<'_, '_> {
 }
 
 impl Course<'_> {
-    /// The curve through the start.
+    /// Returns the curve through the start.
     fn on_curve(&self) -> Result<&OnCurve, Error> {
         if let Some(curve) = self.curve.get() {
             return Ok(curve);

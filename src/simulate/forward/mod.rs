@@ -1,5 +1,5 @@
-//! A free motion: the engines of its plan take turns in one loop, one recorder takes what they compute, and one conclusion
-//! makes the result, its errors and its energy balance.
+//! Free motion: the engines of the plan take turns in one loop, one recorder takes their pieces, and one conclusion
+//! makes the result, the errors and the energy balance.
 
 mod arrived;
 mod clear;
@@ -37,10 +37,10 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// How far the crank turns in one direction before the angle takes over again, rad.
+/// Crank rotation in one direction, rad, after which the angle engine resumes.
 const WAIT: f64 = TAU;
 
-/// Runs a task, whose mechanism over the crank angle is known.
+/// Runs a free motion, with the model of its mechanism over the crank angle.
 pub(super) fn run(
     task: &RunSetup<'_>,
     position: &AngleModel<'_>,
@@ -61,7 +61,7 @@ pub(super) fn run(
         curve: OnceCell::new(),
     };
     let forward = Forward(task.equation());
-    // What rows and events cost is counted apart: it does not change how far a run goes.
+    // Evaluations for rows and events are counted apart: they do not change how far a run goes.
     let looked_at = Counted::new(&forward);
     let mut notes = Notes::new(task, &looked_at, rows);
     let arrived = course.run(&Counted::new(&forward), &mut notes)?;
@@ -103,7 +103,7 @@ pub(super) fn run(
     Ok(with_motion(outcome.conclude(task), course, arrived))
 }
 
-/// The engine by whose name a run goes: that over the angle, if any piece was.
+/// Returns the engine that names a run: one over the angle, if any piece was.
 fn engine(arrived: &Arrived) -> Engine {
     match &arrived.driven {
         Some(driven) => driven.engine,
@@ -131,7 +131,7 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
     }
 }
 
-/// The run with its dense motion: that over the angle is whole as it stands, that on a curve is seen as the crank's.
+/// Adds the dense motion to the run: a motion over the angle as it stands, one on a curve converted to the crank.
 fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Simulation {
     let alone = arrived.is_one_piece();
     match (arrived.driven, course.curve.into_inner()) {

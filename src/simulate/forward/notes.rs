@@ -1,5 +1,4 @@
-//! A run as it is recorded, whatever engine computes it: rows, dead centres, turning points, speeds, and where it ends inside
-//! a step.
+//! Recording of a free motion, whatever engine computes it: rows, events, speeds, and an end inside a step.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -25,34 +24,35 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// Two passages of a dead centre this near to each other (rad) are one, at the end of a piece and the start of the next.
+/// Distance, rad, below which two passages of a dead centre are one, at the end of a piece and the start of the next.
 const SAME_PLACE: f64 = 1e-9;
 
+/// Sink and observer that records a free motion: rows, dead centres, turning points and speeds.
 pub(super) struct Notes<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
     motion: &'a Counted<'a>,
-    /// In [0, 2π), rad.
+    /// Dead centres, rad in [0, 2π).
     dead_centres: Vec<f64>,
-    /// Turning points, if they may show that the crank never completes its turns.
+    /// Record of turning points, if the crank may never complete its turns.
     swing: Option<Swing>,
-    /// When (s) the run ends inside the last step, and why.
+    /// Time (s) and reason of an end inside the last step.
     ends_at: Option<(f64, EndsBy)>,
-    /// The start of a piece at a dead centre that was noted before.
+    /// Start of a piece at a dead centre that is already recorded.
     passed: Option<Start>,
     crossings: Vec<(f64, Crossing)>,
-    /// The configuration curve of the last piece in time, if it follows one.
+    /// Configuration curve of the last piece in time, if it follows one.
     on: Option<Arc<CurveEquation>>,
-    /// How the slider touched its guide at last.
+    /// Last phase of the slider in its guide.
     phase: Phase,
 }
 
-/// What ends a run inside a step.
+/// Reason for an end inside a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum EndsBy {
-    /// The turns that were asked for are complete.
+    /// The turns asked for are complete.
     Turns,
-    /// The crank swings to and fro and came no further for long.
+    /// The crank swings to and fro, and its swing no longer grows.
     Swing,
 }
 
@@ -77,14 +77,14 @@ impl<'a> Notes<'a> {
         }
     }
 
-    /// Why the run ended, if the crank is caught.
+    /// Returns the reason for the end, if the crank is caught in a swing.
     pub fn caught(&self) -> Option<Why> {
         let curve = self.on.as_ref().map(|on| on.curve());
         let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
         self.swing?.why(crank)
     }
 
-    /// The record, with the row of the end.
+    /// Returns the record, with the row of the end.
     pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
         let Start { t, angle, speed } = arrived.now;
         let Notes {
@@ -99,7 +99,7 @@ impl<'a> Notes<'a> {
         self.recorder.finish(|| Some(last()))
     }
 
-    /// A step of the crank; true ends the run.
+    /// Records a step of the crank; true ends the run.
     fn step_of_crank(&mut self, mut step: Step) -> bool {
         self.reach_turn_limit(&mut step);
         self.look_for_events(&mut step);
@@ -114,7 +114,7 @@ impl<'a> Notes<'a> {
         self.recorder.step(&mut step, until, &crank, None) || self.ends_at.is_some()
     }
 
-    /// A step along the configuration curve; true ends the run.
+    /// Records a step along the configuration curve; true ends the run.
     fn step_on_curve(&mut self, mut step: Step, on: &CurveEquation, phase: Phase) -> bool {
         self.phase = phase;
         let along = along(self.task, on, phase);
@@ -133,12 +133,12 @@ impl<'a> Notes<'a> {
         *speed = events::follow_speed(step, self.motion, *speed);
     }
 
-    /// How far the crank has turned at an angle of a step, rad.
+    /// Returns the rotation of the crank since the start at an angle of a step, rad.
     fn turned(&self, step: &Step, theta: f64) -> f64 {
         step.angle(theta).minus(self.task.start())
     }
 
-    /// The last step up to where the run ends inside it, integrated anew; at a turn limit once more, to meet it exactly.
+    /// Integrates the last step anew up to the end of the run inside it; iterates at a turn limit to meet it exactly.
     fn shortened(
         &mut self,
         motion: &Counted<'_>,
@@ -189,7 +189,7 @@ impl<'a> Notes<'a> {
             events::crossings(step, &self.dead_centres, &mut crossings);
         }
         for &(t, what) in &crossings {
-            // An event at the end of the run may be off it by rounding.
+            // Rounding may put an event at the end of the run beside the end.
             let end = self.ends_at.map_or(t, |(t, _)| t);
             if t > end * (1.0 + 8.0 * f64::EPSILON) {
                 break;
@@ -202,7 +202,7 @@ impl<'a> Notes<'a> {
         self.crossings = crossings;
     }
 
-    /// Records a crossing at a time (s) of a step, and whether it ends the run.
+    /// Records a crossing at a time (s) of a step, and the end of the run if the crank is caught.
     fn happens(&mut self, step: &Step, t: f64, what: Crossing) {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
@@ -222,7 +222,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// The coordinate of a curve in one phase.
+/// Returns the coordinate of a curve in one phase.
 fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
     AlongCurve::new(on, phase, task.maker.reactor.as_deref())
 }

@@ -1,4 +1,4 @@
-//! Pieces over the crank angle: of the energy engine, which computes a whole run or none, and of the angle engine.
+//! Pieces over the crank angle, by the energy engine, which computes a whole run or none, and by the angle engine.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -19,16 +19,16 @@ use crate::numeric::root;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// Series end where their coefficients have decayed to this part of the tolerance: of the angle engine, times what a series is
-/// worse inside a panel, where friction may cut it;
+/// Tail of the series of the angle engine, as part of the tolerance, and factor on the tail with friction, which may
+/// cut a series inside a panel.
 const SHARE_OVER_ANGLE: f64 = 1e-2;
 const CUT_BY_FRICTION: f64 = 0.03;
-/// of the energy engine, and at this at the latest, for all digits but the last ones.
+/// Tail of the series of the energy engine, as part of the tolerance, and largest tail: all digits but the last ones.
 const SHARE_OF_ENERGY: f64 = 0.1;
 const MOST_TAIL: f64 = 1e-14;
 
 impl Pass<'_, '_> {
-    /// The whole run from its energy.
+    /// Computes the whole run from its energy.
     pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<Why, Error> {
         let solved = match solve(self.course.task, self.course.position) {
             Ok(solved) => solved,
@@ -41,7 +41,7 @@ impl Pass<'_, '_> {
         Ok(Why::Ended)
     }
 
-    /// A piece of the angle engine from here, to the goal or to where it cannot go on.
+    /// Runs a piece of the angle engine to the goal or to where the engine cannot go on.
     pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<Why, Error> {
         let course = self.course;
         let from = self.arrived.now;
@@ -98,7 +98,7 @@ impl Pass<'_, '_> {
         angle::run(course.position, now, goal, resolution)
     }
 
-    /// Takes a piece.
+    /// Adds a piece over the angle to the pass.
     fn drove(
         &mut self,
         engine: Engine,
@@ -129,7 +129,7 @@ impl Pass<'_, '_> {
         Ok(())
     }
 
-    /// Hands the motion of the last piece over the angle on, which another one follows.
+    /// Hands the motion of the last piece over the angle to the sink, as another piece follows.
     pub fn keep(&mut self) {
         if let Some(driven) = self.arrived.driven.take() {
             self.sink.keep(driven);
@@ -137,7 +137,7 @@ impl Pass<'_, '_> {
     }
 }
 
-/// As fine as the tolerance asks for.
+/// Returns the resolution for the tolerance of a run.
 pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     let share = match &task.maker.sliding {
         Some(_) => SHARE_OVER_ANGLE * CUT_BY_FRICTION,
@@ -151,7 +151,7 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     }
 }
 
-/// Finer, and cut at other angles: two runs on the same panels would have the same error.
+/// Returns a finer resolution, with panels cut at other angles: two runs on the same panels would have the same error.
 pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     Resolution {
         tail: LEAST_TAIL,
@@ -161,14 +161,14 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     }
 }
 
-/// A whole run, and why it ends before its goal, if it does.
+/// Whole run, and the reason for an end before its goal, if any.
 struct Solved {
     driving: Driving,
     last: Start,
     stopped: Option<stop::Why>,
 }
 
-/// Solves a task.
+/// Solves a run from its energy.
 fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotApplicable> {
     let speed = task.speed;
     let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
@@ -188,10 +188,10 @@ fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotAp
     })
 }
 
-/// A motion, its last time, and why it does not complete its turns, if it does not.
+/// Motion, last time (s), and the reason why the turns are not complete, if any.
 type Ended = (Orbit, f64, Option<stop::Why>);
 
-/// The motion and its last time.
+/// Computes the motion until its goal, and its last time.
 fn until_the_end(
     task: &RunSetup<'_>,
     mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
@@ -208,7 +208,7 @@ fn until_the_end(
     };
     let radians = turns * TAU;
     let speed = task.speed;
-    // Long enough for the turns: twice as long again and again, unless the motion repeats.
+    // The span doubles until it covers the turns or the motion repeats.
     let mut until = if speed == 0.0 {
         1.0
     } else {
@@ -238,13 +238,13 @@ fn until_the_end(
     Err(NotApplicable::TooLong)
 }
 
-/// Where (s) the work limit ends a motion that is wanted until a time (s), and why, if it does.
+/// Returns the time (s) and the reason if the work limit ends a motion before a time (s).
 fn cut_short(task: &RunSetup<'_>, orbit: &Orbit, until: f64) -> Option<(f64, stop::Why)> {
     let end = orbit.length();
     (end < until).then(|| (end, task.limited()))
 }
 
-/// When a motion that turns back is first so far (rad) from its start, either way.
+/// Finds the first time (s) at which a motion that turns back is at a distance (rad) from its start, on either side.
 fn time_of_way(task: &RunSetup<'_>, orbit: &Orbit, radians: f64, until: f64) -> Option<f64> {
     let beyond = |t: f64| orbit.state(t).0.minus(task.start()).abs() - radians;
     let mut from = 0.0;

@@ -1,4 +1,4 @@
-//! Why a free motion ends before its goal, cannot begin, or cannot be served by an engine.
+//! Reasons for a free motion that ends before its goal, cannot begin, or is not applicable to an engine.
 
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::mechanism::{CurveEquation, Equation, Singularity};
 use crate::scene::Extent;
 
-/// Why the run ended before its time, if it did.
+/// Returns the reason for an end before the goal, if any.
 pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
     let task = course.task;
     let finish = match (&arrived.end, task.extent) {
@@ -36,7 +36,7 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
     })
 }
 
-/// Why the steps of the crank became too small.
+/// Returns the reason for steps in the crank angle that became too small.
 fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
     let equation = task.equation();
     let at = arrived.impossible.unwrap_or(arrived.now);
@@ -50,7 +50,7 @@ fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
     }
 }
 
-/// Why the steps along the configuration curve became too small.
+/// Returns the reason for steps along the configuration curve that became too small.
 fn singular_on_curve(task: &RunSetup<'_>, on: &CurveEquation, arrived: &Arrived) -> Why {
     let impossible = arrived.impossible.filter(|at| {
         !task
@@ -66,7 +66,7 @@ fn singular_on_curve(task: &RunSetup<'_>, on: &CurveEquation, arrived: &Arrived)
     }
 }
 
-/// A load has no finite value at a state: which.
+/// Returns the end at a load without a finite value, with the load.
 fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
     Why::NoValue {
         asked,
@@ -74,13 +74,13 @@ fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
     }
 }
 
-/// Whether the inertia is next to nothing at an angle (rad), compared with that a radian further.
+/// Whether the inertia nearly vanishes at an angle (rad), compared with that a radian further on.
 fn nearly_vanishes(equation: &Equation, theta: f64) -> bool {
     let inertia = |theta: f64| equation.terms(theta).inertia.m;
     inertia(theta) < 1e-9 * inertia(theta + 1.0)
 }
 
-/// Why a run cannot begin that nothing else is wrong with.
+/// Returns the error of a run without a finite acceleration at its start.
 pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
     let Start { angle, speed, .. } = task.first_state();
     Error::refused(
@@ -92,7 +92,7 @@ pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
     )
 }
 
-/// Why an engine over the angle cannot serve a task.
+/// Returns the reason why an engine over the angle is not applicable, as a clause of a message.
 pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
     match &task.maker.sliding {
         Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
@@ -103,7 +103,7 @@ pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'stati
     }
 }
 
-/// Refuses a method that is asked for and cannot begin.
+/// Returns the error of a method that is asked for and cannot begin.
 pub(super) fn refusal(task: &RunSetup<'_>, why: NotApplicable) -> Error {
     Error::refused(
         format!(

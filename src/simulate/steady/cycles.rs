@@ -1,4 +1,4 @@
-//! The map of a cycle (Poincare): the kinetic energy at its end from that at its start, by a run of one cycle.
+//! Map of a cycle (Poincare): kinetic energy at the end of a cycle from that at its start, by a run of one cycle.
 
 use std::f64::consts::{PI, TAU};
 
@@ -18,20 +18,20 @@ use crate::trajectory::Trajectory;
 
 pub(super) struct Cycle {
     pub trajectory: Trajectory,
-    /// s
+    /// Duration, s.
     pub period: f64,
-    /// Speed at its start, rad/s.
+    /// Crank speed at the start, rad/s.
     pub speed: f64,
-    /// Kinetic energy it gains, J.
+    /// Gain of kinetic energy over the cycle, J.
     pub gain: f64,
     /// Largest kinetic energy, J.
     pub largest: f64,
-    /// What is left open of its energies, relative to them.
+    /// Uncertainty of the energies, relative to them.
     pub uncertain: f64,
 }
 
 impl Cycle {
-    /// Speed (rad/s) where the crank has turned by this (rad) since the start.
+    /// Returns the speed (rad/s) where the crank has turned by `turned` (rad) since the start.
     pub fn omega(&self, start: Angle, turned: f64) -> f64 {
         if let Some(orbit) = self.trajectory.as_orbit() {
             return orbit.passage(turned).map_or(f64::NAN, |(_, speed)| speed);
@@ -42,13 +42,13 @@ impl Cycle {
             state(t).map_or(f64::NAN, way) - turned
         };
         let end = self.trajectory.end();
-        // At the end the way is rounded.
+        // At the end the rotation is rounded.
         let t = root::bracketed(ahead, 0.0, end).unwrap_or(end);
         state(t).map_or(f64::NAN, |(_, speed)| speed)
     }
 }
 
-/// Cycles of any energy: runs of one set-up, which share their panels.
+/// Cycle map of a scene: runs from any energy with one set-up, which share their panels.
 pub(super) struct Cycles<'a> {
     task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
@@ -56,11 +56,11 @@ pub(super) struct Cycles<'a> {
     inertia: f64,
     largest: f64,
     noise: f64,
-    /// What a run was refused for, beside a crank that does not complete the cycle.
+    /// Refusal of a run, for another reason than a crank that does not complete the cycle.
     pub refused: Option<Error>,
 }
 
-/// The scene over one cycle of so many turns from a speed (rad/s); `other`: for the computation to compare with.
+/// Makes the scene of one cycle of `turns` turns from a speed (rad/s); `other` is true for the run of comparison.
 pub(super) fn one_cycle(scene: &Scene, speed: f64, turns: u32, other: bool) -> Scene {
     let mut scene = scene.clone();
     scene.motion.speed = speed;
@@ -74,7 +74,7 @@ pub(super) fn one_cycle(scene: &Scene, speed: f64, turns: u32, other: bool) -> S
 }
 
 impl<'a> Cycles<'a> {
-    /// Runs of one cycle and its mechanism over the angle.
+    /// Makes the map for a set-up and the model of its mechanism over the angle.
     pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> Cycles<'a> {
         Cycles {
             task,
@@ -90,7 +90,7 @@ impl<'a> Cycles<'a> {
         0.5 * self.inertia * speed * speed
     }
 
-    /// Speed at the start with a kinetic energy (J), rad/s.
+    /// Returns the speed at the start for a kinetic energy (J), rad/s.
     fn speed(&self, kinetic: f64) -> f64 {
         (2.0 * kinetic / self.inertia)
             .sqrt()
@@ -122,13 +122,13 @@ impl<'a> Cycles<'a> {
         complete.then_some(run).ok_or(NotApplicable::TooSlow)
     }
 
-    /// The cycle that begins with a kinetic energy, J.
+    /// Runs the cycle that begins with a kinetic energy, J.
     pub fn cycle(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
         let run = self.run(kinetic, true)?;
         let summary = &run.summary;
         let last = summary.last.omega_rad_per_s;
         let error = summary.error_estimate.map(|error| error.omega_rad_per_s);
-        // An energy is off by twice as much as its speed.
+        // The relative error of an energy is twice that of its speed.
         self.noise = self
             .noise
             .max(2.0 * error.unwrap_or(f64::INFINITY) / last.abs());

@@ -1,4 +1,4 @@
-//! The flywheel for a wanted coefficient of fluctuation.
+//! Flywheel for a wanted coefficient of fluctuation, by root finding in the added inertia.
 
 use super::Both;
 use super::periodic_orbit::find;
@@ -9,11 +9,11 @@ use crate::mechanism::Equation;
 use crate::numeric::root;
 use crate::scene::{Crank, Scene};
 
-/// Largest inertia that is tried, in units of that of the mechanism.
+/// Largest added inertia that is tried, in units of the effective inertia at the start angle.
 const LARGEST_INERTIA: f64 = 1e12;
 
-/// Finds the flywheel with which the steady state, of this speed (rad/s) at its start, has the `wanted` coefficient of
-/// fluctuation: more inertia than the crank's own if its own coefficient is larger, else less.
+/// Finds the flywheel that gives the steady state near a start speed (rad/s) the `wanted` coefficient of fluctuation:
+/// inertia is added if the present coefficient is larger, otherwise taken away.
 pub(super) fn size(
     scene: &Scene,
     speed: f64,
@@ -85,7 +85,7 @@ pub(super) fn size(
 
 type Excess<'a> = dyn Fn(f64) -> Result<f64, Error> + 'a;
 
-/// Inertias between which the fluctuation falls to the wanted one, from none added.
+/// Brackets the inertia to be added, kg m², for a smaller fluctuation, from none upwards.
 fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     let own = Equation::new(scene).terms(scene.motion.angle).inertia.m;
     let (mut low, mut high) = (0.0, 0.1 * own);
@@ -101,14 +101,14 @@ fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     ))
 }
 
-/// Inertias between which the fluctuation rises to the wanted one: from all taken away that can be, or where the crank then
-/// stops, from as much as it takes to go on.
+/// Brackets the inertia to be taken away, kg m² and negative, for a larger fluctuation: from all that can be taken
+/// away, or where the crank then stops, from as much as lets it go on.
 fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     let crank = scene.crank.unwrap_or_default();
     let most = crank.inertia - crank.mass * (crank.cg.powi(2) + crank.cg_lateral.powi(2));
     let (mut kept, mut stops, mut tried) = (0.0, -most, -most);
     let mut largest = excess(0.0)?;
-    // Halvings towards an inertia with which the crank stops, to its last digit.
+    // Bisection towards an inertia with which the crank stops, to the last digit.
     for _ in 0..f64::MANTISSA_DIGITS {
         match excess(tried) {
             Ok(excess) if excess >= 0.0 => return Ok((tried, kept)),
@@ -132,7 +132,7 @@ fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64)
     ))
 }
 
-/// The scene with more inertia of the crank, kg m².
+/// Returns the scene with inertia added to the crank, kg m².
 pub(super) fn with(scene: &Scene, added: f64) -> Scene {
     let mut scene = scene.clone();
     let crank = scene.crank.get_or_insert_with(Crank::default);

@@ -1,4 +1,4 @@
-//! The work of each load over the periodic motion.
+//! Work of each load over the periodic motion, by adaptive Gauss quadrature over the crank angle.
 
 use std::f64::consts::TAU;
 
@@ -11,10 +11,10 @@ use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 use crate::scene::{Load, LoadOf, Scene};
 
-/// Pieces of a turn beside those that dead centres and tables make.
+/// Number of equal pieces of a turn, in addition to those from dead centres and tables.
 const PIECES: u32 = 16;
 
-/// Each load of a scene, and friction at its guide.
+/// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     let Both { found, check, .. } = both;
     let linkage = &Linkage::new(&scene.geometry);
@@ -41,7 +41,7 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     }
     let equation = Equation::new(scene);
     if let Some(sliding) = Sliding::new(scene, &equation) {
-        // Not at the start of a motion, where the guide is what it will be.
+        // Any time but the start, at which the guide takes its sign from ahead.
         let torque = |angle: Angle, omega: f64| {
             let (_, touch) = sliding.state(f64::MIN_POSITIVE, angle, omega);
             touch.friction * linkage.pose(angle.rest).dx
@@ -51,17 +51,17 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
     works
 }
 
-/// Crank torque (N m) at an angle and a speed (rad/s).
+/// Crank torque (N m) as a function of crank angle and speed (rad/s).
 type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
 
-/// The crank torque that a load amounts to, N m.
+/// Returns the crank torque that is equivalent to a load, N m.
 fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) -> f64 {
     let pose = linkage.pose(angle.rest);
     let arm = if of.on_slider { pose.dx } else { 1.0 };
     arm * single(of.load, of.on_slider, &pose.instant(0.0, angle, omega))
 }
 
-/// Where the crank has turned to (rad) at the corners of a load and the dead centres of a period, and between them.
+/// Lists the rotations (rad) at the corners of a load, at the dead centres of a period and at equal parts of each turn.
 fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f64> {
     let sense = found.cycle.speed.signum();
     let begin = found.start.radians();
@@ -83,8 +83,8 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
     cuts
 }
 
-/// Work over a period, J. Speeds are known to a part `relative` of themselves: what that makes of the work of a piece is not
-/// resolved.
+/// Computes the work over a period, J. Speeds are uncertain by a part `relative`: the resulting uncertainty of the work
+/// of a piece is not resolved.
 fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit) -> f64 {
     let sense = found.cycle.speed.signum();
     let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
@@ -94,7 +94,7 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit)
             let (angle, speed) = (found.angle(turned), found.omega(turned));
             (torque(angle, speed * (1.0 + relative)) - torque(angle, speed)).abs()
         };
-        // A load may be steep on a part of the piece alone.
+        // A load may be steep on a part of the piece only.
         let open = open(from).min(open(0.5 * (from + to))).min(open(to));
         let tolerance = (1e-15 * found.cycle.largest).max(open * (to - from));
         gauss::adaptive(&force, from, to, tolerance)
@@ -102,7 +102,7 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit)
     cuts.windows(2).map(piece).sum()
 }
 
-/// Size of what adds up to the work, J.
+/// Computes the integral of the absolute torque, J, the scale of the rounding of the work.
 fn size(cuts: &[f64], torque: &Torque<'_>, found: &PeriodicOrbit) -> f64 {
     let size = |turned: f64| torque(found.angle(turned), found.omega(turned)).abs();
     let pieces = cuts.windows(2);

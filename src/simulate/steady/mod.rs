@@ -1,5 +1,4 @@
-//! The periodic steady state: the fixed point of the map of a cycle (Poincare), its speeds, its work, and the flywheel for a
-//! wanted coefficient of fluctuation.
+//! Periodic steady state: fixed point of the cycle map (Poincare), speeds, work of the loads, and a flywheel.
 
 mod cycles;
 mod flywheel;
@@ -20,14 +19,14 @@ use crate::scene::{MotionKind, Scene};
 use periodic_orbit::{PeriodicOrbit, find};
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
 
-/// What is asked for.
+/// Options of a search for the steady state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyOptions {
-    /// Coefficient of fluctuation for which the flywheel is wanted.
+    /// Coefficient of fluctuation for which a flywheel is wanted.
     pub fluctuation: Option<f64>,
-    /// Most evaluations of the loads in each search.
+    /// Largest number of evaluations of the loads in each search.
     pub max_evaluations: u64,
-    /// A request to stop; the search is refused then.
+    /// Request to stop; the search then ends with [`Error::Interrupted`].
     pub stop: Option<Stop>,
 }
 
@@ -41,11 +40,11 @@ impl Default for SteadyOptions {
     }
 }
 
-/// Finds the periodic motion that the scene's start approaches, or the next faster one if the crank would stop.
-/// The motion turns as the start speed does; a start at rest leaves the sense of rotation open.
+/// Finds the periodic motion that the scene's start approaches, or the next faster one if the crank would stop. The
+/// motion turns in the sense of the start speed; a start at rest leaves the sense of rotation open.
 ///
-/// Where no load depends on the speed and a turn gains no energy, every speed is periodic: then the start speed is
-/// the steady one.
+/// Where no load depends on the speed and a turn gains no energy, every speed is periodic: the start speed is then the
+/// steady one.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values, [`Error::Refused`] with the reason where there is no periodic motion
@@ -65,7 +64,7 @@ impl Default for SteadyOptions {
 pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
     let found = search(scene, options);
     match &options.stop {
-        // Cycles that were cut off look like those of a crank that stops.
+        // Interrupted cycles look like those of a crank that stops.
         Some(stop) if stop.is_requested() => Err(Error::Interrupted),
         _ => found,
     }
@@ -135,12 +134,12 @@ fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
     Err(Error::refused(what, help))
 }
 
-/// The steady state in the sense of the start speed; both senses are tried for a start at rest.
+/// Finds the steady state in the sense of the start speed; from rest both senses are tried.
 fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrbit, Error> {
     if !rests {
         return find(scene, scene.motion.speed, limit);
     }
-    // Any speed serves to begin with.
+    // Any speed serves as a first guess.
     match [1.0, -1.0].map(|speed| find(scene, speed, limit)) {
         [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
             "the start is at rest, and no load depends on the speed: every speed is periodic",
@@ -155,11 +154,11 @@ fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrb
     }
 }
 
-/// Two computations of one periodic motion: their difference is the error.
+/// Two computations of one periodic motion: their difference gives the error.
 struct Both {
     found: PeriodicOrbit,
     check: PeriodicOrbit,
-    /// What is left open of the speeds, relative to them: by half as much as of the energies.
+    /// Relative uncertainty of the speeds: half that of the energies, and rounding.
     relative: f64,
 }
 
@@ -176,6 +175,7 @@ impl Both {
         })
     }
 
+    /// Estimates a value from both computations; `floor` adds to the error.
     fn of(&self, value: impl Fn(&PeriodicOrbit) -> f64, floor: f64) -> Estimated {
         let found = value(&self.found);
         Estimated {
@@ -184,7 +184,7 @@ impl Both {
         }
     }
 
-    /// A speed or time.
+    /// Estimates a speed or a time.
     fn relative(&self, value: impl Fn(&PeriodicOrbit) -> f64) -> Estimated {
         let size = value(&self.found).abs();
         self.of(value, self.relative * size)
@@ -243,8 +243,8 @@ impl Both {
         }
     }
 
-    /// The crank angle of an extreme of the speed: an error of the acceleration by a part `relative` of the speed moves it
-    /// the more, the less the speed varies.
+    /// Estimates the crank angle of an extreme of the speed: an error of the acceleration by a part `relative` of the
+    /// speed moves the extreme the more, the less the speed varies.
     fn place(&self, which: usize) -> Estimated {
         let Both { found, check, .. } = self;
         let [here, there] = [found, check].map(|f| f.extremes[which].turned);
@@ -257,7 +257,7 @@ impl Both {
         }
     }
 
-    /// Amplitudes of the Fourier series of the speed over the crank angle of a cycle.
+    /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
         let turns = self.found.turns as u32;
         let count = fourier::SAMPLES * turns;
@@ -272,7 +272,7 @@ impl Both {
         let rounding = self.relative * self.found.cycle.speed.abs();
         let order = |k: u32| {
             let [value, other] = amplitudes(&speeds, k);
-            // Corners of the speed fold higher orders onto it.
+            // Corners of the speed alias higher orders onto this one.
             let folded = (value - amplitudes(&every_other, k)[0]).abs();
             SpeedOrder {
                 order: f64::from(k) / f64::from(turns),

@@ -1,4 +1,4 @@
-//! One computation of the periodic motion, and where its speed is extreme.
+//! One computation of the periodic motion, by a fixed-point search, and the extremes of its speed.
 
 use std::f64::consts::TAU;
 
@@ -16,31 +16,31 @@ use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Scene, Variable};
 
-/// Relative error of speeds and times by cycleing.
+/// Relative roundoff of speeds and times.
 pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
-/// A turn that gains no more than this part of its largest energy gains nothing.
+/// Energy gain of a turn, as part of its largest energy, up to which it counts as none.
 const NO_GAIN: f64 = 1e-12;
-/// First step of the search in the logarithm of the energy; of a search beside a motion that is known.
+/// First step of a search in the logarithm of the energy, and of a search near a known motion.
 const FIRST_LOG_STEP: f64 = 0.05;
 const STEP_BESIDE: f64 = 1e-10;
 
-/// An extreme of the speed.
+/// Extreme of the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extreme {
-    /// Turned since the start, rad, positive.
+    /// Rotation since the start, rad, positive.
     pub turned: f64,
-    /// Signed, rad/s.
+    /// Signed crank speed, rad/s.
     pub omega: f64,
 }
 
 pub(super) struct PeriodicOrbit {
     pub start: Angle,
     pub cycle: Cycle,
-    /// Turns after which it is the same again.
+    /// Number of turns in a period.
     pub turns: f64,
-    /// Least and largest speed.
+    /// Least and largest speed, without regard to sign.
     pub extremes: [Extreme; 2],
-    /// Deviation from it after these turns, by that before.
+    /// Floquet multiplier: factor on a small energy deviation over one period.
     pub multiplier: f64,
     pub multiplier_error: f64,
     pub approached: bool,
@@ -49,29 +49,29 @@ pub(super) struct PeriodicOrbit {
 }
 
 impl PeriodicOrbit {
-    /// Coefficient of fluctuation: the range of the speed, by its mean.
+    /// Returns the coefficient of fluctuation: range of the speed over its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
         (fast.omega - slow.omega).abs() * self.cycle.period / self.way()
     }
 
-    /// The crank's way in a period, rad.
+    /// Returns the rotation of the crank in a period, rad.
     pub fn way(&self) -> f64 {
         self.turns * TAU
     }
 
-    /// Speed where the crank has turned by this since the start, rad, rad/s.
+    /// Returns the speed, rad/s, where the crank has turned by `turned` (rad) since the start.
     pub fn omega(&self, turned: f64) -> f64 {
         self.cycle.omega(self.start, turned)
     }
 
-    /// The crank angle there.
+    /// Returns the crank angle where the crank has turned by `turned` (rad) since the start.
     pub fn angle(&self, turned: f64) -> Angle {
         self.start.plus(self.cycle.speed.signum() * turned)
     }
 }
 
-/// The periodic motion that a scene's start approaches from a speed (rad/s).
+/// Finds the periodic motion that a scene's start approaches from a speed, rad/s.
 pub(super) fn find(
     scene: &Scene,
     speed: f64,
@@ -80,7 +80,7 @@ pub(super) fn find(
     search(scene, speed, limit, FIRST_LOG_STEP, false)
 }
 
-/// A second computation, to compare with, of a motion that begins with about this speed, rad/s.
+/// Computes a second time, for comparison, a periodic motion that begins at about this speed, rad/s.
 pub(super) fn again(
     scene: &Scene,
     speed: f64,
@@ -96,7 +96,7 @@ fn search(
     step: f64,
     other: bool,
 ) -> Result<PeriodicOrbit, Error> {
-    // What has none was refused.
+    // A scene without a cycle is already refused.
     let turns = cycle_over_angle(scene).unwrap_or(1);
     let scene = one_cycle(scene, speed, turns, other);
     let options = Options {
@@ -118,10 +118,10 @@ fn search(
     }
 }
 
-/// What looks for the periodic motion of a scene.
+/// Search for the periodic motion of a scene.
 struct Seeker<'a> {
     task: &'a RunSetup<'a>,
-    /// Turns after which the loads are the same again.
+    /// Number of turns after which the loads repeat.
     turns: u32,
 }
 
@@ -151,7 +151,7 @@ impl Seeker<'_> {
         self.found(cycle, Some((fixed, cycles.noise())))
     }
 
-    /// From a cycle, which is a fixed point found within some noise of the gain, or begins with any speed.
+    /// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
     fn found(
         &self,
         cycle: Cycle,
@@ -172,7 +172,7 @@ impl Seeker<'_> {
         };
         if let Some((fixed, noise)) = fixed {
             found.cycle.uncertain /= fixed.slope.abs().max(noise);
-            // Motions do not cross: what is below zero is rounding.
+            // Motions do not cross: a negative multiplier is rounding.
             found.multiplier = (1.0 + fixed.slope).max(0.0);
             found.multiplier_error = fixed.slope_error;
             found.approached = fixed.approached;
@@ -185,7 +185,7 @@ impl Seeker<'_> {
         if known { Ok(found) } else { Err(unbounded()) }
     }
 
-    /// The largest sign·|speed|: of the angles of a fine grid, then where the acceleration vanishes beside it.
+    /// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
     fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
         let grid = self.task.equation().linkage().turn_grid(false);
@@ -214,7 +214,7 @@ impl Seeker<'_> {
         };
         let slope = |way: f64| {
             let way = way.rem_euclid(whole);
-            // Not at the start of a motion, where the guide is what it will be.
+            // Any time but the start, at which the guide takes its sign from ahead.
             let forward = |omega| {
                 let maker = &self.task.maker;
                 maker.forward(f64::MIN_POSITIVE, found.angle(way), omega).0
@@ -260,7 +260,7 @@ fn no_cycle(why: NoCycle) -> Error {
     }
 }
 
-/// Why a cycle of loads that do not depend on the speed cannot be computed.
+/// Returns the error of loads independent of the speed whose cycle cannot be computed.
 fn not_turned(why: NotApplicable) -> Error {
     match why {
         NotApplicable::TooSlow => Error::refused(

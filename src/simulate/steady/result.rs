@@ -1,10 +1,10 @@
-//! The periodic steady state in numbers.
+//! Periodic steady state in numbers.
 
 use serde::Serialize;
 
 use crate::scene::{Extent, Scene};
 
-/// A value with an estimate of its error, in the same unit.
+/// Value with an estimate of its error, in the same unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Estimated {
     /// The value.
@@ -13,68 +13,68 @@ pub struct Estimated {
     pub error: f64,
 }
 
-/// An extreme of the speed.
+/// Extreme of the crank speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpeedExtreme {
     /// Signed speed, rad/s.
     pub omega_rad_per_s: Estimated,
-    /// Crank angle in the cycle, from 0 to 2π times its turns, rad; none if the speed does not vary by more than its error.
+    /// Crank angle in the cycle, from 0 to 2π times its turns, rad; none for a fluctuation up to 4 times its error.
     pub theta_rad: Option<Estimated>,
 }
 
-/// What the crank speed repeats so many times a turn.
+/// Fourier order of the crank speed over the crank angle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpeedOrder {
-    /// Per turn.
+    /// Number of periods in a turn.
     pub order: f64,
     /// Amplitude, rad/s.
     pub amplitude_rad_per_s: Estimated,
 }
 
-/// The periodic motion of a scene.
+/// Periodic motion of a scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct SteadyState {
     /// Title of the scene.
     pub scene: String,
-    /// The scene's start angle, rad.
+    /// Crank angle at the start of the scene, rad.
     pub theta_rad: f64,
-    /// The steady speed there, rad/s.
+    /// Steady speed at the start angle, rad/s.
     pub omega_rad_per_s: Estimated,
-    /// Turns of the crank after which the motion is the same again: the cycle of the loads.
+    /// Number of turns after which the motion repeats: the cycle of the loads.
     pub cycle_turns: u32,
-    /// Time of a cycle, s.
+    /// Duration of a cycle, s.
     pub period_s: Estimated,
     /// Mean speed over time, 2π turns/period, with the sign of the rotation, rad/s.
     pub omega_mean_rad_per_s: Estimated,
-    /// The least speed without regard to its sign.
+    /// Least speed without regard to sign.
     pub slowest: SpeedExtreme,
-    /// The largest.
+    /// Largest speed without regard to sign.
     pub fastest: SpeedExtreme,
-    /// Coefficient of fluctuation: the largest minus the least speed, over the mean.
+    /// Coefficient of fluctuation: largest minus least speed, over the mean speed.
     pub fluctuation: Estimated,
-    /// Part of a small deviation that is left after a cycle.
+    /// Floquet multiplier: factor on a small energy deviation over one cycle, 0 or more.
     pub multiplier: Estimated,
-    /// Whether small deviations die out.
+    /// Whether small deviations die out: multiplier below 1 by more than its error.
     pub stable: bool,
-    /// Whether it is the motion that the scene's own start speed approaches; none for a start at rest.
+    /// Whether the scene's own start speed approaches this motion; none for a start at rest.
     pub approached_from_start: Option<bool>,
     /// Orders of the speed over the crank angle, up to the twelfth.
     pub speed_orders: Vec<SpeedOrder>,
-    /// Mean power that loads put in, W: those whose work over a cycle is positive.
+    /// Mean power of the loads whose work over a cycle is positive, W.
     pub power_in_w: Estimated,
-    /// Mean power that loads take out, W, positive.
+    /// Mean power that the other loads take out, W, positive.
     pub power_out_w: Estimated,
-    /// Each load.
+    /// Work of each load.
     pub loads: Vec<LoadWork>,
-    /// The flywheel, if it was asked for.
+    /// Flywheel, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flywheel: Option<Flywheel>,
-    /// What the reader should know.
+    /// Notes for the reader.
     pub notes: Vec<String>,
 }
 
 impl SteadyState {
-    /// The scene, started in the steady state; over one cycle if it does not say how long its run is.
+    /// Returns the scene started in the steady state, over one cycle if it sets no extent.
     pub fn start(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
         scene.motion.speed = self.omega_rad_per_s.value;
@@ -84,28 +84,28 @@ impl SteadyState {
     }
 }
 
-/// One load over a period.
+/// Work of one load over a period.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LoadWork {
-    /// As `torque[1]`, with what it is.
+    /// Key and description of the load, like `torque[1]: ...`, or `friction at the guide`.
     pub name: String,
-    /// Mean over time of the power it puts in, W.
+    /// Mean power of the load over time, W.
     pub power_w: Estimated,
-    /// Mean over the crank angle of the crank torque that it amounts to, N m.
+    /// Mean equivalent crank torque over the crank angle, N m.
     pub torque_nm: Estimated,
 }
 
-/// A flywheel on the crank.
+/// Flywheel on the crank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Flywheel {
-    /// Coefficient of fluctuation that was asked for.
+    /// Coefficient of fluctuation asked for.
     pub wanted_fluctuation: f64,
-    /// Moment of inertia to be added to the crank, kg m²; negative: so much could be taken away.
+    /// Moment of inertia to be added to the crank, kg m²; negative: inertia that can be taken away.
     pub added_inertia_kg_m2: Estimated,
-    /// Moment of inertia of the crank with it, kg m².
+    /// Moment of inertia of the crank with the flywheel, kg m².
     pub crank_inertia_kg_m2: f64,
-    /// Coefficient of fluctuation computed anew with it.
+    /// Coefficient of fluctuation recomputed with the flywheel.
     pub fluctuation: Estimated,
-    /// Mean speed with it, rad/s.
+    /// Mean speed with the flywheel, rad/s.
     pub omega_mean_rad_per_s: Estimated,
 }
