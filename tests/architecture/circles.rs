@@ -1,13 +1,13 @@
-//! Circles of files that import each other. A name that is given on counts for the file that defines it.
+//! Import cycles between files. A re-exported name counts for the file that defines it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Source, after_word, name, sources};
 
-/// Files of a circle that can be read as one.
+/// Largest number of files in a cycle, small enough to be read as one.
 const MOST_IN_CIRCLE: usize = 4;
 
-/// The paths of a tree of imports, `a/b` and `a/c` of `a::{b, c as d}`, and what follows it.
+/// Returns the paths of an import tree, `a/b` and `a/c` of `a::{b, c as d}`, and the text after it.
 fn tree(text: &str) -> (Vec<String>, &str) {
     let mut paths = Vec::new();
     if let Some(mut rest) = text.strip_prefix('{') {
@@ -30,7 +30,7 @@ fn tree(text: &str) -> (Vec<String>, &str) {
     (paths, after)
 }
 
-/// A path that is written in a module, from the root on.
+/// Returns a path written in a module, from the root on.
 fn from_root(module: &str, path: &str) -> String {
     let mut parts: Vec<&str> = module.split('/').collect();
     for name in path.split('/') {
@@ -44,7 +44,7 @@ fn from_root(module: &str, path: &str) -> String {
     parts.join("/")
 }
 
-/// The names of files from the root on, with the paths that each names, and where a name that one gives on comes from.
+/// Files by their paths from the root, with the paths that each imports, and the origins of re-exported names.
 #[derive(Default)]
 struct Imports {
     named: BTreeMap<String, Vec<String>>,
@@ -56,7 +56,7 @@ impl Imports {
         let mut imports = Imports::default();
         for source in sources {
             let module = source.modules().join("/");
-            // Tests inside of a file import what they test.
+            // Unit tests inside a file import what they test.
             let code = source.code.split("#[cfg(test)]\nmod").next();
             let code = code.unwrap_or_default();
             let mut named = Vec::new();
@@ -89,7 +89,7 @@ impl Imports {
         imports
     }
 
-    /// The file that defines what a path names; the root for what is of another crate.
+    /// Returns the file that defines the target of a path; the root for other crates.
     fn file_of(&self, path: &str) -> String {
         let ends = path.match_indices('/').map(|(end, _)| end);
         let mut file = "";
@@ -103,7 +103,7 @@ impl Imports {
         file.to_owned()
     }
 
-    /// The files that each file imports.
+    /// Returns the files that each file imports.
     fn of_files(&self) -> Graph {
         let files = |paths: &Vec<String>| paths.iter().map(|path| self.file_of(path)).collect();
         let named = self.named.iter();
@@ -112,7 +112,7 @@ impl Imports {
             .collect()
     }
 
-    /// The folders that each folder beside them imports from.
+    /// Returns the folders from which each sibling folder imports.
     fn of_folders(&self) -> Graph {
         let is_folder = |place: &String| {
             self.named
@@ -136,10 +136,10 @@ impl Imports {
     }
 }
 
-/// What each of some places imports.
+/// Imports of each place.
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// The places that one leads to.
+/// Returns the places reachable from one.
 fn reached<'a>(graph: &'a Graph, from: &'a String) -> BTreeSet<&'a String> {
     let (mut found, mut open) = (BTreeSet::new(), vec![from]);
     while let Some(place) = open.pop() {
@@ -149,7 +149,7 @@ fn reached<'a>(graph: &'a Graph, from: &'a String) -> BTreeSet<&'a String> {
     found
 }
 
-/// The circles of a graph, each with its places.
+/// Returns the cycles of a graph, each with its places.
 fn circles(graph: &Graph) -> BTreeSet<Vec<&String>> {
     let reached: BTreeMap<&String, BTreeSet<&String>> = graph
         .keys()

@@ -1,5 +1,5 @@
-//! The directions in which data flows, read from the sources:
-//! scene -> mechanism -> plan -> engine -> trajectory -> simulate -> report -> cli.
+//! Directions of data flow, read from the sources: scene -> mechanism -> plan -> engine -> trajectory -> simulate ->
+//! report -> cli.
 
 mod circles;
 
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each module may name beside itself. Nothing knows what is on its right.
+/// Modules that each module may name besides itself. No module knows those to its right.
 const MAY_NAME: &[(&str, &[&str])] = &[
     ("numeric", &[]),
     ("error", &["scene"]),
@@ -109,10 +109,10 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// Lines of a file.
+/// Largest number of lines of a file.
 const MOST_LINES: usize = 300;
 
-/// A source file: its place below `src`, its text, and its code without comments and literals.
+/// Source file: place below `src`, text, and code without comments and literals.
 struct Source {
     place: String,
     text: String,
@@ -128,7 +128,7 @@ impl Source {
         }
     }
 
-    /// The modules it is in, from the outermost.
+    /// Returns the modules of the file, from the outermost.
     fn modules(&self) -> Vec<&str> {
         let path = self.place.trim_end_matches(".rs");
         path.split('/')
@@ -136,12 +136,12 @@ impl Source {
             .collect()
     }
 
-    /// The outermost module it is in; none for `main.rs` and `lib.rs`.
+    /// Returns the outermost module of the file; none for `main.rs` and `lib.rs`.
     fn module(&self) -> Option<&str> {
         self.modules().first().copied()
     }
 
-    /// Every outermost module it names, its own among them.
+    /// Returns every outermost module that the file names, including its own.
     fn names(&self) -> BTreeSet<String> {
         let mut found = BTreeSet::new();
         for root in ["crate::", "slider_crank::"] {
@@ -149,7 +149,7 @@ impl Source {
                 found.extend(first_names(rest));
             }
         }
-        // As many `super` as there are modules lead to the root as well.
+        // A chain of `super` as long as the list of modules leads to the root.
         let depth = self.modules().len();
         for rest in after_word(&self.code, &"super::".repeat(depth.max(1))) {
             let rest = rest.trim_start_matches("super::");
@@ -191,7 +191,7 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// The code without comments, string and character literals.
+/// Returns the code without comments, string and character literals.
 fn code_of(text: &str) -> String {
     let chars: Vec<char> = text.chars().collect();
     let starts = |i: usize, what: &str| {
@@ -235,7 +235,7 @@ fn code_of(text: &str) -> String {
             }
             i += 1;
         } else if chars[i] == '\'' && (starts(i + 1, "\\") || chars.get(i + 2) == Some(&'\'')) {
-            // A character; a quote that is none begins a lifetime.
+            // A character literal; other quotes begin a lifetime.
             i += if starts(i + 1, "\\") { 3 } else { 2 };
             while i < chars.len() && chars[i] != '\'' {
                 i += 1;
@@ -249,7 +249,7 @@ fn code_of(text: &str) -> String {
     code
 }
 
-/// The number of hashes of the raw string that begins here, and where its text begins.
+/// Returns the number of hashes of the raw string that begins here, and the start of its text.
 fn raw_string(chars: &[char], at: usize) -> Option<(usize, usize)> {
     let prefix = chars[at..]
         .iter()
@@ -260,7 +260,7 @@ fn raw_string(chars: &[char], at: usize) -> Option<(usize, usize)> {
     (rest.get(hashes) == Some(&'"')).then_some((hashes, at + prefix + hashes + 1))
 }
 
-/// What follows each occurrence of a word that does not continue another one.
+/// Returns the text after each occurrence of a word that does not continue another one.
 fn after_word<'a>(code: &'a str, word: &str) -> impl Iterator<Item = &'a str> {
     let continues =
         |before: &str| before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':');
@@ -272,7 +272,7 @@ fn after_word<'a>(code: &'a str, word: &str) -> impl Iterator<Item = &'a str> {
         .into_iter()
 }
 
-/// The first names of a path or of a group of paths: `a::b` gives a, `{a, b::{c, d}}` gives a and b.
+/// Returns the first names of a path or of a group of paths: `a::b` gives a, `{a, b::{c, d}}` gives a and b.
 fn first_names(path: &str) -> Vec<String> {
     let Some(group) = path.strip_prefix('{') else {
         return vec![name(path)];
@@ -299,7 +299,7 @@ fn first_names(path: &str) -> Vec<String> {
     names
 }
 
-/// The identifier that a text begins with.
+/// Returns the identifier at the start of a text.
 fn name(text: &str) -> String {
     let text = text.trim_start();
     text.chars()
@@ -307,7 +307,7 @@ fn name(text: &str) -> String {
         .collect()
 }
 
-/// Names that a file must not use.
+/// Returns the names in a file that are forbidden there.
 fn forbidden(source: &Source) -> Vec<String> {
     let Some(module) = source.module() else {
         let cli = |name: &String| source.place == "main.rs" && name == "cli";
@@ -437,13 +437,13 @@ fn files_are_short() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Major and minor number of a version of Rust.
+/// Returns major and minor number of a version of Rust.
 fn version(text: &str) -> [u32; 2] {
     let mut numbers = text.split('.').map(|part| part.parse().expect("a version"));
     std::array::from_fn(|_| numbers.next().unwrap_or(0))
 }
 
-/// The platform of the compiler.
+/// Returns the platform of the compiler.
 fn host() -> String {
     let output = std::process::Command::new("rustc").arg("-vV").output();
     let about = String::from_utf8(output.expect("rustc").stdout).expect("UTF-8");
@@ -451,18 +451,18 @@ fn host() -> String {
     host.expect("a host").to_owned()
 }
 
-/// The Rust that Cargo.toml states is the one of the README, and enough for all that is compiled with it.
+/// Cargo.toml and README state the same version of Rust, and it suffices for every dependency.
 #[test]
 fn the_stated_rust_is_enough_for_every_dependency() {
     let root = env!("CARGO_MANIFEST_DIR");
     let metadata = |more: &[&str]| {
         let mut command = std::process::Command::new(env!("CARGO"));
-        // Of the present platform alone: no others are on a machine that builds for it.
+        // Only the present platform: packages of others are absent on a machine that builds for it.
         command.args(["metadata", "--format-version=1", "--locked"]);
         command.args(["--filter-platform", &host()]).args(more);
         command.current_dir(root).output().expect("cargo")
     };
-    // What the Python package needs beside is not there on a machine that has not built it.
+    // Packages that only the Python package needs are absent on a machine that has not built it.
     let mut output = metadata(&["--offline"]);
     if !output.status.success() {
         output = metadata(&[]);
@@ -491,7 +491,7 @@ fn the_stated_rust_is_enough_for_every_dependency() {
     assert!(readme.contains(&said), "README.md does not say `{said}`");
 }
 
-/// Of the language (clippy knows the library's part) these are younger than the stated Rust.
+/// Features of the language that are younger than the stated Rust; clippy knows those of the library.
 #[test]
 fn no_source_is_younger_than_the_stated_rust() {
     const YOUNGER: [(&str, &str); 2] = [

@@ -1,5 +1,5 @@
-//! Motion with a loose joint, against integrations made elsewhere, Lagrange's equation by differences, energy,
-//! symmetry and limits.
+//! Motion with a loose joint, compared with integrations by other programs, with Lagrange's equations by differences,
+//! with energy balance, symmetry and limits.
 
 use std::path::Path;
 
@@ -42,10 +42,11 @@ fn rows(scene: &Scene) -> Vec<Row> {
     rows
 }
 
-/// What SciPy 1.17's DOP853 gives for the bodies' absolute coordinates, the force of the pinned joint solved for
-/// in each evaluation, events located on its dense output; rtol 1e-12, atol 1e-14, steps of at most 20 us in
-/// contact. For the first, whose impacts come fast, another program with the equations of the driven rod alone,
-/// rtol 3e-14. Impacts and separations by turns, s (NaN: not given); at the end the slider's position and velocity.
+/// Results of DOP853 of SciPy 1.17 for the absolute coordinates of the bodies, with the force of the pinned joint
+/// solved in each evaluation and events located on its dense output; rtol 1e-12, atol 1e-14, steps of at most 20 us in
+/// contact. The first reference, with impacts in quick succession, is from another program with the equations of the
+/// driven rod alone, rtol 3e-14. Alternating times of impacts and separations, s (NaN: not given); slider position and
+/// velocity at the end.
 struct Reference {
     scene: Scene,
     end: f64,
@@ -178,7 +179,7 @@ fn impacts_and_end_agree_with_another_integration() {
     }
 }
 
-/// d/dt ∂L/∂q̇ = ∂L/∂q and the rate of the gap by differences, at states apart and pressed together without damping.
+/// Checks d/dt ∂L/∂q̇ = ∂L/∂q and the rate of the gap by differences, for states apart and for undamped contact.
 fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), TestCaseError> {
     let mechanism = LooseMechanism::new(scene, clearance).expect("a mechanism");
     let none = [0.0; 3];
@@ -200,7 +201,7 @@ fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), Te
         v: s.v + dv[2],
         ..*s
     };
-    // The gap is (c² − ε²)/2c with the journal ε off the centre, and its rate that of this.
+    // For a journal ε off the centre the gap is (c² − ε²)/2c, and the gap rate is its derivative.
     let [across, up] = mechanism.journal(&s);
     let c = clearance.radial;
     let (gap, gap_rate) = mechanism.gap(&s);
@@ -215,7 +216,7 @@ fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), Te
     prop_assert!((gap_rate - rate).abs() < 1e-6, "{gap_rate} {rate}");
     let lagrangian = |s: &LooseState| 2.0 * mechanism.kinetic(s) - mechanism.energy(s);
     let unit = |i: usize, size: f64| std::array::from_fn(|k| if k == i { size } else { 0.0 });
-    // Kinetic energy is quadratic in the speeds, so a difference over a large step is exact.
+    // Kinetic energy is quadratic in the speeds, so that a difference over a large step is exact.
     let momentum = |s: &LooseState, i: usize| {
         let at = |h: f64| mechanism.kinetic(&moved(s, none, unit(i, h)));
         0.5 * (at(1.0) - at(-1.0))
@@ -267,11 +268,11 @@ proptest! {
             .gravity(Gravity { acceleration: 9.8, direction: down });
         let clearance = Clearance {
             law: ContactLaw::Hertz,
-            // Soft, so that differences over the penetration are exact.
+            // A soft contact makes differences over the penetration exact.
             young_modulus: Some(1e6),
             ..steel(joint, c, 0.012, 0.9)
         };
-        // A state with the journal at this place: the guide is put where the slider is.
+        // A state with the journal at this place: the guide is moved to the slider.
         let side = if at_crank { 1.0 } else { -1.0 };
         let offset = [distance * c * ahead.cos(), distance * c * ahead.sin()];
         let x = r * theta.cos() + l * psi.cos() - side * offset[0];
@@ -306,8 +307,8 @@ fn energy_is_lost_in_impacts_and_nowhere_else() {
     }
 }
 
-/// Impacts by the thousand, among them grazes and contacts that recede faster than the force can follow. In the
-/// long run the rounding of the crank angle, which grows with it, counts more than the tolerance.
+/// Thousands of impacts, some of them grazing, and contacts that separate faster than the force can follow. In a long
+/// run the rounding of the growing crank angle exceeds the tolerance.
 #[test]
 fn energy_is_accounted_for_over_thousands_of_impacts() {
     for (name, revolutions, impacts, allowed) in [
@@ -333,7 +334,7 @@ fn energy_is_accounted_for_over_thousands_of_impacts() {
     }
 }
 
-/// The ratio of the speeds after and before an impact against a wall, by small steps.
+/// Returns the ratio of the speeds after and before an impact against a wall, by small steps.
 fn rebound(force: &NormalForce, speed: f64) -> f64 {
     let (mut depth, mut rate) = (0.0, speed);
     let acceleration =
@@ -360,7 +361,7 @@ fn rebounds_have_the_restitution_that_the_laws_promise() {
         rebound(&NormalForce::new(&clearance).expect("a law"), 0.5)
     };
     assert!((law(ContactLaw::Hertz, 0.3) - 1.0).abs() < 1e-4);
-    // Made for e near 1: right to first order in 1 - e.
+    // Laws derived for e near 1: correct to first order in 1 - e.
     for (name, e) in [
         (ContactLaw::LankaraniNikravesh, 0.98),
         (ContactLaw::HuntCrossley, 0.98),
@@ -368,7 +369,7 @@ fn rebounds_have_the_restitution_that_the_laws_promise() {
         let found = law(name, e);
         assert!((found - e).abs() < 0.006, "{name:?}: {found}");
     }
-    // Made for all e. The sums of their published comparisons: a few hundredths off.
+    // Laws for all e: according to published comparisons, off by a few hundredths.
     for e in [0.9, 0.5, 0.2] {
         for name in [ContactLaw::Flores, ContactLaw::Gonthier] {
             let found = law(name, e);
@@ -398,7 +399,7 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
         let (coarse, fine) = (linked(1e-6), linked(1e-7));
         assert!((coarse / fine - 10.0).abs() < 0.3, "{coarse:e} {fine:e}");
     }
-    // In contact the journal is at most the clearance and the penetration off.
+    // In contact the journal is off centre by at most the clearance plus the penetration.
     for radial in [1e-3, 1e-4, 1e-5] {
         let scene = Scene {
             clearance: Some(steel(Joint::CrankPin, radial, 0.01, 0.9)),
@@ -486,7 +487,7 @@ fn a_journal_may_begin_at_the_wall() {
             }),
             ..engine(0.01).start(0.3, 50.0).duration(0.01)
         };
-        // On one side of the bearing the joint is loaded, on the other it is not.
+        // The joint is loaded on one side of the bearing, and not on the other.
         let mut at_start = Vec::new();
         for angle in [0.0, std::f64::consts::PI] {
             let rows = rows(&scene(angle));
@@ -557,8 +558,8 @@ fn the_horizon_ends_where_two_tolerances_part() {
     );
 }
 
-/// After a separation the journal slides along the wall, touches it again lightly, and is far off before a long step
-/// of the flight ends. Where there is no force it is not in the wall.
+/// After a separation the journal moves along the wall, touches it again lightly, and is far away before a long step of
+/// the flight ends. Where there is no force, the journal must not be inside the wall.
 #[test]
 fn a_journal_that_grazes_the_wall_in_a_long_flight_touches_it() {
     let mut most: f64 = 0.0;

@@ -1,5 +1,5 @@
-//! Coulomb friction at the guide of a mechanism with a loose joint: against an integration made elsewhere, Coulomb's
-//! law on the rows, energy, and a slider that flies.
+//! Coulomb friction at the guide of a mechanism with a loose joint: compared with an integration by another program,
+//! with Coulomb's law on the rows, with the energy balance, and with a slider in flight.
 
 use crate::support::machines::engine;
 use slider_crank::scene::{Branch, Clearance, Every, Friction, Joint, Load, Scene, Slider};
@@ -44,9 +44,10 @@ fn rows(scene: &Scene) -> Vec<Row> {
     rows
 }
 
-/// What another program gives: virtual work in the coordinates θ, ψ, x and y of the slider, the guide by its reaction,
-/// the classical Runge-Kutta method with steps of 5 ns, impacts, reversals and slips met by secants. With steps of
-/// 10 ns its numbers differ by less than 1e-6 of their sizes. At the end: θ, x, v, energy lost; impacts, sticks, slips.
+/// Results of another program: virtual work in the coordinates θ, ψ, x and y of the slider, the guide by its reaction,
+/// the classical Runge-Kutta method with steps of 5 ns; impacts, reversals and slips located by secants. With steps of
+/// 10 ns its numbers differ by relative 1e-6 at most. At the end: θ, x, v, energy lost; numbers of impacts, sticks,
+/// slips.
 struct Reference {
     scene: Scene,
     push: f64,
@@ -135,7 +136,7 @@ fn motions_with_sticking_agree_with_another_integration() {
     }
 }
 
-/// The slider's own equation: what acts on it beside the wrist pin is the friction, which is what Coulomb says.
+/// In the equation of the slider, the force besides that of the wrist pin is friction according to Coulomb's law.
 #[test]
 fn rows_obey_coulomb() {
     let (kinetic, at_rest) = (0.3, 0.4);
@@ -174,7 +175,7 @@ fn rows_obey_coulomb() {
     }
 }
 
-/// Apart from the rod a slider slows down by μ g, its weight on the guide.
+/// A slider in flight is decelerated by μ g, from its own weight on the guide.
 #[test]
 fn a_slider_that_flies_is_slowed_by_its_weight() {
     let scene = scene(Joint::WristPin, Branch::Right, 0.01, [0.3, 0.3])
@@ -194,7 +195,7 @@ fn a_slider_that_flies_is_slowed_by_its_weight() {
     assert!(apart > 50, "{apart}");
 }
 
-/// Friction too small to matter leaves the motion as it is, and more of it takes more energy.
+/// Very small friction leaves the motion unchanged, and larger friction dissipates more energy.
 #[test]
 fn friction_takes_energy_and_little_of_it_takes_little() {
     let lost = |mu: f64| {
@@ -211,7 +212,7 @@ fn friction_takes_energy_and_little_of_it_takes_little() {
     assert!(much > none + 1e-3, "{none} {much}");
 }
 
-/// A slider so light that the rod's weight presses it, with much friction: no acceleration is consistent.
+/// A very light slider, pressed by the weight of the rod, with high friction: no acceleration is consistent.
 #[test]
 fn a_slider_that_jams_is_said_to() {
     let mut scene = scene(Joint::CrankPin, Branch::Right, 0.08, [3.0, 3.0])

@@ -1,5 +1,5 @@
-//! Joint forces of a mechanism with a loose joint: Newton's and Euler's laws for each body, with accelerations from
-//! differences of the rows' positions; nothing where nothing touches; the ideal joint as the limit.
+//! Joint forces of a mechanism with a loose joint: the Newton-Euler equations of each body, with accelerations from
+//! differences of the rows' positions; no force without contact; the ideal joint as the limit.
 
 use slider_crank::scene::{
     Branch, Clearance, ContactLaw, Crank, Every, Gravity, Joint, Load, Rod, Scene, Slider,
@@ -30,7 +30,7 @@ const TORQUE: f64 = 1.5;
 fn scene(joint: Joint, offset: f64, branch: Branch) -> Scene {
     let clearance = Clearance {
         bearing_radius: Some(0.01),
-        // As of a plastic: contacts last long enough for differences over the rows to be exact.
+        // Stiffness of a plastic: contacts are long enough for exact differences over the rows.
         young_modulus: Some(2e9),
         poisson_ratio: Some(0.3),
         restitution: Some(0.8),
@@ -80,13 +80,13 @@ fn cross(a: Vector, b: Vector) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// A point at (along, left) in axes that are turned by an angle.
+/// Returns a point at (along, left) in axes rotated by an angle.
 fn turned([along, left]: Vector, angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
     [along * cos - left * sin, along * sin + left * cos]
 }
 
-/// Where the bodies are, from a row.
+/// Positions of the bodies, from a row.
 struct Places {
     crank: Vector,
     rod: Vector,
@@ -120,13 +120,13 @@ impl Places {
     }
 }
 
-/// Second derivative at the middle of five values, of order 4.
+/// Returns the second derivative at the middle of five values, to order 4.
 fn second(values: [f64; 5], h: f64) -> f64 {
     let [a, b, c, d, e] = values;
     (-a + 16.0 * b - 30.0 * c + 16.0 * d - e) / (12.0 * h * h)
 }
 
-/// How far each law is off at the middle of five rows, over the size of the forces.
+/// Returns the residual of each law at the middle of five rows, relative to the size of the forces.
 fn residuals(scene: &Scene, rows: &[Row], h: f64) -> Vec<f64> {
     let places: Vec<Places> = rows.iter().map(|row| Places::new(scene, row)).collect();
     let values = |of: &dyn Fn(&Places) -> f64| second(std::array::from_fn(|i| of(&places[i])), h);
@@ -158,7 +158,8 @@ fn residuals(scene: &Scene, rows: &[Row], h: f64) -> Vec<f64> {
         plus(plus(outside, weights), forces.shaking),
     ]
     .concat();
-    // Moments about the rod's centre: without friction the contact force acts along the line of the two centres.
+    // Moments about the rod's centre of gravity: without friction the contact force acts along the line of the two
+    // centres.
     let g = &scene.geometry;
     let own = rod();
     let from_centre = |along: f64| turned([along - own.cg, -own.cg_lateral], place.psi);
@@ -170,7 +171,7 @@ fn residuals(scene: &Scene, rows: &[Row], h: f64) -> Vec<f64> {
         + own.inertia * spin
         + own.mass * cross(place.rod, centre)
         + SLIDER.mass * cross(place.slider, slider);
-    // Moments about O: those of the loads, the drive, the weights and the guide.
+    // Moments about O of the loads, the drive, the weights and the guide.
     let weight = |mass: f64, at: Vector| mass * cross(at, scene.gravity.expect("gravity").vector());
     let about = TORQUE
         + row.driving_torque.unwrap_or(0.0)
@@ -211,7 +212,7 @@ fn each_body_obeys_newton_and_euler() {
             };
             let rows = rows(&scene);
             let force = |row: &Row| row.clearance.expect("a loose joint").force;
-            // The last row is at the end, not at a step from the one before.
+            // The last row is at the end, not one step after the previous row.
             let (mut pressed, mut flying) = (0, 0);
             for window in rows[..rows.len() - 1].windows(5).step_by(3) {
                 let touching = window.iter().filter(|row| force(row) > 0.0).count();
@@ -258,8 +259,8 @@ fn nothing_acts_in_a_joint_whose_parts_fly() {
     }
 }
 
-/// The longer way of the joint makes a difference that goes with c; a link as short as c swings about the direction of
-/// the force, and the difference of that goes with √c.
+/// The longer joint makes a difference proportional to c. A link as short as c swings about the direction of the force,
+/// which makes a difference proportional to √c.
 #[test]
 fn a_short_massless_link_carries_the_forces_of_the_ideal_joint() {
     for joint in [Joint::CrankPin, Joint::WristPin] {

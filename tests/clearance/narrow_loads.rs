@@ -6,13 +6,13 @@ use slider_crank::scene::{
 };
 use slider_crank::simulate::{Options, simulate};
 
-/// kg m²
+/// Crank inertia, kg m².
 const INERTIA: f64 = 0.02;
-/// rad/s
+/// Start speed, rad/s.
 const SPEED: f64 = 5.0;
-/// s; the gap does not close before it.
+/// Duration, s; the gap does not close before it ends.
 const DURATION: f64 = 0.02;
-/// N m
+/// Constant torque, N m.
 const TORQUE: f64 = 0.05;
 
 fn loose(load: &str) -> Scene {
@@ -44,17 +44,17 @@ fn loose(load: &str) -> Scene {
     scene
 }
 
-/// A crank whose pin is loose turns by itself until the gap closes: I dω = T dt and I ω dω = T dθ.
+/// A crank with a loose pin turns freely until the gap closes: I dω = T dt and I ω dω = T dθ.
 #[test]
 fn pulses_in_flight_change_the_speed_as_their_area_says() {
     let free = SPEED + TORQUE * DURATION / INERTIA;
     for width in [1e-3, 1e-4, 1e-6] {
-        // A box of 1e-3 N m s.
+        // Box pulse of 1e-3 N m s.
         let (height, from) = (1e-3 / width, 0.013);
         let box_in_time = format!("{height}*step(t-{from})*step({from}+{width}-t)");
-        // A bell of that area.
+        // Gaussian bell of the same area.
         let bell = format!("{height}*exp(-((t-{from})/{width})^2)/sqrt(pi)");
-        // From one speed to another with more torque: so much later or earlier.
+        // Passes from one speed to the next with more torque, which shifts the time.
         let more = 30.0 * TORQUE;
         let box_of_speed = format!("{more}*step(omega-5.02)*step(5.02+{width}-omega)");
         let saved = width * INERTIA * (1.0 / TORQUE - 1.0 / (TORQUE + more));
@@ -80,7 +80,7 @@ fn pulses_in_flight_change_the_speed_as_their_area_says() {
     }
 }
 
-/// A tent over time as a formula, and as a table, whose rows end steps: in contact, in flight and on a link without mass.
+/// Tent over time as a formula, and as a table, whose rows end steps: in contact, in flight and with a massless link.
 #[test]
 fn a_formula_does_what_its_table_does() {
     for law in [ContactLaw::LankaraniNikravesh, ContactLaw::MasslessLink] {

@@ -1,8 +1,8 @@
-//! Arguments: help for each, and refusal of what cannot be meant.
+//! Command-line arguments: every argument has help text, and meaningless values are refused.
 
 use super::program::{Folder, driven, free};
 
-/// The commands that the program lists.
+/// Returns the commands that the program lists.
 fn commands(folder: &Folder) -> Vec<String> {
     let help = folder.run(&["--help"]).done().stdout;
     let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1);
@@ -22,8 +22,8 @@ fn the_commands_of_this_version_are_listed() {
     assert_eq!(found.join(" "), all);
 }
 
-/// Lines of a help text that introduce an argument, and whether a help follows: on the same line after
-/// two spaces, or on the next one, indented deeper.
+/// Returns the lines of a help text that introduce an argument, and whether a description follows: on the same line
+/// after two spaces, or on the next line, indented deeper.
 fn arguments(help: &str) -> Vec<(String, bool)> {
     let lines: Vec<&str> = help.lines().collect();
     let indent = |line: &str| line.len() - line.trim_start().len();
@@ -125,7 +125,7 @@ fn angles_have_units() {
     }
 }
 
-/// A value below zero is refused for what it is, not taken for an option.
+/// Negative values are refused for being negative, not parsed as options.
 #[test]
 fn values_below_zero_are_values() {
     let folder = Folder::new();
@@ -156,7 +156,7 @@ fn values_below_zero_are_values() {
     }
 }
 
-/// How a file is to be read says nothing where no file is read.
+/// Options for reading a file are refused where no file is read.
 #[test]
 fn reading_options_need_a_file() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Scenes and files that cannot be used: exit code 2, all problems with their lines, no result.
+//! Scenes and files that cannot be used: exit code 2, every problem with its line, no result.
 
 use super::program::{Folder, driven, free};
 
@@ -91,7 +91,7 @@ fn a_table_that_cannot_be_read_is_named_with_the_line_that_asks_for_it() {
     }
 }
 
-/// A formula or table need not have a value everywhere; where it has none, nothing is printed in its place.
+/// A formula or table may lack a value at some states; the program reports this and prints no placeholder there.
 #[test]
 fn a_load_without_a_value_is_said() {
     let load =
@@ -157,8 +157,8 @@ fn a_free_mechanism_without_inertia_is_refused() {
     folder.run(&["kinematics", "scene.toml"]).done();
 }
 
-/// Where crank and rod of a change point lie in one line, the equation does not say how the motion begins; a
-/// motion that arrives there with speed goes on with a warning.
+/// At a change point, with crank and rod in one line, the equation does not determine the motion from rest. A motion
+/// that arrives there with speed continues with a warning.
 #[test]
 fn a_start_at_a_change_point_is_refused() {
     let scene = free("duration = \"1 s\"").replace("150 mm", "50 mm");
@@ -283,7 +283,7 @@ fn what_a_title_says_is_shown_not_obeyed() {
     assert!(!said.contains('\u{1b}'), "{said:?}");
 }
 
-/// Crank plus rod, rounded, is the offset; exactly, it is less.
+/// The offset equals the rounded sum of crank and rod, and exceeds the exact sum.
 #[test]
 fn an_offset_one_rounding_beyond_crank_plus_rod_is_refused() {
     let scene = |offset: &str| {

@@ -1,4 +1,4 @@
-//! A loose joint on the command line: columns, summary, figure.
+//! Loose joint on the command line: columns, summary, figure.
 
 use super::program::{Folder, Rows, at, close, repository};
 
@@ -29,13 +29,13 @@ fn rows_and_summary_show_the_loose_joint() {
     let summary = folder.run(&run).done().json();
     let rows = Rows::read(&folder.read("rows.csv"));
     assert_eq!(rows.header, COLUMNS);
-    // One row a degree over three turns, and the last state.
+    // One row per degree over three turns, plus the final state.
     assert_eq!(rows.len(), 1081);
     assert!(rows.complete());
     let joint = &summary["clearance"];
     assert_eq!(summary["engine"], "contact");
     assert_eq!(joint["joint"], "wrist-pin");
-    // 6.61e10 in the literature on this case.
+    // The literature on this case gives 6.61e10.
     assert!((at(joint, "stiffness_n_per_m_1_5") / 6.61e10 - 1.0).abs() < 1e-3);
     let kinds = |kind: &str| {
         let events = summary["events"].as_array().expect("events");
@@ -99,7 +99,7 @@ fn the_plan_names_the_loose_joint() {
         .fails(2, &words);
 }
 
-/// Without friction the joint's force is that of the contact, whose largest value is no sample.
+/// Without friction the joint force is the contact force, whose maximum lies between the samples.
 #[test]
 fn the_largest_contact_force_is_that_of_the_joint() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! Every command, with the built-in scene and with a scene file.
+//! Every command runs with the built-in scene and with a scene file.
 
 use serde_json::Value;
 
@@ -6,7 +6,7 @@ use super::program::{Folder, at, close, driven, free, has_keys, repository};
 
 const WITH_A_SCENE: [&str; 4] = ["simulate", "kinematics", "explain", "check"];
 
-/// What two runs of the same scene share: all but the measured times.
+/// Removes the measured times, which alone differ between two runs of one scene.
 fn without_times(mut object: Value) -> Value {
     object.as_object_mut().expect("an object").remove("wall_s");
     object
@@ -102,8 +102,8 @@ fn schema_is_a_json_schema() {
     has_keys(&schema["properties"], &sections);
 }
 
-/// r = 50 mm, l = 130 mm, crank straight up: sin φ = 5/13, x' = −r, x'' = r tan φ = r·5/12, so that
-/// M = J + m r², ½ M' = m x' x'' and a force F has the part −F r of Q.
+/// r = 50 mm, l = 130 mm, crank straight up: sin φ = 5/13, x' = −r, x'' = r tan φ = r·5/12. Hence M = J + m r², ½ M' =
+/// m x' x'', and a force F contributes −F r to Q.
 #[test]
 fn explain_gives_every_term_at_an_angle() {
     let folder = Folder::with(

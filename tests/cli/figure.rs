@@ -1,4 +1,4 @@
-//! Figures: what they show, and that nothing in the data breaks them.
+//! Figures: their contents, and validity of the SVG for any data.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ fn svg(figure: &Figure) -> String {
     text
 }
 
-/// Every tag is closed, and every number is one.
+/// Checks that every tag is closed and every number is finite.
 fn check(svg: &str) {
     let mut open = Vec::new();
     for part in svg.split('<').skip(1) {
@@ -29,7 +29,7 @@ fn check(svg: &str) {
     assert!(!svg.contains(|c: char| c.is_control() && c != '\n'));
 }
 
-/// Texts in their order.
+/// Returns the texts in document order.
 fn texts(svg: &str) -> Vec<String> {
     let tags = svg.split("<text").skip(1);
     let inner = tags.filter_map(|tag| tag.split_once('>')?.1.split_once('<'));
@@ -42,7 +42,7 @@ fn attribute(tag: &str, name: &str) -> String {
     rest.split('"').next().expect("a value").to_owned()
 }
 
-/// The points of all lines of a colour.
+/// Returns the points of all lines of one colour.
 fn lines(svg: &str, colour: &str) -> Vec<Vec<(f64, f64)>> {
     let tags = svg.split('<').filter(|tag| tag.starts_with("polyline"));
     tags.filter(|tag| attribute(tag, "stroke") == colour)
@@ -57,7 +57,7 @@ fn lines(svg: &str, colour: &str) -> Vec<Vec<(f64, f64)>> {
         .collect()
 }
 
-/// The colour of the first series.
+/// Colour of the first series.
 const FIRST: &str = "#0072B2";
 
 fn axes() -> (Axis, Axis) {
@@ -112,7 +112,7 @@ fn a_point_lies_where_its_values_say() {
     let line = &lines(&svg, FIRST)[0];
     let (origin, end) = (line[0], line[3]);
     let (width, height) = (end.0 - origin.0, line[2].1 - origin.1);
-    // SVG counts y downward; places are in pixels, to a hundredth.
+    // SVG counts y downward; coordinates are in pixels, to a hundredth.
     assert!(width > 500.0 && height < -300.0);
     assert!((line[1].0 - origin.0 - 0.25 * width).abs() <= 0.02);
     assert!((line[1].1 - origin.1 - 0.25 * height).abs() <= 0.02);
@@ -178,7 +178,7 @@ fn a_range_cuts_lines_at_its_border() {
     let svg = svg(&figure);
     let line = lines(&svg, FIRST);
     assert_eq!(line.iter().map(Vec::len).collect::<Vec<_>>(), [3, 2]);
-    // y = 2 (x - 0.5) leaves at the corners (0, -1) and (1, 1).
+    // y = 2 (x - 0.5) leaves the axes at the corners (0, -1) and (1, 1).
     let (first, last) = (line[0][0], line[0][2]);
     let middle = line[0][1];
     assert!((first.0 + last.0 - 2.0 * middle.0).abs() <= 0.05);
@@ -228,7 +228,7 @@ fn series_of_one_label_share_colour_and_entry() {
     let unnamed = plain().line("", sine(9)).line("", sine(5));
     let unnamed = unnamed.to_svg().expect("a figure");
     assert_eq!(lines(&unnamed, FIRST).len(), 1, "no sample");
-    // Lines are told apart by their strokes too: the second is drawn in dashes.
+    // Line styles differ as well: the second line is dashed.
     let dashes = |colour| {
         let mut tags = unnamed.split('<').filter(|tag| tag.starts_with("polyline"));
         let tag = tags.find(|tag| attribute(tag, "stroke") == colour);

@@ -1,4 +1,4 @@
-//! Output files: complete under their name, or not there at all.
+//! Output files: complete under their final name, or absent.
 
 use std::fs;
 
@@ -75,10 +75,10 @@ fn a_missing_folder_is_named_and_not_made() {
     for command in ["simulate", "kinematics"] {
         let outcome = folder.run(&[command, "scene.toml", "--json", "--out", "missing/rows.csv"]);
         let outcome = outcome.fails(1, &["missing/rows.csv", "cannot be written"]);
-        // The name under which the file is written until it is complete means nothing to the user.
+        // Users should not see the temporary name of an incomplete file.
         assert!(!outcome.stderr.contains(".slider-crank-"), "{outcome:?}");
     }
-    // All outputs are opened before the first is written.
+    // All outputs are opened before the first one is written.
     let outputs = ["--out", "rows.csv", "--plot", "missing/figure.svg"];
     for command in ["simulate", "kinematics", "statics", "precision"] {
         let arguments = [&[command, "scene.toml"], &outputs[..]].concat();
@@ -108,7 +108,7 @@ fn a_folder_is_not_a_file() {
     );
 }
 
-/// Scenes that fail after they were read, beside those that cannot be read.
+/// Scenes that fail after reading, and scenes that cannot be read.
 #[test]
 fn a_scene_that_fails_leaves_no_file_and_keeps_the_older_one() {
     let no_inertia = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[run]\nduration = \"1 s\"\n";
@@ -135,7 +135,7 @@ fn a_scene_that_fails_leaves_no_file_and_keeps_the_older_one() {
     }
 }
 
-/// A pipe with a name, as a device, is written to and not replaced by a file.
+/// A named pipe, like a device, is written to and not replaced by a file.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_named_pipe_stays_a_pipe() {
@@ -171,7 +171,7 @@ fn a_named_pipe_stays_a_pipe() {
     assert!(rows.starts_with("t_s,"), "{rows}");
 }
 
-/// Where the system has files without names.
+/// Applies to systems with unnamed files.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_run_that_is_stopped_leaves_nothing() {
@@ -189,7 +189,7 @@ fn a_run_that_is_stopped_leaves_nothing() {
     assert_eq!(folder.read("rows.csv"), "old");
 }
 
-/// A PNG says its width and height, a PDF its page in points, of which 72 are an inch.
+/// A PNG states its width and height; a PDF states its page size in points, 72 to an inch.
 #[test]
 fn figures_are_written_as_their_endings_say() {
     let folder = Folder::with(&free(GOOD));

@@ -1,11 +1,11 @@
-//! `identify`: a run-down that was simulated apart from the program, with its true values.
+//! `identify`: a run-down simulated by another program, with known true values.
 
 use super::program::{Folder, at, has_keys, repository};
 
 const FREE: &str =
     "torque[1].coefficient, torque[2].value, crank.inertia, geometry.offset, sensor.zero";
 
-/// What data/run-down.csv was simulated with.
+/// True values behind data/run-down.csv.
 const TRUTH: [f64; 5] = [0.0021, 0.14, 0.0277, 0.008, 0.035];
 
 fn identify(folder: &Folder, more: &[&str]) -> super::program::Outcome {
@@ -24,7 +24,7 @@ fn the_values_of_a_run_down_are_found_within_their_bands() {
         assert!((value - truth).abs() < 1.5 * band, "{k}: {value} +- {band}");
         assert!(band < 0.15 * truth, "{k}: {value} +- {band}");
     }
-    // The noise has a standard deviation of 3e-4 rad.
+    // The standard deviation of the noise is 3e-4 rad.
     let sigma = at(&found, "sigma");
     assert!((sigma - 3e-4).abs() < 4e-5, "{sigma}");
     let csv = folder.read("values.csv");
@@ -53,7 +53,8 @@ fn the_text_names_values_errors_and_correlations() {
     assert!(text.lines().count() < 40);
 }
 
-/// The index mark of the record is 0.035 rad off, and not free: a score test tells it from the equation's other values.
+/// The index mark of the record is 0.035 rad off but not free: a score test distinguishes it from errors in the other
+/// values of the equation.
 #[test]
 fn a_key_that_should_be_free_is_named() {
     let free = FREE.replace(", sensor.zero", "");

@@ -1,4 +1,4 @@
-//! Ctrl-C and SIGTERM: what was computed is kept, and nothing is half-written.
+//! Ctrl-C and SIGTERM: computed results are kept, and no file is half-written.
 #![cfg(unix)]
 
 use std::io::Read;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::program::{Folder, free};
 
-/// Signals a process, and waits for its end: exit status and standard error.
+/// Signals a process and waits for its end; returns exit status and standard error.
 #[track_caller]
 fn interrupted(mut child: Child, signal: &str) -> (Option<i32>, String) {
     let process = child.id().to_string();
@@ -20,7 +20,7 @@ fn interrupted(mut child: Child, signal: &str) -> (Option<i32>, String) {
     (status.code(), said)
 }
 
-/// Waits until a file has lines.
+/// Waits until a file has this number of lines.
 #[track_caller]
 fn wait_for(folder: &Folder, name: &str, lines: usize) {
     let begun = Instant::now();
@@ -32,7 +32,7 @@ fn wait_for(folder: &Folder, name: &str, lines: usize) {
     }
 }
 
-/// Rows of numbers, in the order of time, all of them complete.
+/// Checks that all rows are complete numbers in order of time.
 #[track_caller]
 fn check_rows(text: &str) -> usize {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
@@ -42,7 +42,7 @@ fn check_rows(text: &str) -> usize {
     times.len()
 }
 
-/// A run that takes far longer than the test.
+/// Scene and arguments of a run that takes far longer than the test.
 fn endless(method: &'static str) -> (Folder, [&'static str; 7]) {
     let run = "duration = \"1e6 s\"\noutput_every = \"0.5 s\"";
     let folder = Folder::with(&free(run).replace("[run]", "[[torque]]\nkind = \"viscous\"\ncoefficient = \"1e-9 N m s\"\n[[torque]]\nkind = \"expression\"\nvalue = \"1e-6*sin(t)\"\n[run]"));
@@ -106,7 +106,7 @@ fn a_sweep_goes_on_where_it_was_interrupted() {
     assert_eq!(whole, folder.read("again.csv"));
 }
 
-/// The best design so far is said, and that it is not proved.
+/// An interrupted search reports its best design so far, and that it is unproved.
 #[test]
 fn a_search_says_the_best_design_so_far() {
     let folder = Folder::with(&free("duration = \"1000 s\""));
@@ -121,7 +121,7 @@ fn a_search_says_the_best_design_so_far() {
     stdout.read_to_string(&mut shown).expect("a text");
     assert_eq!(code, Some(1), "{said}");
     assert!(said.contains("interrupted"), "{said}");
-    // Before there is any design nothing is said.
+    // Before the first design the program reports nothing.
     if folder.names().contains(&"rows.csv".to_owned()) {
         let found: serde_json::Value = serde_json::from_str(&shown).expect("JSON");
         assert_eq!(found["interrupted"], true);
@@ -130,7 +130,7 @@ fn a_search_says_the_best_design_so_far() {
     }
 }
 
-/// Commands that keep nothing leave nothing.
+/// Commands without partial results leave no file when interrupted.
 #[test]
 fn a_command_without_rows_to_keep_leaves_no_file() {
     let (folder, _) = endless("time");

@@ -1,10 +1,10 @@
-//! `inverse`: data files good and damaged, columns, rows, keys.
+//! `inverse`: valid and damaged data files, columns, rows, keys.
 
 use super::program::{Folder, PUMP, Rows, at, close, has_keys};
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
 
-/// Twelve samples of a crank that turns at 3 rad/s from 0.3 rad.
+/// Returns twelve samples of a crank that turns at 3 rad/s from 0.3 rad.
 fn rows(separator: &str) -> Vec<String> {
     let row = |i: u32| {
         let t = f64::from(i) / 100.0;
@@ -23,7 +23,7 @@ fn folder(data: &str) -> Folder {
     folder
 }
 
-/// A damaged file ends the program with code 2, words that say what and where, and no output of any kind.
+/// Checks that a damaged file ends the program with code 2, a message with these words, and no output of any kind.
 #[track_caller]
 fn refused(data: &str, words: &[&str]) {
     refused_with(data, &[], words);
@@ -50,7 +50,7 @@ fn refused_with(data: &str, options: &[&str], words: &[&str]) {
     assert_eq!(folder.names(), ["data.csv", "scene.toml"], "{data}");
 }
 
-/// The usual file with one row in place of the fifth, which is on line 6.
+/// Returns the usual file with one row in place of the fifth, which is on line 6.
 fn with_row(row: &str) -> String {
     let mut rows = rows(",");
     rows[4] = row.to_owned();
@@ -484,7 +484,7 @@ fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
     assert!(duarte.contains("(9) as printed") && !duarte.contains("cut off"));
 }
 
-/// All figures show the same time, also where the last samples, at a dead centre, have no force.
+/// All figures share one time axis, even if the last samples, at a dead centre, have no force.
 #[test]
 fn figures_of_a_motion_that_ends_at_a_dead_centre_have_the_same_time() {
     let row = |i: u32| {
@@ -556,7 +556,7 @@ fn times_far_from_zero_are_noted() {
     }
 }
 
-/// At a dead centre itself the force over the lever arm is no number: it is said that it is the arm.
+/// Exactly at a dead centre, where the lever arm is zero, the reason given is the lever arm.
 #[test]
 fn a_sample_at_a_dead_centre_is_named_as_one() {
     let rows: Vec<String> = (0..40)
@@ -613,7 +613,7 @@ fn the_built_in_motion_gives_back_its_polynomial() {
     }
 }
 
-/// A data file in the place of the scene is no scene with a thousand errors.
+/// A data file in place of the scene gives one message, not a thousand errors.
 #[test]
 fn a_scene_that_is_forgotten_or_comes_second_is_said() {
     let rows: Vec<String> = (0..3000).map(|i| format!("{i},{i}")).collect();
@@ -756,7 +756,7 @@ fn check_reads_data_files() {
         .fails(2, &["data.csv:6:6", "is not a number"]);
 }
 
-/// What reads the data for `inverse` reads them for `check`, and says of a scene that it is none.
+/// `check` reads data with the options of `inverse`, and reports a scene as a scene.
 #[test]
 fn check_takes_the_options_of_reading() {
     let folder = folder(&data("t [s];theta [rad]", &rows(";")).replace('.', ","));
@@ -773,7 +773,7 @@ fn check_takes_the_options_of_reading() {
         .fails(2, &["this is a scene"]);
 }
 
-/// What is odd in the data is said of a fit that is refused, too.
+/// A refused fit still carries the notes on irregularities of the data.
 #[test]
 fn a_refused_fit_says_what_is_odd_in_the_data() {
     let row = |i: u32| {
@@ -801,7 +801,7 @@ fn a_refused_fit_says_what_is_odd_in_the_data() {
         .fails(2, &["\nnote: 1 gap"]);
 }
 
-/// On the left branch no position of the right one is possible.
+/// Positions of the right branch are unreachable on the left branch.
 #[test]
 fn positions_of_the_other_branch() {
     let rocker = super::program::ROCKER;
@@ -816,7 +816,7 @@ fn positions_of_the_other_branch() {
     );
 }
 
-/// A rod that is known to a standard error: `inverse` has its share, other commands take the middle.
+/// The standard error of a rod length appears in the error budget of `inverse`; other commands use the central value.
 #[test]
 fn uncertain_values_of_the_scene_have_their_share() {
     let text = data("t [s],theta [rad]", &rows(","));

@@ -1,14 +1,14 @@
-//! The text of `inverse` fits a screen, whatever the record; warnings of motions that contradict the scene.
+//! Text of `inverse`: it fits a screen for any record, and warns of motions that contradict the scene.
 
 use std::f64::consts::TAU;
 
 use super::program::{Folder, PUMP};
 
-/// A record of the crank angle, in the unit of the header, over time in s.
+/// Returns a record of the crank angle, in the unit of the header, over time in s.
 fn record(header: &str, rows: usize, step: f64, angle: impl Fn(f64) -> f64) -> String {
     let row = |i: usize| {
         let t = step * i as f64;
-        // Numbers of a linear congruence as noise.
+        // Noise from a linear congruential generator.
         let noise = (i as u64)
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407)
@@ -21,7 +21,7 @@ fn record(header: &str, rows: usize, step: f64, angle: impl Fn(f64) -> f64) -> S
     format!("{header}\n{}", (0..rows).map(row).collect::<String>())
 }
 
-/// The standard output of `inverse` for a scene of a speed.
+/// Returns the standard output of `inverse` for a scene with this speed.
 fn said(speed: &str, data: &str, options: &[&str]) -> String {
     let scene = format!("{PUMP}\n[motion]\nspeed = \"{speed}\"\n");
     let folder = Folder::with(&scene);
@@ -116,10 +116,10 @@ fn a_motion_that_contradicts_the_scene_is_said() {
         slow.contains("0.050 times the scene's [motion] speed"),
         "{slow}"
     );
-    // 20 rows for 12 turns.
+    // 20 rows in 12 turns.
     let few = text("10 rad/s", 10.0, 20, 12.0 * TAU / 190.0);
     assert!(few.contains("1.6 rows in a turn"), "{few}");
-    // A swing has no speed that could contradict.
+    // A swing has no steady speed that could contradict the scene.
     let swing = said(
         "10 rad/s",
         &record("t [s],theta [rad]", 300, 0.02, |t| 1.0 + 0.5 * t.sin()),

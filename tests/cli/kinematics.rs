@@ -1,4 +1,4 @@
-//! `kinematics`: columns, rows, keys, and the geometry they follow from.
+//! `kinematics`: columns, rows and keys, checked against the geometry.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -8,7 +8,7 @@ const POSITION: &str =
     "theta_rad,x_m,dx_m_per_rad,d2x_m_per_rad2,phi_rad,dphi,d2phi,transmission_rad";
 const RATES: &str = "v_m_per_s,a_m_per_s2,rod_omega_rad_per_s,rod_alpha_rad_per_s2";
 
-/// Gupta's mechanism: r = 140 mm, l = 310 mm, e = 60 mm.
+/// Returns a folder with Gupta's mechanism: r = 140 mm, l = 310 mm, e = 60 mm.
 fn gupta(geometry: &str, motion: &str) -> Folder {
     Folder::with(&format!(
         "[geometry]\ncrank = \"140 mm\"\nrod = \"310 mm\"\n{geometry}\n[motion]\n{motion}\n"
@@ -98,7 +98,7 @@ fn the_summary_has_every_key() {
     }
 }
 
-/// In line: x = r ± l at the dead centres, and the rod is most inclined when the crank is upright.
+/// In-line mechanism: x = r ± l at the dead centres, and the rod is most inclined when the crank is upright.
 #[test]
 fn figures_of_a_mechanism_in_line() {
     let summary = Folder::with(PUMP).kinematics(&[]).0;
@@ -109,7 +109,7 @@ fn figures_of_a_mechanism_in_line() {
         ("return_rad", PI),
         ("time_ratio", 1.0),
         ("transmission_min_rad", (1.0f64 / 3.0).acos()),
-        // x'' at θ = 0 is −(r + r²/l), the least there is; per radian, as nothing turns.
+        // At θ = 0, x'' has its minimum −(r + r²/l); without a speed the value is per radian.
         ("acceleration_min.value", -(0.05 + 0.05 * 0.05 / 0.15)),
         ("acceleration_min.theta_rad", 0.0),
     ] {
@@ -123,15 +123,15 @@ fn figures_of_a_mechanism_in_line() {
     }
 }
 
-/// At the dead centres O, A and P lie on one line, which meets the guide at depth e: the outer one l + r,
-/// the inner one l − r away from O.
+/// At the dead centres O, A and P lie on one line, which meets the guide at depth e: the outer dead centre is l + r
+/// away from O, the inner one l − r.
 #[test]
 fn figures_of_an_offset_mechanism() {
     let (outer, inner) = ((0.06f64 / 0.45).asin(), (0.06f64 / 0.17).asin());
     let stroke =
         (0.45f64.powi(2) - 0.06f64.powi(2)).sqrt() - (0.17f64.powi(2) - 0.06f64.powi(2)).sqrt();
     let rising = PI + inner - outer;
-    // The outward stroke is the one on which x grows: turned round, it is the other one.
+    // x grows during the outward stroke; reversing the rotation exchanges the strokes.
     for (speed, outward) in [
         ("300 rpm", rising),
         ("-300 rpm", TAU - rising),
@@ -171,7 +171,7 @@ fn the_outward_stroke_is_where_the_rows_say_so() {
             let folder = gupta(geometry, &format!("speed = \"{speed}\""));
             let (summary, rows) = folder.kinematics(&["--every", "0.1 deg"]);
             let sign = if geometry.contains("left") { -1.0 } else { 1.0 };
-            // Away from the crank pivot: growing |x|.
+            // Away from the crank pivot: |x| grows.
             let v = rows.column("v_m_per_s");
             let outward = v[1..].iter().filter(|v| sign * **v > 0.0).count();
             close(
@@ -183,7 +183,7 @@ fn the_outward_stroke_is_where_the_rows_say_so() {
     }
 }
 
-/// The loop closes in every row, and each derivative is the slope of what it derives.
+/// The loop closes in every row, and each derivative is the slope of its quantity.
 #[test]
 fn columns_hold_what_they_are_named_after() {
     for (geometry, e, s) in [
@@ -209,7 +209,7 @@ fn columns_hold_what_they_are_named_after() {
             close(transmission[i], FRAC_PI_2 - phi[i].abs(), 1e-15);
             close(v[i], dx[i] * omega, 1e-14);
             close(a[i], d2x[i] * omega * omega, 1e-12);
-            // The rod turns counter-clockwise: P moves against A by rod_omega × (P − A).
+            // The rod turns counter-clockwise: P moves relative to A with rod_omega × (P − A).
             let across = -e - r * theta[i].sin();
             close(
                 v[i] + r * omega * theta[i].sin(),
@@ -270,7 +270,7 @@ fn extremes_are_the_extremes_of_the_rows() {
     }
 }
 
-/// A rocker's rows exist where the rod reaches the guide; elsewhere cells are empty.
+/// A rocker has rows where the rod reaches the guide; elsewhere the cells are empty.
 #[test]
 fn angles_out_of_reach_have_empty_cells() {
     let (summary, rows) = Folder::with(ROCKER).kinematics(&[]);

@@ -1,4 +1,4 @@
-//! Runs that end before their time: exit code 1, a message up to where, and what was computed is kept.
+//! Runs that end early: exit code 1, a message with the time reached, and the computed results are kept.
 
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::program::{Folder, PENDULUM, ROCKER, Rows, at, close, free, rocker_limit, same};
 
-/// A run that is stopped with this word in its message.
+/// Returns summary and rows of a run that stops with this word in its message.
 #[track_caller]
 fn stopped(folder: &Folder, more: &[&str], word: &str) -> (Value, Rows) {
     let mut arguments = vec!["simulate", "scene.toml", "--json", "--out", "rows.csv"];
@@ -28,7 +28,7 @@ fn rocker(motion: &str) -> Folder {
     Folder::with(&format!("{ROCKER}\n[motion]\n{motion}\n"))
 }
 
-/// l < r + |e|: no constant speed passes the limit of the crank's motion, and a crank alone runs against it.
+/// l < r + |e|: a crank at constant speed cannot pass its limit, and a crank alone runs into it.
 #[test]
 fn a_driven_rocker_and_a_rocker_without_rod_and_slider_end_at_the_limit_of_their_motion() {
     let massless = ROCKER.replace("[slider]\nmass = \"0.5 kg\"\n", "");
@@ -48,7 +48,7 @@ fn a_driven_rocker_and_a_rocker_without_rod_and_slider_end_at_the_limit_of_their
             assert!(at(&summary, "final.t_s") < 1.0);
             close(at(&summary, "final.theta_rad"), limit, 0.01);
             if kind == "constant-speed" {
-                // Torque and energy grow without bound.
+                // Torque and energy grow without bound at the limit.
                 assert!(summary.get("driving_torque").is_none());
                 assert!(summary["energy_residual"].is_null());
             }
@@ -63,15 +63,14 @@ fn a_driven_rocker_and_a_rocker_without_rod_and_slider_end_at_the_limit_of_their
                     .iter()
                     .all(|theta| theta.abs() <= limit.abs() + 1e-12)
             );
-            // The rod approaches the normal of the guide and does not go beyond it.
+            // The rod approaches the normal of the guide without reaching it.
             let inclinations = rows.column("phi_rad");
             assert!(inclinations.iter().all(|phi| phi.abs() <= TAU / 4.0));
         }
     }
 }
 
-/// Turns that a crank between limits never completes are refused instead of waited for, and a crank that friction
-/// stops says so.
+/// Turns that a crank between limits can never complete are refused at once; a crank stopped by friction is reported.
 #[test]
 fn turns_that_are_never_completed_end_the_run() {
     let rocking = format!("{ROCKER}\n[motion]\nspeed = \"10 rad/s\"\n")
@@ -95,7 +94,7 @@ fn turns_that_are_never_completed_end_the_run() {
     close(at(&summary, "final.theta_rad"), 2.0 * TAU, 1e-13);
 }
 
-/// Past the limit the crank swings back and the slider goes on, on the other branch; J ω² + m v² stays what it was.
+/// Past the limit the crank swings back and the slider goes on, on the other branch; J ω² + m v² is conserved.
 #[test]
 fn a_rocker_passes_its_limit_and_keeps_its_energy() {
     let folder = rocker("speed = \"10 rad/s\"");
@@ -186,7 +185,7 @@ fn the_work_limit_keeps_what_was_computed() {
     assert!(text.stdout.contains("stopped early"), "{text:?}");
 }
 
-/// What is printed or written does not change how far a run goes.
+/// Printed and written output does not change how far a limited run goes.
 #[test]
 fn the_work_limit_counts_the_solution_only() {
     let folder = Folder::with(&free("duration = \"100 s\"\noutput_every = \"0.1 ms\""));
@@ -212,7 +211,7 @@ fn a_crank_that_never_completes_its_turns_says_so() {
     }
 }
 
-/// The pendulum turns back for ever: it is told so, and not followed for ever.
+/// The pendulum turns back for ever: the run stops with that message instead of following it.
 #[test]
 fn a_crank_that_swings_says_so_at_once() {
     let folder = Folder::with(&format!("{PENDULUM}\n[run]\nrevolutions = 1\n"));

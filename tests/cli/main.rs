@@ -1,4 +1,4 @@
-//! The program as its users meet it: arguments, files, streams, exit codes.
+//! The program from its users' side: arguments, files, streams, exit codes.
 
 mod arguments;
 mod bad_input;

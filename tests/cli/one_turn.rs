@@ -1,4 +1,4 @@
-//! `kinematics` with forces, sensitivities, changed lengths, sizing and the iterated loop.
+//! `kinematics` with forces, sensitivities, changed lengths, sizing and the iterative loop closure.
 
 use super::program::{Folder, PUMP, Rows, at, close, repository};
 
@@ -16,7 +16,7 @@ fn run(more: &[&str]) -> (serde_json::Value, Rows) {
     (outcome.json(), Rows::read(&folder.read("rows.csv")))
 }
 
-/// Extremes of the driving torque by 40-digit arithmetic, for both senses of rotation.
+/// Extremes of the driving torque in 40-digit arithmetic, for both senses of rotation.
 #[test]
 fn forces_at_constant_speed() {
     let (summary, rows) = run(&["--forces", "--every", "5 deg"]);
@@ -31,7 +31,7 @@ fn forces_at_constant_speed() {
         close(at(&summary, path), want, 1e-7 * want.abs());
     }
     assert!(rows.complete());
-    // With the crank's inertia balanced the pin carries the torque.
+    // With the crank's inertia balanced, the pin transmits the whole torque.
     for (torque, tangential) in rows
         .column("crank_torque_nm")
         .iter()
@@ -48,7 +48,7 @@ fn forces_at_constant_speed() {
     }
 }
 
-/// Extremes by 40-digit arithmetic.
+/// Extremes in 40-digit arithmetic.
 #[test]
 fn extremes_with_other_offsets() {
     let (summary, _) = run(&["--with-offset", "10 mm", "--with-offset", "0 mm"]);
@@ -65,7 +65,7 @@ fn extremes_with_other_offsets() {
     }
 }
 
-/// Clockwise, the stroke with the high torque is the outward one.
+/// Clockwise, the stroke with the high torque becomes the outward one.
 #[test]
 fn reversed_rotation_exchanges_the_strokes() {
     let scene = std::fs::read_to_string(repository("data/obaseki-alfred.toml")).unwrap();
@@ -103,7 +103,7 @@ fn sensitivity_and_change_agree_for_a_small_change() {
     assert!(rows.header.contains("crank_torque_by_offset_n"));
 }
 
-/// Friction at the guide is not in the forces at constant speed, and that is said.
+/// Forces at constant speed omit friction at the guide, and the output states this.
 #[test]
 fn friction_that_is_left_out_is_named() {
     let scene = repository("data/ng.toml");
@@ -116,7 +116,8 @@ fn friction_that_is_left_out_is_named() {
     assert_eq!((warnings(&[]), warnings(&["--forces"])), (0, 1));
 }
 
-/// A force that follows a formula of the position leaves the torque's cells empty, and says so.
+/// If a force is a formula of the position, the torque slope is unknown: its cells are empty and the output states
+/// this.
 #[test]
 fn a_torque_of_unknown_slope_is_left_out() {
     let force =

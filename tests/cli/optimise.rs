@@ -14,7 +14,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value}"))
 }
 
-/// The least of a function of one minimum, by sections in three.
+/// Returns the minimum of a unimodal function by ternary search.
 fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..200 {
         let third = (high - low) / 3.0;
@@ -26,8 +26,9 @@ fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     f(0.5 * (low + high))
 }
 
-/// Between a limit of the transmission angle and an offset that speeds the return up: on the limit e = l cos 45 deg - r, and the
-/// time ratio is (pi + a)/(pi - a) with a = asin(e/(l - r)) - asin(e/(l + r)) from the triangles of the dead centres.
+/// Trade-off between the transmission angle and an offset that speeds up the return. On the limit e = l cos 45 deg - r,
+/// the time ratio is (pi + a)/(pi - a) with a = asin(e/(l - r)) - asin(e/(l + r)) from the triangles of the dead
+/// centres.
 #[test]
 fn the_fastest_return_is_on_the_limit_of_the_transmission_angle() {
     let folder = Folder::with(SCENE);
@@ -81,8 +82,8 @@ fn the_fastest_return_is_on_the_limit_of_the_transmission_angle() {
     assert!(!ends.is_empty() && ends.iter().all(|end| *end <= value));
 }
 
-/// The largest acceleration has two humps on short rods and one on long ones, so that its least is at an edge. Without offset
-/// x'' = - r (cos theta + l' cos 2 theta + ...) is taken from differences of x.
+/// The acceleration has two equal maxima for short rods and one for long rods, so that the minimum of the maximum is at
+/// the transition. Without offset, x'' = - r (cos theta + l' cos 2 theta + ...) is computed from differences of x.
 #[test]
 fn a_least_of_a_largest_is_found_at_its_edge() {
     let folder = Folder::with(SCENE);
@@ -154,7 +155,7 @@ fn limits_that_no_design_keeps_are_said_with_the_one_that_misses_them_least() {
     let run = folder.run(&[&arguments[..], &goal].concat());
     let run = run.complains(1, &["no design was found that keeps all limits"]);
     assert!(run.stdout.contains("missed"), "{}", run.stdout);
-    // The longest rod swings least.
+    // The longest rod has the smallest swing.
     assert!(
         run.stdout.contains("0.6 m, the high bound"),
         "{}",
@@ -236,9 +237,10 @@ fn a_motion_is_searched_as_far_as_its_error_tells_designs_apart() {
     let arguments = ["optimise", "scene.toml", "--vary", vary];
     let found = folder.run(&[&arguments[..], &["--most", "omega_min", "--json"]].concat());
     let found = found.done().json();
-    // The heaviest crank is the steadiest; from a dead centre, where the slider stands still, the motion slows down.
+    // The heaviest crank is the steadiest; from a dead centre, where the slider is at rest, the motion slows down.
     assert_eq!(found["values"][0]["at_bound"], "high");
-    // Half a turn has (I + m r^2) w^2 at most, where the slider is as fast as the pin, times rod effects below a tenth.
+    // In half a turn the energy reaches at most (I + m r^2) w^2, where the slider is as fast as the pin, times rod
+    // effects below a tenth.
     assert!(
         number(&found["value"]) > 10.0 * (0.2 / 0.225_f64).sqrt() && number(&found["value"]) < 10.0
     );

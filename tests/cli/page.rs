@@ -1,10 +1,10 @@
-//! `--report`: one page that needs nothing beside it, for every command with rows.
+//! `--report`: one self-contained page, for every command with rows.
 
 use std::process::Command;
 
 use super::program::{Folder, free};
 
-/// The commands with a page, in a folder with `scene.toml`.
+/// Commands with a page, run in a folder with `scene.toml`.
 const COMMANDS: [&[&str]; 6] = [
     &["simulate", "scene.toml", "--reactions"],
     &["kinematics", "scene.toml", "--forces"],
@@ -26,7 +26,7 @@ const COMMANDS: [&[&str]; 6] = [
     ],
 ];
 
-/// The part of a page that is not scripts.
+/// Returns a page without its scripts.
 fn outside_scripts(page: &str) -> String {
     let mut parts = page.split("<script");
     let first = parts.next().unwrap_or_default().to_owned();
@@ -41,7 +41,7 @@ fn the_page_shows_key_figures_terms_events_scene_and_command() {
     let folder = Folder::with(&text);
     let arguments = ["simulate", "scene.toml", "--report", "page.html"];
     let shown = folder.run(&arguments).done().stdout;
-    // A slash may be written as its number.
+    // A slash may be escaped as a character reference.
     let page = outside_scripts(&folder.read("page.html")).replace("&#x2f;", "/");
     assert!(page.starts_with("<!DOCTYPE html>"));
     let (facts, _) = shown.split_once("\n\n").expect("facts, then rows");
@@ -119,7 +119,7 @@ fn the_page_goes_to_a_file_of_its_own() {
     assert_eq!(folder.names(), ["scene.toml"]);
 }
 
-/// A browser without a window, if this machine has one.
+/// Returns a browser that can run headless, if this machine has one.
 fn browser() -> Option<&'static str> {
     let found = |name: &&str| Command::new(name).arg("--version").output().is_ok();
     ["chromium", "chromium-browser", "google-chrome"]
@@ -127,7 +127,8 @@ fn browser() -> Option<&'static str> {
         .find(found)
 }
 
-/// What a script finds out on a page, where time passes as fast as it can and frames are drawn by its clock: the errors of the page, the number of things that it loaded, and what the script says.
+/// Runs a script on a page in virtual time, with animation frames on the same clock; returns the page's errors, the
+/// number of resources it loaded, and the values that the script reports.
 fn probed(browser: &str, folder: &Folder, page: &str, script: &str) -> Vec<String> {
     let watch = "<script>window.failed = []; addEventListener('error', (e) => failed.push(e.message)); \
                  console.error = (...all) => failed.push(all.join(' ')); \
@@ -194,7 +195,7 @@ fn pages_run_in_a_browser() {
     }
 }
 
-/// The animation moves, keys step, and the cursor has the values of the CSV file.
+/// The animation moves, the keys step through it, and the cursor shows the values of the CSV file.
 #[test]
 fn the_cursor_has_the_values_of_the_rows() {
     let Some(browser) = browser() else {

@@ -1,10 +1,10 @@
-//! What pictures show: chosen columns over a chosen column, peaks and poles as they are.
+//! Pictures: chosen columns over a chosen column, with true peaks and poles.
 
 use super::program::{Folder, driven, free};
 
 const GOOD: &str = "duration = \"0.1 s\"";
 
-/// Coordinates of the lines of a picture in a colour.
+/// Returns the coordinates of a picture's lines of one colour.
 fn lines(svg: &str, colour: &str) -> Vec<Vec<(f64, f64)>> {
     let lines = svg.split("<polyline").skip(1);
     let of_colour = lines.filter(|line| line.contains(&format!("stroke=\"{colour}\"")));
@@ -81,7 +81,7 @@ fn what_is_no_column_is_refused_before_anything_is_written() {
     folder.run(&wrong).fails(2, &["180x120"]);
 }
 
-/// Impacts are shorter than the time between rows: 45.9 kN in the summary, 31 kN at the rows.
+/// Impacts are shorter than the row interval: 45.9 kN in the summary, 31 kN at the rows.
 #[test]
 fn impacts_between_rows_are_drawn() {
     let folder = Folder::with("");
@@ -97,7 +97,7 @@ fn impacts_between_rows_are_drawn() {
     assert!(folder.read("x.svg").contains(">45000<"));
 }
 
-/// The force that balances a torque has a pole at each dead centre, with other signs on either side.
+/// The force that balances a torque has a pole at each dead centre, with opposite signs on its two sides.
 #[test]
 fn no_line_crosses_a_pole() {
     let folder = Folder::with(&free(GOOD));
@@ -127,7 +127,7 @@ fn no_line_crosses_a_pole() {
     }
 }
 
-/// The pose of a linkage in line with its guide follows from the triangle crank, rod, guide.
+/// For a guide through the pivot, the pose follows from the triangle of crank, rod and guide.
 #[test]
 fn a_linkage_is_drawn_in_millimetres() {
     let folder = Folder::with("[geometry]\ncrank = \"30 mm\"\nrod = \"50 mm\"\n");
@@ -174,7 +174,7 @@ fn a_motion_is_animated() {
         .done();
     let gif = std::fs::read(folder.path("motion.gif")).expect("a file");
     assert!(gif.starts_with(b"GIF89a") && gif.ends_with(&[0x3b]));
-    // A graphic control extension stands before each frame; 20 hundredths of a second are its delay.
+    // A graphic control extension precedes each frame; its delay is 20 hundredths of a second.
     let control = [0x21, 0xf9, 0x04];
     let frames: Vec<_> = gif
         .windows(6)
@@ -186,7 +186,7 @@ fn a_motion_is_animated() {
     folder.run(&both).fails(2, &["--at"]);
 }
 
-/// Uniform motions at 30 and 33 rad/s part by 3 rad/s.
+/// Uniform motions at 30 and 33 rad/s separate at 3 rad/s.
 #[test]
 fn motions_are_compared() {
     let folder = Folder::with(&driven("duration = \"0.1 s\""));

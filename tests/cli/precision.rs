@@ -3,7 +3,7 @@
 use super::program::{Folder, ROCKER, free};
 
 const HEADER: &str = "scene,method,tolerance,error_theta_rad,error_omega_rad_per_s,estimate_theta_rad,wall_s,evaluations,steps";
-/// The pump for half a second.
+/// Returns the pump, run for half a second.
 fn pump() -> String {
     free("duration = \"0.5 s\"")
 }
@@ -102,7 +102,7 @@ fn what_cannot_be_computed_leaves_empty_rows() {
     );
 }
 
-/// A slider that jams ends the motion, and a loose joint has one engine: neither has anything to be measured against.
+/// Jamming ends the motion, and a loose joint has one engine only: neither has a reference to be measured against.
 #[test]
 fn jamming_and_loose_joints_have_rows_that_say_why() {
     let folder = Folder::new();

@@ -1,4 +1,4 @@
-//! The program in a folder of its own, and what it left there.
+//! Test harness: runs the program in its own folder and inspects the files it leaves.
 
 use std::fs;
 use std::io::Write;
@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// A slider-crank of r = 50 mm, l = 150 mm with a flywheel and a slider; no load, no gravity.
+/// Slider-crank with r = 50 mm, l = 150 mm, a flywheel and a slider; no load, no gravity.
 pub const PUMP: &str = r#"
 [geometry]
 crank = "50 mm"
@@ -21,7 +21,7 @@ inertia = "0.02 kg m^2"
 mass = "0.5 kg"
 "#;
 
-/// A rocker: the rod of 50 mm reaches the guide, 10 mm below O, on a part of the crank's circle only.
+/// Rocker: the 50 mm rod reaches the guide, 10 mm below O, on part of the crank circle only.
 pub const ROCKER: &str = r#"
 [geometry]
 crank = "50 mm"
@@ -38,12 +38,12 @@ mass = "0.5 kg"
 duration = "1 s"
 "#;
 
-/// The rocker's crank angle from 0 at which its rod stands normal to the guide: r sin θ = l − e.
+/// Returns the rocker's crank angle, from 0, at which its rod stands normal to the guide: r sin θ = l − e.
 pub fn rocker_limit() -> f64 {
     (40.0f64 / 50.0).asin()
 }
 
-/// A crank with its weight 20 mm off the pivot, let go 60 degrees from hanging straight down.
+/// Crank with its weight 20 mm off the pivot, released 60 degrees from hanging straight down.
 pub const PENDULUM: &str = r#"
 [geometry]
 crank = "50 mm"
@@ -61,24 +61,24 @@ acceleration = "9.80665 m/s^2"
 angle = "-30 deg"
 "#;
 
-/// The pump in free motion.
+/// Returns the pump in free motion.
 pub fn free(run: &str) -> String {
     format!("{PUMP}\n[motion]\nspeed = \"10 rad/s\"\n\n[run]\n{run}\n")
 }
 
-/// The pump at a constant crank speed.
+/// Returns the pump at constant crank speed.
 pub fn driven(run: &str) -> String {
     format!("{PUMP}\n[motion]\nkind = \"constant-speed\"\nspeed = \"10 rad/s\"\n\n[run]\n{run}\n")
 }
 
-/// A way to a motion: a scene, given its `[run]`, and options of `simulate`.
+/// One way to compute a motion: a scene, given its `[run]`, and options of `simulate`.
 #[derive(Debug)]
 pub struct Way {
     scene: fn(&str) -> String,
     options: &'static [&'static str],
 }
 
-/// The engines: time, angle, what the plan takes for a motion without load, and prescribed motion.
+/// The engines: time, angle, the planned engine for a motion without load, and prescribed motion.
 pub const WAYS: [Way; 4] = [
     Way {
         scene: free,
@@ -98,19 +98,19 @@ pub const WAYS: [Way; 4] = [
     },
 ];
 
-/// Those of a free motion.
+/// Returns the ways for a free motion.
 pub fn free_ways() -> &'static [Way] {
     &WAYS[..3]
 }
 
 impl Way {
-    /// Summary and rows of the pump at 10 rad/s.
+    /// Returns summary and rows of the pump at 10 rad/s.
     #[track_caller]
     pub fn simulated(&self, run: &str) -> (Value, Rows) {
         self.simulated_at("10 rad/s", run, &[])
     }
 
-    /// Summary and rows at another speed, with more options.
+    /// Returns summary and rows at another speed, with further options.
     #[track_caller]
     pub fn simulated_at(&self, speed: &str, run: &str, more: &[&str]) -> (Value, Rows) {
         let scene = (self.scene)(run).replace("10 rad/s", speed);
@@ -118,7 +118,7 @@ impl Way {
     }
 }
 
-/// What the program said and how it ended.
+/// Output and exit status of the program.
 #[derive(Debug)]
 pub struct Outcome {
     pub code: Option<i32>,
@@ -127,7 +127,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Done, and silent on standard error.
+    /// Checks that the program succeeded and left standard error empty.
     #[track_caller]
     pub fn done(self) -> Outcome {
         assert_eq!(self.code, Some(0), "{self:?}");
@@ -135,14 +135,14 @@ impl Outcome {
         self
     }
 
-    /// Ended with this code, no result, and a message that has all these words.
+    /// Checks the exit code, the absence of a result, and that the message has all these words.
     #[track_caller]
     pub fn fails(self, code: i32, words: &[&str]) -> Outcome {
         assert_eq!(self.stdout, "", "{self:?}");
         self.complains(code, words)
     }
 
-    /// Ended with this code and a message that has all these words.
+    /// Checks the exit code, and that the message has all these words.
     #[track_caller]
     pub fn complains(self, code: i32, words: &[&str]) -> Outcome {
         assert_eq!(self.code, Some(code), "{self:?}");
@@ -154,7 +154,7 @@ impl Outcome {
         self
     }
 
-    /// Standard output as one JSON object.
+    /// Parses standard output as one JSON object.
     #[track_caller]
     pub fn json(&self) -> Value {
         match serde_json::from_str(&self.stdout) {
@@ -164,7 +164,7 @@ impl Outcome {
     }
 }
 
-/// A folder in which the program runs.
+/// Working folder of the program.
 pub struct Folder(TempDir);
 
 impl Folder {
@@ -172,7 +172,7 @@ impl Folder {
         Folder(tempfile::tempdir().expect("a temporary folder"))
     }
 
-    /// A folder with one scene, `scene.toml`.
+    /// Creates a folder with one scene, `scene.toml`.
     pub fn with(scene: &str) -> Folder {
         let folder = Folder::new();
         folder.write("scene.toml", scene);
@@ -191,7 +191,7 @@ impl Folder {
         fs::read_to_string(self.path(name)).expect(name)
     }
 
-    /// Names of all that is in the folder, in alphabetical order.
+    /// Returns the names of all entries of the folder, in alphabetical order.
     pub fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("the temporary folder");
         let mut names: Vec<_> = entries
@@ -207,7 +207,7 @@ impl Folder {
         names
     }
 
-    /// The program with these arguments, not yet started; the user's environment decides nothing.
+    /// Returns the program with these arguments, not yet started, isolated from the user's environment.
     pub fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_slider-crank"));
         command.args(arguments).current_dir(self.0.path());
@@ -221,14 +221,14 @@ impl Folder {
         outcome(self.command(arguments).stdin(Stdio::null()))
     }
 
-    /// Runs with a text on standard input.
+    /// Runs the program with a text on standard input.
     pub fn run_with_input(&self, arguments: &[&str], input: &str) -> Outcome {
         let mut child = self.start(arguments);
         give(&mut child, input);
         ended(child)
     }
 
-    /// Started, with all three streams as pipes.
+    /// Starts the program with all three streams as pipes.
     pub fn start(&self, arguments: &[&str]) -> Child {
         self.command(arguments)
             .stdin(Stdio::piped())
@@ -238,7 +238,7 @@ impl Folder {
             .expect("the program starts")
     }
 
-    /// Simulates `scene.toml` and gives summary and rows.
+    /// Simulates `scene.toml`; returns summary and rows.
     #[track_caller]
     pub fn simulated(&self, more: &[&str]) -> (Value, Rows) {
         let mut arguments = vec!["simulate", "scene.toml", "--json", "--out", "rows.csv"];
@@ -247,7 +247,7 @@ impl Folder {
         (summary, Rows::read(&self.read("rows.csv")))
     }
 
-    /// The kinematics of `scene.toml`: summary and rows.
+    /// Computes the kinematics of `scene.toml`; returns summary and rows.
     #[track_caller]
     pub fn kinematics(&self, more: &[&str]) -> (Value, Rows) {
         let mut arguments = vec!["kinematics", "scene.toml", "--json", "--out", "rows.csv"];
@@ -269,7 +269,7 @@ pub fn outcome(command: &mut Command) -> Outcome {
     read_outcome(command.output().expect("the program starts"))
 }
 
-/// What a program that was started said, and how it ended.
+/// Waits for a started program; returns its output and exit status.
 pub fn ended(child: Child) -> Outcome {
     read_outcome(child.wait_with_output().expect("the program ends"))
 }
@@ -283,7 +283,7 @@ fn read_outcome(output: std::process::Output) -> Outcome {
     }
 }
 
-/// A file of the repository.
+/// Returns the path of a file of the repository.
 pub fn repository(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
@@ -292,12 +292,12 @@ pub fn repository(path: &str) -> PathBuf {
 pub struct Rows {
     pub header: String,
     names: Vec<String>,
-    /// Empty cells are `None`.
+    /// Cells by row; empty ones are `None`.
     cells: Vec<Vec<Option<f64>>>,
 }
 
 impl Rows {
-    /// Reads rows, every number of them finite and as short as it can be.
+    /// Reads rows, and checks that every number is finite and has its shortest form.
     #[track_caller]
     pub fn read(text: &str) -> Rows {
         let header = text.lines().next().expect("a header").to_owned();
@@ -325,7 +325,7 @@ impl Rows {
         self.cells.len()
     }
 
-    /// A column without empty cells.
+    /// Returns a column without empty cells.
     #[track_caller]
     pub fn column(&self, name: &str) -> Vec<f64> {
         let cells = self.cells_of(name);
@@ -365,7 +365,7 @@ fn number(cell: &str) -> Option<f64> {
     Some(value)
 }
 
-/// The significant digits of a number.
+/// Returns the significant digits of a number.
 fn digits(number: &str) -> String {
     let mantissa = number.split('e').next().unwrap_or_default();
     let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
@@ -373,7 +373,7 @@ fn digits(number: &str) -> String {
     digits.trim_end_matches('0').to_owned()
 }
 
-/// A number of a JSON object, by its path: `final.t_s`.
+/// Returns a number of a JSON object by its path, like `final.t_s`.
 #[track_caller]
 pub fn at(object: &Value, path: &str) -> f64 {
     let value = path.split('.').fold(object, |value, key| &value[key]);
@@ -382,14 +382,14 @@ pub fn at(object: &Value, path: &str) -> f64 {
         .unwrap_or_else(|| panic!("{path} is {value}"))
 }
 
-/// The keys of an object.
+/// Returns the keys of an object.
 #[track_caller]
 pub fn keys(object: &Value) -> Vec<&str> {
     let object = object.as_object().expect("an object");
     object.keys().map(String::as_str).collect()
 }
 
-/// Whether an object has all these keys.
+/// Checks that an object has all these keys.
 #[track_caller]
 pub fn has_keys(object: &Value, expected: &[&str]) {
     let found = keys(object);
@@ -398,7 +398,7 @@ pub fn has_keys(object: &Value, expected: &[&str]) {
     }
 }
 
-/// Equal but for the last digit, which the JSON reader of the tests may miss.
+/// Checks equality up to the last digit, which the JSON reader of the tests may miss.
 #[track_caller]
 pub fn same(found: f64, expected: f64) {
     close(found, expected, f64::EPSILON * expected.abs());

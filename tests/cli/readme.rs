@@ -1,4 +1,4 @@
-//! What the README shows is what the program does. Its Rust example is a documentation test of the library.
+//! The README agrees with the program. Its Rust example is a documentation test of the library.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -16,7 +16,7 @@ fn readme() -> String {
     fs::read_to_string(repository().join("README.md")).expect("README.md")
 }
 
-/// The contents of all code blocks in a language, in their order.
+/// Returns the contents of all code blocks of one language, in order.
 fn blocks(language: &str) -> Vec<String> {
     let text = readme();
     let mut found = Vec::new();
@@ -33,7 +33,7 @@ fn blocks(language: &str) -> Vec<String> {
     found
 }
 
-/// Runs the program in the repository and gives its standard output.
+/// Runs the program in the repository and returns its standard output.
 fn run(arguments: &[String]) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_slider-crank"));
     let output = command.args(arguments).current_dir(repository()).output();
@@ -44,7 +44,7 @@ fn run(arguments: &[String]) -> String {
     text(output.stdout)
 }
 
-/// The words of a command line; quotes keep spaces.
+/// Splits a command line into words; quotes protect spaces.
 fn words(line: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;
@@ -59,7 +59,7 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// The command lines of the README.
+/// Returns the command lines of the README.
 fn command_lines() -> Vec<String> {
     blocks("sh").concat().lines().map(str::to_owned).collect()
 }
@@ -81,7 +81,7 @@ fn every_command_line_works() {
     assert!(command_lines().contains(&"cargo test".to_owned()));
 }
 
-/// Runs a command line, with its files in a folder; its command.
+/// Runs a command line with its files in a folder; returns the command.
 fn check_works(line: &str, folder: &Path) -> String {
     let mut arguments = words(line);
     let mut files = Vec::new();
@@ -113,7 +113,7 @@ fn every_example_of_the_help_works() {
     assert!(shown.len() > 10, "{shown:?}");
 }
 
-/// The commands that the program lists.
+/// Returns the commands that the program lists.
 fn commands() -> BTreeSet<String> {
     let help = run(&["--help".to_owned()]);
     let listed = help.lines().skip_while(|line| *line != "Commands:").skip(1);
@@ -125,7 +125,7 @@ fn commands() -> BTreeSet<String> {
         .collect()
 }
 
-/// First cells of the rows of the table with this header.
+/// Returns the first cells of the rows of the table with this header.
 fn first_column(header: &str) -> Vec<String> {
     let text = readme();
     let rows = text
@@ -158,7 +158,7 @@ fn every_function_of_formulas_is_named() {
     }
 }
 
-/// Numbers agree to a millionth, so that the last digits may depend on the machine.
+/// Compares two lines with numbers to a relative 1e-6, because their last digits may depend on the machine.
 fn same(shown: &str, found: &str) -> bool {
     let (shown, found) = (shown.split_whitespace(), found.split_whitespace());
     let (shown, found): (Vec<_>, Vec<_>) = (shown.collect(), found.collect());
@@ -184,7 +184,7 @@ fn the_output_shown_is_that_of_the_first_command() {
     assert!(!same("a 1.00001 b", "a 1 b") && !same("a b", "a c") && !same("a", "a b"));
 }
 
-/// Errors shown are found again: to a factor of three, and at the level of rounding to its size.
+/// The errors in the README agree with `precision` to a factor of three; errors of rounding size agree in that alone.
 #[test]
 fn the_errors_shown_are_those_of_precision() {
     let arguments = [
@@ -238,7 +238,7 @@ fn the_scene_shown_is_right() {
     }
 }
 
-/// The tables of keys and of loads name all that the schema has, and nothing that it has not.
+/// The tables of keys and of loads name exactly the sections, keys and kinds of the schema.
 #[test]
 fn every_section_key_and_kind_of_load_is_named() {
     let schema: Value = serde_json::from_str(&run(&["schema".to_owned()])).expect("JSON");

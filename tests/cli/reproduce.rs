@@ -1,4 +1,4 @@
-//! `reproduce`: the table, the files, and the exit code.
+//! `reproduce`: table, files and exit code.
 
 use super::program::Folder;
 

@@ -1,4 +1,4 @@
-//! `sweep --sample`, `--least`, `--merge`: designs at random, the best of them, and parts put together.
+//! `sweep --sample`, `--least`, `--merge`: random designs, the best of them, and merged parts.
 
 use serde_json::Value;
 
@@ -8,7 +8,7 @@ const SCENE: &str = "[geometry]\ncrank = \"50 +- 0.1 mm\"\nrod = \"150 +- 0.2 mm
 [crank]\ninertia = \"0.02 kg m^2\"\n[slider]\nmass = \"0.6 kg\"\n\
 [motion]\nspeed = \"20 rad/s\"\n[run]\nduration = \"0.1 s\"\n";
 
-/// Numbers of the columns of a file of rows, by name.
+/// Columns of a file of rows, by name.
 struct Rows(Vec<(String, Vec<Option<f64>>)>);
 
 impl Rows {
@@ -39,7 +39,7 @@ impl Rows {
     }
 }
 
-/// Of a summary the range of a figure.
+/// Returns the range of a figure from a summary.
 #[track_caller]
 fn figure<'a>(summary: &'a Value, column: &str) -> &'a Value {
     let figures = summary["figures"].as_array().expect("figures");
@@ -88,7 +88,7 @@ fn the_tolerances_of_a_scene_are_sampled_and_their_effect_is_the_propagated_one(
         let wanted = stroke(*crank, *rod, 0.01);
         assert!((found - wanted).abs() < 1e-15, "{found}, {wanted}");
     }
-    // Error propagation of first order; the sample is stratified, so that its own scatter is far below 1 %.
+    // First-order error propagation; the stratified sample's own scatter is far below 1 %.
     let (dr, dl) = (
         (stroke(0.0501, 0.15, 0.01) - stroke(0.0499, 0.15, 0.01)) / 2.0,
         (stroke(0.05, 0.1502, 0.01) - stroke(0.05, 0.1498, 0.01)) / 2.0,
@@ -146,7 +146,7 @@ fn every_part_of_a_range_has_one_design_and_keys_are_independent() {
             .map(|(_, e)| *e)
             .collect();
         assert_eq!(of.len(), 100);
-        // Four standard deviations of a mean of 100 uniform values.
+        // Four standard deviations of the mean of 100 uniform values.
         let mean = of.iter().sum::<f64>() / 100.0;
         assert!((mean - 0.01).abs() < 4.0 * 0.02 / 1200f64.sqrt(), "{mean}");
     }
@@ -256,7 +256,7 @@ fn no_design_is_better_than_one_of_the_pareto_front() {
     assert!(wanted.len() > 1 && wanted.len() < count);
     for one in front {
         let row = at(one, "design") as usize - 1;
-        // JSON is read to within a unit in the last place.
+        // The JSON reader is accurate to one unit in the last place.
         let off = at(one, "figures.stroke_m") - values[2][row];
         assert!(off.abs() <= 4e-16 * values[2][row]);
     }

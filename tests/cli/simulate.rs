@@ -1,4 +1,4 @@
-//! Rows of `simulate`: columns, number, ends, and what the columns hold.
+//! Rows of `simulate`: columns, number, ends and values.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -54,7 +54,7 @@ fn a_run_has_500_rows_unless_said_otherwise() {
     }
 }
 
-/// A crank that is held passes no angles, and has its first and its last row.
+/// A crank at rest passes no output angles, but has its first and its last row.
 #[test]
 fn a_crank_at_rest_has_rows_at_both_ends() {
     let scene = driven("duration = \"1 s\"\noutput_every = \"1 deg\"");
@@ -121,7 +121,7 @@ fn no_two_rows_have_the_same_time() {
     }
 }
 
-/// It turns back at multiples of the angle step, and starts at one.
+/// The motion reverses at multiples of the angle step, and starts at one.
 #[test]
 fn turning_back_gives_one_row() {
     let run = "[run]\nduration = \"2 s\"\noutput_every = \"10 deg\"\n";
@@ -170,7 +170,7 @@ fn a_negative_speed_turns_clockwise() {
                 .all(|omega| *omega < 0.0)
         );
         assert!(at(&summary, "revolutions") < -1.5, "{way:?}");
-        // In line, both senses mirror each other, to the tolerance.
+        // For a guide through the pivot both senses of rotation are mirror images, to the tolerance.
         let (forward, _) = way.simulated("duration = \"1 s\"");
         close(
             at(&summary, "final.theta_rad"),
@@ -218,7 +218,7 @@ fn the_last_row_is_the_final_state() {
     }
 }
 
-/// Slider position, velocity and acceleration, and rod inclination of the pump (r = 50 mm, l = 150 mm).
+/// Returns slider position, velocity and acceleration, and rod inclination of the pump (r = 50 mm, l = 150 mm).
 fn pose(theta: f64, omega: f64, alpha: f64) -> [f64; 4] {
     let (r, l) = (0.05, 0.15);
     let sin_phi = r * theta.sin() / l;
@@ -235,8 +235,8 @@ fn pose(theta: f64, omega: f64, alpha: f64) -> [f64; 4] {
     ]
 }
 
-/// Without load, M θ̈ + ½ M' θ̇² = 0 says that the force m a, at the velocity v, brings the power that the
-/// flywheel gives: J ω α + m v a = 0.
+/// Without load, M θ̈ + ½ M' θ̇² = 0 states that the power of the force m a at velocity v and the power of the flywheel
+/// cancel: J ω α + m v a = 0.
 #[test]
 fn columns_hold_what_they_are_named_after() {
     for way in free_ways() {
@@ -256,7 +256,7 @@ fn columns_hold_what_they_are_named_after() {
     }
 }
 
-/// The massless rod is a strut along its own line; slider and flywheel are balanced on their own.
+/// The massless rod is a two-force member; slider and flywheel are each in balance.
 #[test]
 fn reactions_are_the_forces_on_each_body() {
     let (_, rows) =
@@ -292,8 +292,8 @@ fn reactions_are_the_forces_on_each_body() {
     }
 }
 
-/// Newton's second law for each body, at constant speed and without gravity: the c.g. of the crank goes
-/// round O, that of the rod has its share of the accelerations of A and P.
+/// Newton's second law for each body, at constant speed without gravity: the centre of gravity of the crank circles O,
+/// that of the rod interpolates the accelerations of A and P.
 #[test]
 fn each_joint_is_in_its_own_columns() {
     let scene = driven("duration = \"1 s\"")
@@ -325,7 +325,7 @@ fn each_joint_is_in_its_own_columns() {
     }
 }
 
-/// About O the crank has the angular momentum m k² ω, the slider m e v on its line y = −e.
+/// About O the crank has the angular momentum m k² ω, and the slider m e v on its line y = −e.
 #[test]
 fn the_shaking_moment_is_minus_the_rate_of_change_of_angular_momentum() {
     let scene = free("duration = \"1 s\"").replace("[crank]", "offset = \"20 mm\"\n\n[crank]");
@@ -354,10 +354,10 @@ fn driving_torque_has_a_range_a_mean_and_a_column() {
     let (low, high) = torque
         .iter()
         .fold((f64::MAX, f64::MIN), |(a, b), t| (a.min(*t), b.max(*t)));
-    // Rows every degree miss an extreme by no more than half a degree, that is by 4e-5 of the amplitude.
+    // Rows at every degree miss an extreme by at most half a degree, that is by 4e-5 of the amplitude.
     close(at(range, "min_nm"), low, 1e-4 * (high - low));
     close(at(range, "max_nm"), high, 1e-4 * (high - low));
-    // Over whole turns inertia takes nothing: what is left is the load.
+    // Over whole turns the inertia does no work: the mean is that of the load.
     close(at(range, "mean_nm"), 3.0, 1e-12);
     for (theta, torque) in rows.column("theta_rad").into_iter().zip(torque) {
         let [_, v, a, _] = pose(theta, 10.0, 0.0);
@@ -383,7 +383,7 @@ fn tables_of_loads_are_found_beside_the_scene() {
         .run(&["simulate", "scenes/scene.toml", "--json"])
         .done()
         .json();
-    // A scene on standard input has its tables in the current folder.
+    // The tables of a scene on standard input are relative to the current folder.
     let torque = "torque.csv";
     folder
         .run_with_input(&["simulate", "-", "--json"], &scene)

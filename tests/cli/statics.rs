@@ -1,4 +1,4 @@
-//! `statics`: columns, rows, options, and what is refused.
+//! `statics`: columns, rows, options and refusals.
 
 use super::program::{Folder, PUMP, ROCKER, Rows, at, close, has_keys};
 
@@ -10,8 +10,8 @@ fn rows(folder: &Folder, more: &[&str]) -> Rows {
     Rows::read(&folder.read("rows.csv"))
 }
 
-/// Force from torque is torque/(r sin θ) where the rod lies along the guide's normal plane: at 90 degrees
-/// in line, x' = −r.
+/// The force is torque/(r sin θ) where the rod lies in the normal plane of the guide: at 90 degrees, with the guide
+/// through the pivot, x' = −r.
 #[test]
 fn rows_have_the_columns_and_one_turn() {
     let folder = Folder::with(PUMP);
@@ -84,7 +84,7 @@ fn weight_drum_and_tilt_are_torque_and_friction() {
     }
 }
 
-/// The rocker's range is left open, and its limits and locked ranges are named.
+/// The summary of a rocker names its limits, blocked ranges and locked ranges; blocked rows are empty.
 #[test]
 fn a_rocker_is_blocked_and_locked() {
     let folder = Folder::with(ROCKER);

@@ -91,7 +91,7 @@ fn what_has_none_is_refused_and_nothing_is_written() {
         .fails(2, &["x"]);
 }
 
-/// A four-stroke engine: its cycle, its steady state and its flywheel, alone and in a sweep.
+/// Four-stroke engine: cycle, steady state and flywheel, alone and in a sweep.
 #[test]
 fn cycles_of_two_turns() {
     let folder = Folder::new();
@@ -136,6 +136,6 @@ fn cycles_of_two_turns() {
     let number = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
     assert_eq!([number(0, turns), number(1, turns)], [2.0, 2.0]);
     assert!((number(0, fluctuation) / 0.151_378_592_1 - 1.0).abs() < 1e-8);
-    // What the crank has already is not added.
+    // The flywheel is reduced by the inertia that the crank already has.
     assert!((number(0, wheel) - number(1, wheel) - 0.1).abs() < 1e-9);
 }

@@ -1,4 +1,4 @@
-//! Standard input and output: data in pipes, talk on standard error, no escape codes, no harm in a closed pipe.
+//! Standard streams: data in pipes, messages on standard error, no escape codes, and closed pipes are harmless.
 
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
@@ -69,7 +69,7 @@ fn json_is_all_there_is_on_standard_output() {
     }
 }
 
-/// Runs of every kind: good, stopped, with bad arguments, with a bad scene.
+/// Returns runs of every kind: successful, stopped, with bad arguments, with a bad scene.
 fn runs() -> [&'static [&'static str]; 10] {
     [
         &["--help"],
@@ -130,7 +130,7 @@ fn no_color_is_honoured_even_where_colour_is_forced() {
     }
 }
 
-/// The program writes more than a pipe holds to a reader that takes one line and leaves.
+/// The output exceeds a pipe buffer, and the reader leaves after one line.
 #[test]
 fn a_reader_that_leaves_is_no_error() {
     let folder = Folder::with(&driven("duration = \"1 s\"\noutput_every = \"10 us\""));
@@ -155,7 +155,7 @@ fn a_reader_that_leaves_is_no_error() {
     }
 }
 
-/// The reader is gone before the program has read its scene, so that every write fails.
+/// The reader closes before the program has read its scene, so that every write fails.
 #[test]
 fn a_reader_that_was_never_there_is_no_error() {
     let folder = Folder::new();
@@ -182,7 +182,7 @@ fn a_reader_that_was_never_there_is_no_error() {
     }
 }
 
-/// A full disk is an error, and no panic.
+/// A full disk causes an error message, not a panic.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_output_that_cannot_be_written_is_an_error() {
@@ -219,7 +219,7 @@ fn an_output_that_cannot_be_written_is_an_error() {
     }
 }
 
-/// The names that the system gives to streams that are open lead to the files that hold them: these are added to.
+/// The system's names of open streams lead to the files behind them: output is appended to these files.
 #[cfg(target_os = "linux")]
 #[test]
 fn files_that_are_open_already_are_not_replaced() {

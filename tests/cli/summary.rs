@@ -1,4 +1,4 @@
-//! The summary of `simulate`: its keys, and numbers that can be known otherwise.
+//! Summary of `simulate`: its keys, and numbers known independently.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use super::program::{
     Folder, PENDULUM, PUMP, WAYS, at, close, driven, free, free_ways, has_keys, keys,
 };
 
-/// No number in a JSON text is NaN or infinite: those are `null` there, which only these keys may be.
+/// Checks that no number in a JSON text is NaN or infinite: such values are `null`, which only these keys may be.
 fn finite(value: &Value, path: &str) {
     let may_be_absent = [
         "estimate_cost",
@@ -141,7 +141,7 @@ fn dead_centres_in_line_are_at_multiples_of_half_a_turn() {
         );
         for (i, event) in events.iter().enumerate() {
             close(at(event, "theta_rad"), (i + 1) as f64 * PI, 1e-12);
-            // At the dead centres the slider rests and the flywheel has all the energy.
+            // At the dead centres the slider is at rest and the flywheel has all the energy.
             close(at(event, "omega_rad_per_s"), 10.0, 1e-8);
         }
         let times: Vec<_> = events.iter().map(|event| at(event, "t_s")).collect();
@@ -170,13 +170,13 @@ fn a_pendulum_turns_back_where_it_came_from() {
             .iter()
             .all(|theta| (-150.0001..-29.9999).contains(&theta.to_degrees()))
     );
-    // All of the height is speed when it hangs: ½ J ω² = m g k (1 − cos 60°).
+    // At the lowest position all potential energy has become kinetic: ½ J ω² = m g k (1 − cos 60°).
     let fastest = (2.0 * 9.80665 * 0.02 * 0.5 / 0.0005f64).sqrt();
     close(at(&summary, "omega_max"), fastest, 1e-7);
     close(at(&summary, "omega_min"), -fastest, 1e-7);
 }
 
-/// Without load ½ M ω² stays: the crank is slowest where x'² is largest, fastest at the dead centres.
+/// Without load ½ M ω² is constant: the crank is slowest where x'² is largest, and fastest at the dead centres.
 #[test]
 fn extreme_speeds_are_those_of_the_motion() {
     let (kinematics, _) = Folder::with(PUMP).kinematics(&[]);
@@ -188,7 +188,7 @@ fn extreme_speeds_are_those_of_the_motion() {
             close(at(&summary, "omega_min"), least, 1e-8);
             close(at(&summary, "omega_max"), 10.0, 1e-8);
         }
-        // A run too short to be there ends at its least speed.
+        // A run too short to reach the minimum has its lowest speed at its end.
         for run in ["duration = \"50 ms\"", "revolutions = 0.1"] {
             let (summary, _) = way.simulated(run);
             let last = at(&summary, "final.omega_rad_per_s");
@@ -288,7 +288,7 @@ fn the_list_of_events_is_bounded_and_says_so() {
     }
 }
 
-/// Longest run of digits of the mantissa of a number in a text, leading zeros apart.
+/// Returns the longest run of mantissa digits of a number in a text, without leading zeros.
 fn digits(text: &str) -> usize {
     let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
     let length = |number: &str| number.replace('.', "").trim_start_matches('0').len();
@@ -327,7 +327,7 @@ fn people_see_six_digits_where_no_error_is_known() {
             assert!(digits(line) <= 6, "{arguments:?}: {line}");
         }
     }
-    // Exact speed, its angle beside the time of each largest force, the engine by its name alone.
+    // The exact speed, the angle beside the time of each largest force, the engine by its bare name.
     let text = folder
         .run(&["simulate", "scene.toml", "--reactions"])
         .done()

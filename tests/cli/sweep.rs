@@ -1,4 +1,4 @@
-//! `sweep`: every design like the scene written out, parts that make the whole, and nothing lost.
+//! `sweep`: every design agrees with its scene written out, the parts make up the whole, and nothing is lost.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ acceleration_min_m_per_s2,engine,t_s,theta_rad,omega_rad_per_s,error_theta_rad,e
 revolutions,omega_min_rad_per_s,omega_max_rad_per_s,driving_torque_min_nm,driving_torque_max_nm,\
 driving_torque_mean_nm,energy_residual,evaluations,events,notes";
 
-/// Rows of a sweep: what stands under a name in each.
+/// Rows of a sweep, with named columns.
 struct Table {
     names: Vec<String>,
     rows: Vec<Vec<String>>,
@@ -46,7 +46,7 @@ impl Table {
     }
 }
 
-/// A pump with a heavy rod, a motor and a table.
+/// Returns a pump with a heavy rod, a motor and a table.
 fn pump(offset: &str, model: &str) -> String {
     let scene = free("duration = \"0.5 s\"").replace(
         "rod = \"150 mm\"",
@@ -84,7 +84,7 @@ fn run(folder: &Folder, more: &[&str]) -> super::program::Outcome {
     folder.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// The whole sweep.
+/// Runs the whole sweep; returns its file.
 #[track_caller]
 fn whole(folder: &Folder) -> String {
     run(folder, &["--out", "whole.csv"]).done();
@@ -113,7 +113,7 @@ fn every_design_is_the_scene_with_its_values_written_out() {
         assert_eq!(table.text(row, "status"), "done");
         let same = |name: &str, of: &Value, path: &str| {
             let (found, wanted) = (table.number(row, name), at(of, path));
-            // JSON is read to within a unit in the last place.
+            // The JSON reader is accurate to one unit in the last place.
             let error = (found - wanted).abs();
             assert!(
                 error <= 4e-16 * wanted.abs(),
@@ -175,7 +175,7 @@ fn largest_forces_are_those_of_the_scene_with_its_values_written_out() {
             same(found, wanted);
         }
     }
-    // The other columns are those of a sweep without them.
+    // The other columns equal those of a sweep without these options.
     folder.write("scene.toml", &pump("3 mm", "rigid"));
     let plain = Table::read(&whole(&folder));
     for (name, row) in plain
@@ -203,7 +203,7 @@ fn strokes_of_offset_mechanisms_are_those_of_the_triangles_at_the_dead_centres()
     assert_eq!(table.rows.len(), 19);
     assert!(!table.names.iter().any(|name| name == "engine"));
     for row in 0..19 {
-        // To the last bit the same as typed: -90, -80, ... mm.
+        // Bit-identical to typed values: -90, -80, ... mm.
         let offset: f64 = format!("{}e-3", 10 * row as i32 - 90)
             .parse()
             .expect("a number");
@@ -231,7 +231,7 @@ fn the_parts_put_one_after_the_other_are_the_whole() {
     }
     let shown = run(&folder, &["--out", "-"]);
     assert_eq!((shown.code, shown.stdout), (Some(0), wanted));
-    // Of more parts than designs the first have none.
+    // With more parts than designs, the first parts are empty.
     let none = run(&folder, &["--shard", "1/1000"]);
     assert!(none.stdout.contains(", none of these"), "{none:?}");
     assert_eq!(
@@ -240,7 +240,7 @@ fn the_parts_put_one_after_the_other_are_the_whole() {
     );
 }
 
-/// Starts a sweep of many long designs and kills it when it has rows.
+/// Starts a sweep of many long designs, and kills it once it has rows.
 fn cut_off(folder: &Folder, arguments: &[&str]) -> String {
     let mut child = folder.start(arguments);
     let part = folder.path("rows.csv.part");
@@ -278,13 +278,13 @@ fn a_sweep_that_was_killed_goes_on_where_it_ended() {
     let rows = folder.read("rows.csv");
     assert_eq!(Table::read(&rows).rows.len(), 64);
     assert_eq!(folder.names(), ["rows.csv", "scene.toml"]);
-    // What was there stayed as it was.
+    // The rows already written are unchanged.
     let left: Vec<&str> = left.lines().skip(1).collect();
     assert!(left.len() > 16 && rows.starts_with(&left[..left.len() - 1].join("\n")));
 }
 
-/// Of two sweeps into one file the second is refused, be it the same one or another, and the first is none the
-/// worse for it.
+/// A second sweep into a file in use is refused, whether it is the same sweep or another, and leaves the first one
+/// undisturbed.
 #[test]
 fn a_file_that_another_sweep_is_writing_is_left_to_it() {
     let folder = Folder::with(&free("duration = \"400 s\""));
@@ -320,7 +320,7 @@ fn a_file_that_another_sweep_is_writing_is_left_to_it() {
     assert_eq!(first.try_wait().expect("a child"), None, "it still runs");
     let after = std::fs::read_to_string(&part).expect("rows of the first");
     assert!(after.starts_with(&before), "left to the first");
-    // What a dead process had is free again.
+    // The lock of a dead process is released.
     first.kill().expect("a child");
     first.wait().expect("a child");
     folder.run(&long).done();
@@ -344,7 +344,7 @@ fn wherever_it_was_cut_off_the_result_is_the_same() {
     }
 }
 
-/// The first line of what the cut off whole sweep leaves.
+/// Returns the first line of the file that the interrupted whole sweep leaves.
 fn mark(folder: &Folder) -> String {
     let varied = [VARY[1], VARY[3]].map(|text| text.parse().expect("values"));
     let draft = slider_crank::scene::Draft::load(&folder.path("scene.toml")).expect("a scene");
@@ -560,7 +560,7 @@ fn what_the_scene_lacks_may_be_varied_in() {
         .collect();
     assert_eq!((speeds[0], speeds[2]), (10.0, 1000.0));
     close(speeds[1], 100.0, 1e-13);
-    // The slider alone has a place that gravity moves, and it moves level: nothing changes.
+    // Only the slider has a potential under gravity, and it moves horizontally: nothing changes.
     for row in 0..3 {
         assert_eq!(
             table.number(row, "theta_rad"),

@@ -1,4 +1,4 @@
-//! `synthesis`: lengths that have the wanted stroke and time ratio.
+//! `synthesis`: lengths for the wanted stroke and time ratio.
 
 use std::f64::consts::PI;
 
@@ -15,17 +15,17 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value}"))
 }
 
-/// Crank, rod and offset.
+/// Returns crank, rod and offset.
 #[track_caller]
 fn lengths(found: &Value) -> [f64; 3] {
     ["crank_m", "rod_m", "offset_m"].map(|name| number(&found[name]))
 }
 
-/// Stroke and time ratio from the dead centres as points of the plane: O is at (0, 0), the guide on y = -e.
+/// Returns stroke and time ratio from the dead centres as points of the plane: O is at (0, 0), the guide on y = -e.
 fn turn([crank, rod, offset]: [f64; 3]) -> [f64; 2] {
     let at = |reach: f64| (reach * reach - offset * offset).sqrt();
     let (outer, inner) = (at(rod + crank), at(rod - crank));
-    // Angles of the rod's line; at the inner dead centre the crank points away from the pin.
+    // Angles of the line of the rod; at the inner dead centre the crank points away from the pin.
     let [far, near] = [outer, inner].map(|x| (-offset).atan2(x));
     let outward = PI + far - near;
     [outer - inner, outward / (2.0 * PI - outward)]
@@ -44,7 +44,7 @@ fn every_choice_has_the_wanted_stroke_and_time_ratio() {
         ] {
             let wanted = ["--stroke", "90 mm", "--time-ratio", ratio, "--json"];
             let run = run(&folder, &[&wanted[..], choice].concat());
-            // No mechanism of so fast a return has so long a crank or offset; that is said.
+            // No mechanism with so fast a return has so long a crank or offset; the message states this.
             if run.code == Some(2) {
                 let wide: f64 = ratio.parse().expect("a number");
                 assert!(!(0.5..2.0).contains(&wide), "{ratio} {choice:?}: {run:?}");
@@ -55,7 +55,7 @@ fn every_choice_has_the_wanted_stroke_and_time_ratio() {
             let lengths = lengths(&found);
             let [stroke, time_ratio] = turn(lengths);
             let want: f64 = ratio.parse().expect("a number");
-            // Long rods leave their rounding in the difference that the stroke is.
+            // The stroke is a difference, in which the rounding of long rods remains.
             let error = 1e-15_f64.max(lengths[1] * f64::EPSILON);
             assert!(
                 (stroke - 0.09).abs() < error,
@@ -78,7 +78,7 @@ fn every_choice_has_the_wanted_stroke_and_time_ratio() {
     }
 }
 
-/// Every other rod of the same stroke and time ratio has a worse transmission angle, (r + e)/l being its cosine.
+/// Every other rod with this stroke and time ratio has a smaller least transmission angle, whose cosine is (r + e)/l.
 #[test]
 fn the_default_has_the_best_transmission_angle() {
     let folder = Folder::new();

@@ -1,5 +1,5 @@
-//! Engines against each other over random scenes: two that serve the same scene must agree to the errors they
-//! state, at the end and inside the run, in events, extreme speeds and the balance of energy.
+//! Engines compared over random scenes: two engines that apply to one scene must agree within their stated errors, at
+//! the end and inside the run, in events, extreme speeds and energy balance.
 
 use std::path::Path;
 use std::thread;
@@ -13,9 +13,9 @@ use slider_crank::scene::{Extent, Scene};
 use slider_crank::simulate::{Event, Options, Simulation, simulate};
 
 const SCENES: usize = 320;
-/// What a method may cost that is compared.
+/// Largest number of evaluations of a method under comparison.
 const EVALUATIONS: u64 = 50_000;
-/// No estimate may be too small by more than this factor.
+/// Largest accepted ratio of true to stated error.
 const STATED: f64 = 2.0;
 
 const METHODS: [Method; 5] = [
@@ -26,7 +26,7 @@ const METHODS: [Method; 5] = [
     Method::Dopri5,
 ];
 
-/// A run to the end, and one that ends inside it.
+/// Run to the end, and a run that ends inside it.
 struct Run {
     method: Method,
     whole: Simulation,
@@ -38,7 +38,7 @@ impl Run {
         matches!(self.method, Method::Dop853 | Method::Dopri5)
     }
 
-    /// Relative to the largest energy, which is small where all is slow; tolerances are absolute there.
+    /// Returns the allowed energy residual, relative to the largest energy; tolerances are absolute for slow motions.
     fn residual_allowed(&self, tolerance: f64) -> f64 {
         let summary = &self.whole.summary;
         let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
@@ -47,7 +47,7 @@ impl Run {
     }
 }
 
-/// What disagrees in a scene.
+/// Disagreements found in one scene.
 struct Scenery<'a> {
     text: &'a str,
     tolerance: f64,
@@ -61,18 +61,18 @@ fn stated(run: &Simulation) -> [f64; 2] {
     [error.theta_rad, error.omega_rad_per_s]
 }
 
-/// What two runs may be apart by what they state.
+/// Returns the distance of two runs that their stated errors allow.
 fn both(a: &Simulation, b: &Simulation) -> [f64; 2] {
     let (ea, eb) = (stated(a), stated(b));
     [0, 1].map(|k| STATED * (ea[k] + eb[k]))
 }
 
-/// The same with so much more, absolute and relative.
+/// Returns an allowed distance increased by an absolute and relative slack.
 fn with(allowed: [f64; 2], slack: f64, at: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| allowed[k] + slack * (1.0 + at[k].abs()))
 }
 
-/// A finished run with its estimate; none where the method does not serve, stops, or takes too long.
+/// Returns a finished run with its estimate; none where the method does not apply, stops, or takes too long.
 fn run(scene: &Scene, method: Method) -> Option<Simulation> {
     let alone = Options {
         method,
@@ -84,7 +84,7 @@ fn run(scene: &Scene, method: Method) -> Option<Simulation> {
     if alone.summary.stopped.is_some() {
         return None;
     }
-    // Its estimate takes more than the run.
+    // The estimate takes more evaluations than the run.
     let options = Options {
         method,
         max_evaluations: 20 * EVALUATIONS,
@@ -101,7 +101,7 @@ fn until(scene: &Scene, t: f64) -> Scene {
     scene
 }
 
-/// A time inside the run: that of an event, if there is one.
+/// Returns a time inside the run: that of an event, if there is one.
 fn inside(first: &Simulation, draw: f64) -> f64 {
     let summary = &first.summary;
     let within = |t: f64| t > 0.02 * summary.last.t_s && t < 0.98 * summary.last.t_s;
@@ -120,7 +120,7 @@ impl Scenery<'_> {
         }
     }
 
-    /// What one run must be by itself.
+    /// Checks one run by itself.
     fn alone(&mut self, run: &Run) {
         let summary = &run.whole.summary;
         let [theta, omega] = stated(&run.whole);
@@ -141,7 +141,7 @@ impl Scenery<'_> {
         });
         let (low, high) = (summary.omega_min, summary.omega_max);
         let margin = 2.0 * omega + 10.0 * self.tolerance * (1.0 + low.abs().max(high.abs()));
-        // Between the ends of its steps a method of the library is no guide.
+        // Between the ends of steps the methods of ode_solvers are unreliable.
         for k in 0..=200 {
             let t = summary.last.t_s * (f64::from(k) / 200.0);
             let speed = run.whole.at(t).expect("a time of the run").1;
@@ -170,14 +170,14 @@ impl Scenery<'_> {
         let in_run = both(&a.part, &b.part);
         let what = format!("{who} where shorter runs end");
         self.states(&what, x, y, with(in_run, 0.0, x));
-        // Inside a step the error is of the size of the tolerance; what the library leaves out between the ends of
-        // steps is interpolated, and nothing controls that.
+        // Inside a step the error is of the size of the tolerance. The program interpolates the methods of ode_solvers
+        // between the ends of steps, without error control.
         let slack = self.tolerance * if of_library { 1e4 } else { 2.0 };
         let at = |run: &Run| run.whole.at(self.inside).expect("a time of the run");
         let [x, y] = [at(a), at(b)].map(|(theta, omega)| [theta, omega]);
         let allowed = with(in_run, slack, x);
         self.states(&format!("{who} inside"), x, y, allowed);
-        // What is stated so large says nothing about the way there.
+        // Stated errors this large allow no conclusion about the motion before the end.
         if at_end[0] < 1e-4 && in_run[0] < 1e-4 {
             self.events(&who, a, b, allowed, at_end);
         }
@@ -199,7 +199,7 @@ impl Scenery<'_> {
     fn events(&mut self, who: &str, a: &Run, b: &Run, allowed: [f64; 2], at_end: [f64; 2]) {
         let (ours, theirs) = (&a.whole.summary, &b.whole.summary);
         let kinds = |events: &[Event]| events.iter().map(|event| event.kind).collect::<Vec<_>>();
-        // An event as near to the end as the error may be on either side of it.
+        // An event closer to the end than the error may fall on either side of it.
         let is_clear = |event: Option<&Event>| {
             event.is_none_or(|event| {
                 let ahead = (event.theta_rad - ours.last.theta_rad).abs();
@@ -223,7 +223,7 @@ impl Scenery<'_> {
         let here = ours.events.iter().zip(&theirs.events);
         let inside = self.inside;
         for (x, y) in here.filter(|(x, _)| x.t_s == inside) {
-            // Where the inertia vanishes the speed has no bound: what counts is how far the crank turns in this time.
+            // Where the inertia vanishes the speed is unbounded: compare the rotation of the crank in the time between.
             let turned = |run: &Run| {
                 let [here, there] = [x.t_s, y.t_s].map(|t| run.whole.at(t));
                 let (here, there) = here.zip(there)?;
@@ -244,7 +244,7 @@ impl Scenery<'_> {
         }
     }
 
-    /// Largest and least speed, of the engines that know the motion between the ends of steps.
+    /// Compares the largest and least speed of engines with a dense solution.
     fn extremes(&mut self, a: &Run, b: &Run) {
         let (ours, theirs) = (&a.whole.summary, &b.whole.summary);
         let errors = [&a.whole, &b.whole, &a.part, &b.part].map(|run| stated(run)[1]);
@@ -267,7 +267,7 @@ impl Scenery<'_> {
     }
 }
 
-/// Compares all that serve a scene; what disagrees, and how many pairs there were.
+/// Compares all methods that apply to a scene; returns the disagreements and the number of pairs.
 fn judge(folder: &Path, text: &str, draw: f64) -> (Vec<String>, usize) {
     let scene = Scene::parse(&folder.join("scene.toml"), text)
         .unwrap_or_else(|why| panic!("{why}\n{text}"));
@@ -314,7 +314,7 @@ fn judge(folder: &Path, text: &str, draw: f64) -> (Vec<String>, usize) {
     (found.collect(), scenery.pairs)
 }
 
-/// Random scenes, each with a number that chooses a time inside it.
+/// Returns random scenes, each with a number that selects a time inside the run.
 fn scenes(seed: u64, count: usize) -> Vec<(String, f64)> {
     let mut runner = TestRunner::new(ProptestConfig {
         rng_seed: crate::support::seed::seed(seed),
@@ -368,7 +368,7 @@ fn finished(scene: &Scene, method: Method) -> Simulation {
     run
 }
 
-/// A four-stroke cycle: the start says in which of its two turns the crank is.
+/// Four-stroke cycle: the start angle determines in which of the two turns the crank is.
 #[test]
 fn a_cycle_of_two_turns_begins_in_the_turn_of_the_start() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -382,7 +382,7 @@ fn a_cycle_of_two_turns_begins_in_the_turn_of_the_start() {
         );
         parsed(folder.path(), &text)
     };
-    // As many turns as the map from turn to turn would take over.
+    // The last case has so many turns that the Poincare map takes over.
     for (angle, turns) in [(-330.0, 3.0), (30.0, 3.0), (390.0, 3.0), (-330.0, 300.0)] {
         let scene = scene(angle, turns);
         let [a, b] = [Method::Energy, Method::Time].map(|method| finished(&scene, method));
@@ -396,7 +396,7 @@ fn a_cycle_of_two_turns_begins_in_the_turn_of_the_start() {
         let apart = (ours.omega_rad_per_s - theirs.omega_rad_per_s).abs();
         assert!(apart <= allowed, "{angle} {turns}: {ours:?} {theirs:?}");
     }
-    // Two turns further the cycle is the same, one turn further it is not.
+    // The cycle repeats after two turns, not after one.
     let [a, b, c] = [-330.0, 390.0, 30.0].map(|angle| finished(&scene(angle, 3.0), Method::Energy));
     let t = [a, b, c].map(|run| run.summary.last.t_s);
     assert!(
@@ -405,7 +405,7 @@ fn a_cycle_of_two_turns_begins_in_the_turn_of_the_start() {
     );
 }
 
-/// A heavy crank that swings about its lowest position, which is a dead centre, too.
+/// Heavy crank that swings about its lowest position, which is also a dead centre.
 #[test]
 fn a_swing_from_a_dead_centre_passes_it_again_and_again() {
     let text = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n\
@@ -416,7 +416,7 @@ fn a_swing_from_a_dead_centre_passes_it_again_and_again() {
     for method in [Method::Energy, Method::Time, Method::Dop853] {
         let run = finished(&scene, method);
         let events = &run.summary.events;
-        // To and fro: a turning point, then the dead centre, in turns.
+        // Turning points and dead centres alternate.
         assert!(events.len() > 8, "{method}: {events:?}");
         for (i, event) in events.iter().enumerate() {
             let kind = ["turning-point", "dead-centre"][i % 2];
@@ -432,7 +432,7 @@ fn a_swing_from_a_dead_centre_passes_it_again_and_again() {
     }
 }
 
-/// The speed has been 5 rad/s downwards only after the whole swing.
+/// The downward speed reaches 5 rad/s only after a whole swing.
 #[test]
 fn extreme_speeds_are_those_of_the_run_not_of_the_period() {
     let text = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n\
@@ -451,7 +451,7 @@ fn extreme_speeds_are_those_of_the_run_not_of_the_period() {
                 (low.min(speed), high.max(speed))
             });
             let (least, largest) = (run.summary.omega_min, run.summary.omega_max);
-            // Samples miss a crest by no more than half a distance of theirs.
+            // Samples miss an extreme by at most half their spacing.
             let near = (least - low).abs() < 1e-4 && (largest - high).abs() < 1e-4;
             assert!(
                 near,

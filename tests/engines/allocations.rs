@@ -1,4 +1,4 @@
-//! Runs in time take no memory per step, row or evaluation: ten times the steps, the same allocations.
+//! Allocations do not grow with steps, rows or evaluations of a run: ten times the steps, the same number.
 
 use allocation_counter::measure;
 use slider_crank::engine::WorkLimit;
@@ -10,7 +10,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{Load, Scene, Variables};
 use slider_crank::simulate::{Options, Row, RowSink, simulate_rows};
 
-/// A pendulum that is driven.
+/// Driven pendulum.
 struct Pendulum;
 
 impl Motion for Pendulum {
@@ -54,7 +54,7 @@ fn steps_take_no_memory() {
         };
         run(&Counted::new(&Pendulum), start, &settings, &mut |_| false).2
     };
-    // The tableau is computed once.
+    // The first run computes the tableau.
     integrate(1.0);
     let mut steps = 0;
     let info = measure(|| steps = integrate(1000.0));
@@ -62,7 +62,7 @@ fn steps_take_no_memory() {
     assert_eq!(info.count_total, 0, "{info:?}");
 }
 
-/// Counts rows and keeps none.
+/// Sink that counts rows and keeps none.
 struct Counter(u64);
 
 impl RowSink for Counter {
@@ -98,7 +98,7 @@ fn a_longer_run_with_rows_takes_no_more_memory() {
     assert!(long <= short + 8, "{short} and {long}");
 }
 
-/// Allocations of a run of so many turns by this engine, without estimate and events.
+/// Returns the allocations of a run of this many turns by an engine, without estimate and events.
 fn of_turns(scene: &Scene, turns: f64, engine: &str) -> u64 {
     let scene = scene.clone().revolutions(turns);
     let options = Options {
@@ -111,7 +111,7 @@ fn of_turns(scene: &Scene, turns: f64, engine: &str) -> u64 {
     measure(|| assert!(run().summary.evaluations > 0)).count_total
 }
 
-/// Turns over the crank angle: their series are kept in one list, which doubles when it is full.
+/// Turns over the crank angle: their series are kept in one list with doubling capacity.
 #[test]
 fn turns_take_no_memory_but_their_place_in_the_list() {
     let scene = Scene::duarte()
@@ -119,14 +119,14 @@ fn turns_take_no_memory_but_their_place_in_the_list() {
         .torque(Load::Viscous(0.01));
     let allocations = |turns: f64| of_turns(&scene, turns, "angle");
     let (few, more) = (allocations(5.0), allocations(40.0));
-    // 70 panels more: a handful of lists that double a few times.
+    // 70 panels more: a few lists double a few times.
     assert!(more <= few + 16, "{few} {more}");
-    // Many turns follow from the map of one: a million take no more than ten thousand.
+    // Many turns follow from the map of one: a million turns take no more than ten thousand.
     let (many, most) = (allocations(1e4), allocations(1e6));
     assert!(most <= many + 16, "{many} {most}");
 }
 
-/// Turns that gain the same work each are summed: a few cells of the energy more for a hundred times the turns.
+/// Turns of equal work are summed: a hundred times the turns add only a few cells over the energy.
 #[test]
 fn turns_under_a_constant_torque_take_no_memory_each() {
     let scene = Scene::duarte().torque(Load::Constant(1.0));
@@ -137,7 +137,7 @@ fn turns_under_a_constant_torque_take_no_memory_each() {
     assert!(half <= few + 100, "{few} {half}");
 }
 
-/// A run that is handed over and back takes the same for more turns between: pieces take memory, turns do not.
+/// A run that is handed over and back takes no more for additional turns in between: pieces allocate, turns do not.
 #[test]
 fn a_hand_over_takes_no_memory_for_the_turns_before_and_after_it() {
     let allocations = |brake: f64| {

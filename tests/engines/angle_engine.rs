@@ -1,4 +1,4 @@
-//! The angle engine against a closed solution and against integration in time.
+//! Angle engine compared with closed solutions and with integration in time.
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,7 +16,7 @@ fn run(scene: &Scene, method: Method) -> Simulation {
     simulate(scene, &options).unwrap()
 }
 
-/// A crank alone, braked by viscous torque: θ̇ = ω0 e^(−kt), θ = ω0/k (1 − e^(−kt)).
+/// Crank alone, braked by viscous torque: θ̇ = ω0 e^(−kt), θ = ω0/k (1 − e^(−kt)).
 #[test]
 fn a_braked_crank_follows_its_closed_solution() {
     let (inertia, damping, speed) = (0.02, 0.03, 80.0);
@@ -42,7 +42,7 @@ fn a_braked_crank_follows_its_closed_solution() {
                 "{t}"
             );
             let error = (omega - direction * speed * (-k * t).exp()).abs();
-            // Inside the run the series of speeds are resolved to a hundredth of the tolerance.
+            // Inside the run the speed series are resolved to a hundredth of the tolerance.
             let resolved = 0.01 * scene.run.tolerance * omega.abs();
             assert!(
                 error < 2.0 * stated.omega_rad_per_s.max(resolved),
@@ -53,7 +53,8 @@ fn a_braked_crank_follows_its_closed_solution() {
     }
 }
 
-/// A run of whole turns ends at the end of a panel, where it is better than between: the rows have an error of their own.
+/// A run of whole turns ends at the end of a panel, where the accuracy is best: rows inside panels have their own
+/// error.
 #[test]
 fn the_worst_row_is_as_exact_as_stated() {
     let (inertia, damping, speed) = (0.02, 0.03, 80.0);
@@ -100,8 +101,8 @@ fn the_worst_row_is_as_exact_as_stated() {
     }
 }
 
-/// The root of the kinetic energy of a crank alone, braked by viscous torque, falls linearly with the angle whatever it
-/// is: the first sweep over a panel is right and a second finds nothing to change.
+/// For a crank alone under viscous torque, the square root of the kinetic energy falls linearly with the angle,
+/// whatever its value: the first sweep over a panel is exact, and a second one changes nothing.
 #[test]
 fn viscous_loss_alone_takes_two_sweeps() {
     let (inertia, k, speed, turned) = (0.02, 1.0, 80.0, 7.9 * TAU);
@@ -119,18 +120,18 @@ fn viscous_loss_alone_takes_two_sweeps() {
         ..Options::default()
     };
     let evaluations = simulate(&scene, &options).unwrap().summary.evaluations;
-    // Half a turn is a panel with 13 points at least; the forces are evaluated once more after the sweeps.
+    // A panel is half a turn with 13 points at least; one more evaluation of the forces follows the sweeps.
     assert!(evaluations <= 3 * 13 * 16, "{evaluations}");
 }
 
-/// A crank alone, braked by viscous torque, passes each dead centre when it has turned by the angle to it, in the first
-/// turns and in those that are mapped; panels do not end there.
+/// A crank alone, braked by viscous torque, passes each dead centre after turning by the angle to it, both in the first
+/// turns and in mapped ones, although panels do not end there.
 #[test]
 fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
     let (crank, rod, offset): (f64, f64, f64) = (0.05, 0.2, 0.03);
     let (k, speed, duration) = (0.1, 100.0, 10.0);
     let turned = speed / k * (1.0 - f64::exp(-k * duration));
-    // Crank and rod are in line, along or against each other.
+    // Crank and rod are in line, in the same or in opposite directions.
     let outer = -(offset / (rod + crank)).asin();
     let inner = PI - (offset / (rod - crank)).asin();
     for (start, direction) in [
@@ -155,11 +156,11 @@ fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
         };
         let summary = simulate(&scene, &options).unwrap().summary;
         let stated = summary.error_estimate.unwrap().theta_rad;
-        // Two panels for each turn before the map.
+        // Two panels for each turn before the map takes over.
         assert_eq!(summary.steps, 96);
         let first = [outer, inner].map(|dead_centre| {
             let ahead = (direction * (dead_centre - start)).rem_euclid(TAU);
-            // The start itself is not passed.
+            // The start itself does not count as passed.
             if ahead < 1e-12 { ahead + TAU } else { ahead }
         });
         let mut ways: Vec<f64> = (0..200)
@@ -188,7 +189,7 @@ fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
     }
 }
 
-/// A crank alone under a torque in time: I θ̈ = A sin(wt).
+/// Crank alone under a time-dependent torque: I θ̈ = A sin(wt).
 #[test]
 fn loads_in_time_are_followed() {
     let (inertia, amplitude, w, speed) = (0.02, 3.0, 17.0, 60.0);

@@ -1,5 +1,5 @@
-//! A crank that swings in a well is told so before its turns are waited for in vain, and one that will leave the well
-//! is not: against a physical pendulum in its own words.
+//! A crank that is caught swinging in a potential well is reported early, and one that will leave the well is not;
+//! compared with an independently integrated pendulum.
 
 use std::f64::consts::TAU;
 
@@ -8,10 +8,10 @@ use slider_crank::scene::{Crank, Expression, Friction, Gravity, Load, Scene, Sli
 use slider_crank::simulate::{Options, Summary, simulate};
 
 const INERTIA: f64 = 1e-3;
-/// Weight times its distance from the crank's axis, N m.
+/// Weight times the distance of the centre of gravity from the axis, N m.
 const WEIGHT: f64 = 9.80665 * 0.02;
 
-/// A crank alone: I θ'' = −W cos θ + τ(θ').
+/// Returns a scene of a crank alone: I θ'' = −W cos θ + τ(θ').
 fn pendulum(angle: f64, speed: f64, torque: &str) -> Scene {
     Scene::new(0.05, 0.15)
         .crank(Crank {
@@ -38,8 +38,8 @@ fn run(scene: &Scene, method: Method) -> Summary {
     simulate(scene, &options).expect("a run").summary
 }
 
-/// The classic Runge-Kutta method on the same pendulum: its turning points as (s, rad) until it has turned by three
-/// turns or the time is over, and its last state.
+/// Integrates the same pendulum by the classical Runge-Kutta method; returns its turning points as (s, rad) until it
+/// has turned by three turns or the time is over, and its last state.
 fn swings(
     state: (f64, f64),
     torque: impl Fn(f64) -> f64,
@@ -72,7 +72,7 @@ fn assert_close(value: f64, exact: f64, within: f64) {
     assert!((value - exact).abs() < within, "{value}, not {exact}");
 }
 
-/// The angles in "between theta = a rad and b rad".
+/// Returns the angles in "between theta = a rad and b rad".
 fn between(why: &str) -> [f64; 2] {
     let (_, range) = why.split_once("between theta = ").expect("a range");
     let mut words = range.split(' ');
@@ -83,7 +83,7 @@ fn between(why: &str) -> [f64; 2] {
     [number(0), number(2)]
 }
 
-/// From rest in time; with a speed over the angle first, over the top once and then into a well.
+/// From rest the run is in time; from a speed it is over the angle first, passes the top once and is then caught.
 #[test]
 fn a_damped_crank_is_caught_once_it_has_come_no_further_for_long() {
     for (angle, speed, loss, methods) in [
@@ -104,7 +104,8 @@ fn a_damped_crank_is_caught_once_it_has_come_no_further_for_long() {
             let known = turning.iter().position(|at| (at.0 - last.t_s).abs() < 1e-4);
             let known = known.expect("it ends where it turns");
             assert_close(last.theta_rad, turning[known].1, 1e-5);
-            // What is said are the start or the turning points furthest out, and it stays between them.
+            // The message names the outermost points so far, start or turning points, and the motion stays between
+            // them.
             let so_far = || turning[..=known].iter().map(|at| at.1).chain([angle]);
             let (low, high) = (
                 so_far().fold(f64::INFINITY, f64::min),
@@ -121,7 +122,7 @@ fn a_damped_crank_is_caught_once_it_has_come_no_further_for_long() {
     }
 }
 
-/// Driven along its speed it swings further each time, and is over the top at last.
+/// Driven along its speed, the crank swings further each time and finally passes the top.
 #[test]
 fn a_crank_that_swings_ever_further_is_not_caught() {
     let gain = 2e-4;
@@ -135,7 +136,7 @@ fn a_crank_that_swings_ever_further_is_not_caught() {
     }
 }
 
-/// As a clock that is wound up: the swing grows to one that lasts, from which the torque takes as much as it gives.
+/// As in a clock, the swing grows to a limit cycle, on which the torque supplies as much energy as it takes.
 #[test]
 fn a_swing_that_grows_to_one_that_lasts_is_caught() {
     let torque =
@@ -169,7 +170,7 @@ fn a_swing_that_grows_to_one_that_lasts_is_caught() {
             );
         }
     }
-    // What lasts here is beyond the top.
+    // The limit cycle of this case is beyond the top.
     let (gain, fast) = (3e-4, 25.0);
     let scene = pendulum(-1.5, 0.0, &format!("{gain}*omega*(1 - (omega/{fast})^2)"));
     let (turning, (t, _)) = swings((-1.5, 0.0), torque(gain, fast), 100.0);
@@ -179,14 +180,14 @@ fn a_swing_that_grows_to_one_that_lasts_is_caught() {
     assert_close(summary.last.t_s, t, 2e-4);
 }
 
-/// What waits for its time is not said to stay: pushed later on the crank turns.
+/// A load that sets in later may free the crank, so that the crank is not reported as caught.
 #[test]
 fn a_load_in_time_may_free_the_crank() {
     let scene = pendulum(0.3, 0.0, "-0.001*omega + 0.4*step(t - 5)");
     assert_eq!(run(&scene, Method::Auto).stopped, None);
 }
 
-/// Without loss each swing is as the first, whichever method is asked for.
+/// Without loss all swings are equal, for every method.
 #[test]
 fn a_swing_without_loss_is_told_by_integration_in_time() {
     let scene = pendulum(0.3, 0.0, "0*theta");
@@ -200,7 +201,8 @@ fn a_swing_without_loss_is_told_by_integration_in_time() {
     }
 }
 
-/// Next to no friction takes too long to bring the crank to rest; more of it does so soon, which is told instead.
+/// Very small friction takes too long to stop the crank, which is reported as caught; larger friction stops it soon,
+/// which is reported as rest.
 #[test]
 fn a_crank_with_friction_is_caught_or_comes_to_rest() {
     let rubbing = |coefficient| {
@@ -232,7 +234,8 @@ fn a_crank_with_friction_is_caught_or_comes_to_rest() {
     assert!(turning.all(|event| low < event.theta_rad && event.theta_rad < high));
 }
 
-/// Under a load in time nothing is certain: it ends when it has led nowhere for long, and not while it gets further.
+/// Under a time-dependent load nothing is certain: the run ends when there has been no progress for long, and continues
+/// while there is.
 #[test]
 fn a_crank_under_a_load_in_time_is_waited_for_as_long_as_it_gets_further() {
     let timed = |angle: f64, torque: &str| {
@@ -244,7 +247,7 @@ fn a_crank_under_a_load_in_time_is_waited_for_as_long_as_it_gets_further() {
             .expect("a run")
             .summary
     };
-    // The torque dies away, and the swing stays what it is then; or it goes on, too weak to get the crank over the top.
+    // The torque decays, and the swing then stays as it is; or the torque persists but is too weak to pass the top.
     for torque in ["0.01*exp(-t)", "0.02*sin(3*t) - 1e-4*omega"] {
         let summary = timed(-1.0, torque);
         let why = summary.stopped.expect("a reason").to_string();
@@ -252,7 +255,7 @@ fn a_crank_under_a_load_in_time_is_waited_for_as_long_as_it_gets_further() {
         assert!(why.contains("came no further"), "{why}");
         assert!(summary.evaluations < 5_000_000, "{}", summary.evaluations);
     }
-    // After 500 s, some 2000 turning points, a torque larger than the weight's sets in.
+    // After 500 s, some 2000 turning points, a torque larger than that of the weight sets in.
     let summary = timed(-1.0, "0.2*(1 + tanh(t - 500))");
     assert_eq!(summary.stopped, None);
     assert!(

@@ -1,4 +1,4 @@
-//! Pulses of closures that state their finest scale, against closed forms: all of the inertia is on the crank.
+//! Pulses of closures that state their finest scale, compared with closed forms: all inertia is on the crank.
 
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ fn crank(load: Load) -> Scene {
         .duration(5.0)
 }
 
-/// exp(−s²) about a place, at `width` from which it has fallen to 1/e.
+/// Returns exp(−s²) about a place, with value 1/e at distance `width`.
 fn pulse(height: f64, at: f64, width: f64) -> impl Fn(f64) -> f64 + Send + Sync + 'static {
     move |x| height * (-((x - at) / width).powi(2)).exp()
 }
@@ -40,7 +40,7 @@ fn end(scene: &Scene, method: Method) -> (f64, f64) {
 fn meets(scene: &Scene, method: Method, wanted: f64) {
     let (omega, stated) = end(scene, method);
     let off = (omega - wanted).abs();
-    // dop853 keeps its tolerance a step.
+    // The tolerance of dop853 applies per step.
     let tolerance = 10.0 * scene.run.tolerance * wanted;
     assert!(
         off <= stated.max(tolerance),
@@ -63,7 +63,7 @@ fn a_pulse_in_time_of_a_closure_is_seen() {
     }
 }
 
-/// ½ I (ω² − ω₀²) is the area of the pulse; it comes once.
+/// ½ I (ω² − ω₀²) is the area of the pulse, which acts once.
 #[test]
 fn a_pulse_over_the_angle_of_a_closure_is_seen() {
     for (at, width) in [(20.4, 0.035), (33.3, 1e-3)] {

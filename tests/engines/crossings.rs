@@ -1,9 +1,9 @@
-//! Angles that a step passes.
+//! Angles passed within a step.
 
 use slider_crank::engine::events::{Crossing, crossings};
 use slider_crank::engine::step::{Node, Step};
 
-/// Two steps at a constant speed (rad/s), of which the first ends at the watched angle.
+/// Two steps at a constant speed (rad/s); the first one ends at the watched angle.
 #[test]
 fn steps_that_end_at_a_watched_angle_pass_it_once() {
     for (speed, watched) in [(2.0, 1.0), (-2.0, std::f64::consts::TAU - 1.0)] {

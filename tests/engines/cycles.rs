@@ -1,5 +1,5 @@
-//! Loads that are the same again after several turns, or parts of one, or never: against formulas, and against
-//! integration in pieces written out here.
+//! Loads that repeat after several turns, after parts of a turn, or never: compared with formulas, and with a piecewise
+//! integration written out here.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -15,7 +15,7 @@ use slider_crank::simulate::{
 
 const INERTIA: f64 = 0.02;
 
-/// A crank that carries all the inertia there is.
+/// Returns a crank that carries all the inertia.
 fn crank() -> Scene {
     Scene::new(0.05, 0.15).crank(Crank {
         inertia: INERTIA,
@@ -27,7 +27,7 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// Straight lines over angles in degrees that repeat.
+/// Returns a periodic piecewise linear load over angles in degrees.
 fn lines(rows: &[(f64, f64)], period: f64) -> Load {
     let angles: Vec<f64> = rows.iter().map(|row| row.0.to_radians()).collect();
     let values: Vec<f64> = rows.iter().map(|row| row.1).collect();
@@ -36,7 +36,7 @@ fn lines(rows: &[(f64, f64)], period: f64) -> Load {
     Load::Table(Table::new(Variable::Theta, &angles, &values, linear, period).expect("a table"))
 }
 
-/// A pulse of three degrees in the first of two turns, twice as high at its top as on average.
+/// Pulse of three degrees in the first of two turns; its peak is twice its mean.
 const PULSE: [(f64, f64); 4] = [(0.0, 0.0), (21.7, 0.0), (23.2, 200.0), (24.7, 0.0)];
 
 fn pulsed() -> Load {
@@ -53,8 +53,8 @@ fn run(scene: &Scene, method: Method) -> Summary {
     run
 }
 
-/// Speed, and least and largest speed and time on the way, of I ω dω/dθ = T(θ) − c ω from one angle to another: the
-/// method of Runge and Kutta between the angles of `cuts` (rad, in a cycle of so many turns), where T has corners.
+/// Integration of I ω dω/dθ = T(θ) − c ω over a cycle of `turns` turns by the Runge-Kutta method between the angles of
+/// `cuts` (rad), where T has corners. Gives the final speed, the least and largest speed, and the time.
 struct Pieces<'a> {
     torque: &'a dyn Fn(f64) -> f64,
     cuts: Vec<f64>,
@@ -71,7 +71,7 @@ impl Pieces<'_> {
         ends.sort_by(f64::total_cmp);
         for ends in ends.windows(2) {
             let h = (ends[1] - ends[0]) / f64::from(STEPS);
-            // Inside of the piece also at its ends.
+            // Evaluate inside the piece also at its ends.
             let inside = |at: f64| at.clamp(ends[0] + 1e-13, ends[1] - 1e-13);
             let slope = |at: f64, w: f64| ((self.torque)(inside(at)) - self.c * w) / (INERTIA * w);
             for i in 0..STEPS {
@@ -83,7 +83,7 @@ impl Pieces<'_> {
                 let next = w + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
                 let middle = w + h / 24.0 * (5.0 * k1 + 4.0 * k2 + 4.0 * k3 - k4);
                 time += h / 6.0 * (1.0 / w + 4.0 / middle + 1.0 / next);
-                // Where the speed turns inside of the step: the top of the parabola through its slopes.
+                // The speed has an extreme inside the step: take the vertex of the parabola through its slopes.
                 if k1 * k4 < 0.0 {
                     let top = w - 0.5 * h * k1 * k1 / (k4 - k1);
                     (low, high) = (low.min(top), high.max(top));
@@ -95,7 +95,7 @@ impl Pieces<'_> {
         [w, low, high, time]
     }
 
-    /// The last of so many cycles.
+    /// Returns the result of the last of this many cycles.
     fn after(&self, cycles: u32, speed: f64) -> [f64; 4] {
         (1..cycles).fold(self.cycle(speed), |last, _| self.cycle(last[0]))
     }
@@ -109,7 +109,7 @@ fn pulse_cuts() -> Vec<f64> {
     [21.7f64, 23.2, 24.7, 360.0].map(f64::to_radians).to_vec()
 }
 
-/// Each pulse does ½ 200 N m · 3 deg of work, once in two turns.
+/// Each pulse does ½ 200 N m · 3 deg of work, once every two turns.
 #[test]
 fn a_pulse_in_every_second_turn_drives_every_second_turn() {
     for turns in [10.0, 11.0, 400.0] {
@@ -154,7 +154,7 @@ fn many_cycles_follow_from_the_map_of_a_cycle() {
         assert!(off <= 2.0 * stated + 1e-10, "{cycles}: {off:e} {stated:e}");
         assert!(stated < 1e-8, "{stated:e}");
     }
-    // An odd number of turns, either way round and from the second turn, and half of a turn more.
+    // An odd number of turns in either direction and from the second turn, and half a turn more.
     for (angle, speed) in [(0.0, 100.0), (TAU + 0.3, 100.0), (0.3, -100.0)] {
         let scene = scene(61.5).start(angle, speed).tolerance(1e-12);
         let [a, b] = [Method::Angle, Method::Time].map(|method| run(&scene, method));
@@ -199,7 +199,7 @@ fn the_cycle_is_the_least_common_multiple_of_the_periods() {
     assert_eq!(turns_of(&crank().torque(stated)), Some(2));
 }
 
-/// Blows that come once: 90 angles of four turns need not meet them.
+/// Single blows: 90 angles in four turns need not hit them.
 #[test]
 fn a_blow_in_one_turn_is_not_repeated_in_all() {
     let gauss = "-30*exp(-((theta-20.4)/0.35)^2)";
@@ -224,7 +224,7 @@ fn steady(scene: &Scene) -> SteadyState {
     steady_state(scene, &SteadyOptions::default()).unwrap()
 }
 
-/// The numbers of a steady state against speed, least and largest speed and time of the last cycle of a motion.
+/// Compares a steady state with the speed, least and largest speed and time of the last cycle of a motion.
 fn compare(found: &SteadyState, [_, low, high, time]: [f64; 4], beside: f64) {
     let mean = f64::from(found.cycle_turns) * TAU / time;
     for (name, estimated, expected) in [
@@ -262,7 +262,7 @@ fn a_steady_state_of_two_turns() {
     let found = steady(&scene.start(0.0, 60.0));
     assert_eq!(found.cycle_turns, 2);
     compare(&found, pieces.after(300, 60.0), 1e-10);
-    // The top of the speed is where the pulse ends, nearly; the least where it begins.
+    // The speed has its maximum nearly where the pulse ends, and its minimum where the pulse begins.
     let [fast, slow] =
         [found.fastest, found.slowest].map(|e| e.theta_rad.unwrap().value.to_degrees());
     assert!(
@@ -272,7 +272,7 @@ fn a_steady_state_of_two_turns() {
     assert!((found.power_in_w.value - found.power_out_w.value).abs() < 1e-8);
 }
 
-/// A torque that jumps: 5 N m while sin θ > ½, else −1.5 N m.
+/// Torque with jumps: 5 N m while sin θ > ½, else −1.5 N m.
 #[test]
 fn a_steady_state_under_a_torque_that_jumps() {
     let c = 0.02;
@@ -292,7 +292,7 @@ fn a_steady_state_under_a_torque_that_jumps() {
     compare(&found, pieces.after(400, 50.0), 1e-10);
 }
 
-/// What a long motion comes to, over its last turn.
+/// Returns the limit of a long motion, over its last turn.
 fn in_the_end(scene: &Scene, turns: f64) -> [f64; 4] {
     let long = simulate(&scene.clone().revolutions(turns), &Options::default()).unwrap();
     let speed = long.summary.last.omega_rad_per_s;
@@ -339,7 +339,7 @@ fn steady_states_with_friction_at_the_guide_and_tables_over_x() {
     compare(&found, in_the_end(&pressing, 300.0), 1e-8);
 }
 
-/// The example of a four-stroke engine, with the flywheel for two per cent.
+/// Example of a four-stroke engine, with the flywheel for two per cent.
 #[test]
 fn a_flywheel_for_a_four_stroke_engine() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/four-stroke.toml");
@@ -350,7 +350,7 @@ fn a_flywheel_for_a_four_stroke_engine() {
     };
     let found = steady_state(&scene, &options).unwrap();
     assert_eq!(found.cycle_turns, 2);
-    // Integrated by scipy's DOP853 between the rows of the table, the speeds at 200 angles of each piece.
+    // Reference: DOP853 of SciPy between the rows of the table, with the speeds at 200 angles of each piece.
     for (estimated, expected) in [
         (found.omega_rad_per_s, 166.21350245954),
         (found.omega_mean_rad_per_s, 157.57188039473),

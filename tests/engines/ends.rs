@@ -1,4 +1,4 @@
-//! Where runs end: at their goal, or with the reason, and never with more work or rows than they are allowed.
+//! Ends of runs: at the goal, or with the reason, and never with more work or rows than allowed.
 
 use crate::support::random::cases;
 use crate::support::random::magnitude;
@@ -18,7 +18,7 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// A crank, rod and slider, in m and kg.
+/// Returns a crank, rod and slider, in m and kg.
 fn machine(r: f64, l: f64, slider: f64) -> Scene {
     Scene::new(r, l)
         .crank(Crank {
@@ -40,7 +40,7 @@ fn run(scene: &Scene, options: &Options) -> Summary {
     simulate(scene, options).expect("a run").summary
 }
 
-/// A motor at a crank that is kept from turning fully by 0.12 nm of its rod.
+/// Motor on a crank that cannot turn fully because its rod is 0.12 nm too short.
 fn nearly_turning(speed: f64) -> Scene {
     machine(0.1, 0.119_999_999_88, 0.5)
         .offset(0.02)
@@ -51,7 +51,7 @@ fn nearly_turning(speed: f64) -> Scene {
         .start(0.1, speed)
 }
 
-/// Reference: extrapolation of order 16 with 34 digits, of the equation along the configuration curve written anew.
+/// Reference: extrapolation of order 16 with 34 digits, for an independent equation along the configuration curve.
 #[test]
 fn a_crank_that_nearly_turns_fully_is_followed_past_its_limits() {
     for (t, theta, omega) in [
@@ -108,8 +108,8 @@ fn a_load_without_a_value_at_the_start_is_said() {
     }
 }
 
-/// Under a drag of c ω² a crank of inertia I loses its speed with the angle, ω = ω₀ exp(−c θ/I), and the time for a way is
-/// (exp(c θ/I) − 1) I/(c ω₀): ten turns take 1e12 s.
+/// Under a drag of c ω² the speed of a crank with inertia I falls with the angle, ω = ω₀ exp(−c θ/I), and the time for
+/// an angle is (exp(c θ/I) − 1) I/(c ω₀): ten turns take 1e12 s.
 #[test]
 fn too_many_rows_are_refused_before_the_first_is_written() {
     let mut scene = machine(0.05, 0.15, 0.5)
@@ -130,7 +130,7 @@ fn too_many_rows_are_refused_before_the_first_is_written() {
     }
 }
 
-/// From rest under a constant torque M the angle is M t²/2I: at the dead centre the slider does not move with the crank.
+/// From rest under a constant torque M the angle is M t²/2I: at the dead centre the slider does not move.
 #[test]
 fn a_tiny_part_of_a_turn_is_no_more_work_than_a_turn() {
     for turns in [1e-7, 1e-5] {
@@ -149,7 +149,7 @@ fn a_tiny_part_of_a_turn_is_no_more_work_than_a_turn() {
     }
 }
 
-/// A table over time, each row of which ends a step.
+/// Returns a table over time, each row of which ends a step.
 fn fine_table() -> Load {
     let times: Vec<f64> = (0..30_000).map(|i| f64::from(i) * 1e-5).collect();
     let torques: Vec<f64> = times.iter().map(|t| (40.0 * t).sin()).collect();
@@ -177,7 +177,7 @@ fn the_work_limit_holds_where_a_table_cuts_the_steps_short() {
     }
 }
 
-/// The second run of an estimate obeys the limit, and so does a third where the second does not get to the end.
+/// The second run of an estimate obeys the limit, and so does a third one if the second does not reach the end.
 #[test]
 fn an_estimate_takes_no_more_than_the_limit() {
     let scene = machine(0.05, 0.15, 0.5)
@@ -196,7 +196,7 @@ fn an_estimate_takes_no_more_than_the_limit() {
     }
 }
 
-/// From rest the steps of a crank of constant inertia have no error, however many turns they make.
+/// From rest the steps of a crank of constant inertia have no error, whatever their number of turns.
 #[test]
 fn a_step_makes_no_more_than_two_turns() {
     for load in [Load::Constant(1e6), formula("1e6*t")] {
@@ -239,7 +239,7 @@ fn precision_obeys_the_work_limit() {
     assert!(result.rows.iter().all(|row| row.failure.is_some()));
 }
 
-/// The forces of a rod that is longer by 1e-9 are the same away from the change point, but for 1e-8 of them.
+/// Away from the change point, a rod longer by 1e-9 has the same forces up to 1e-8 of them.
 #[test]
 fn forces_far_from_a_change_point_are_given() {
     for (offset, angle) in [(0.02, 0.0), (-0.02, 0.0), (0.02, 3.0)] {
@@ -265,7 +265,7 @@ fn forces_far_from_a_change_point_are_given() {
     }
 }
 
-/// The angle hands over to the time at the second dead centre, which no float is.
+/// The angle engine hands over to the time engine at the second dead centre, which is not a float.
 #[test]
 fn a_dead_centre_at_a_handover_is_listed_once() {
     let scene = |mirror: f64| {

@@ -1,4 +1,4 @@
-//! The energy engine against a quadrature of its own and against integration in time.
+//! Energy engine compared with an independent quadrature and with integration in time.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,7 +24,7 @@ fn by_energy(scene: &Scene) -> Simulation {
     simulate(scene, &with(Method::Energy)).unwrap()
 }
 
-/// Mechanisms that turn fully, from slender to short rods, both branches, both offsets.
+/// Strategy for mechanisms that turn fully, from slender to short rods, both branches, both offsets.
 fn mechanism() -> impl Strategy<Value = Scene> {
     let lengths = (0.02..0.2f64, 0.3..2.0f64, -0.9..0.9f64, prop::bool::ANY);
     let masses = (
@@ -71,7 +71,7 @@ proptest! {
         let stated = run.summary.error_estimate.unwrap();
         let error = (last.theta_rad - theta).abs();
         prop_assert!(error <= 1e-12 * theta.abs().max(1.0), "{error:e}");
-        // The quadrature itself, in double precision, is right to 1e-14 of the angle.
+        // The quadrature in double precision is accurate to 1e-14 of the angle.
         prop_assert!(error <= 2.0 * stated.theta_rad + 1e-14 * theta.abs(), "{error:e} {stated:?}");
         prop_assert!(stated.theta_rad <= 2e-14 * theta.abs().max(1.0) * (last.omega_rad_per_s.abs() * 0.7 / theta.abs()).max(1.0), "{stated:?}");
         let error = (last.omega_rad_per_s - omega).abs();
@@ -85,7 +85,7 @@ proptest! {
     }
 }
 
-/// Spring, constant force and torque, gravity: to and fro, or round and round after turning once.
+/// Spring, constant force and torque, gravity: oscillation, or rotation after turning back once.
 fn loaded() -> Vec<(&'static str, Scene)> {
     let base = Scene::new(0.05, 0.15)
         .offset(0.012)
@@ -178,7 +178,7 @@ fn both_engines_agree_to_their_stated_errors() {
             let t = 1.3 * f64::from(i) / 40.0;
             let (x, y) = (energy.at(t).unwrap(), time.at(t).unwrap());
             let stated = stated(&time);
-            // What is stated is the error of the end; on the way it may be larger.
+            // The stated error is that of the end; before the end the error may be larger.
             let bound = 50.0 * stated.theta_rad + 1e-11;
             assert!(
                 (x.0 - y.0).abs() < bound,
@@ -214,15 +214,15 @@ fn both_engines_agree_to_their_stated_errors() {
 
 #[test]
 fn a_million_turns_lose_nothing() {
-    // The time of one turn in 40-digit arithmetic: the trapezoidal rule with 200 and 240 nodes agrees to 39
-    // digits on 0.06387234162476224196470682953924273914.
+    // Time of one turn in 40-digit arithmetic: the trapezoidal rule with 200 and 240 nodes agrees to 39 digits on
+    // 0.06387234162476224196470682953924273914.
     let scene = Scene::duarte();
     let turn = 0.06387234162476224;
     for turns in [10.0, 1e3, 1e6] {
         let end = turns * turn;
         let run = by_energy(&scene.clone().duration(end));
         let last = run.summary.last;
-        // What the rounding of the end time moves the angle.
+        // Change of the angle by the rounding of the end time.
         let rounding = 100.0 * f64::EPSILON * end;
         let error = (last.theta_rad - turns * TAU).abs();
         assert!(error <= 1e-9 + rounding, "{turns} turns: {error:e}");
@@ -234,7 +234,7 @@ fn a_million_turns_lose_nothing() {
 
 #[test]
 fn small_swings_have_the_period_of_the_linear_oscillator() {
-    // A crank alone with its centre of gravity at c: I θ̈ = −m g c sin: ω0² = m g c/I.
+    // Crank alone with its centre of gravity at c: I θ̈ = −m g c sin, ω0² = m g c/I.
     let scene = Scene::new(0.05, 0.2)
         .crank(Crank {
             mass: 2.0,
@@ -254,14 +254,14 @@ fn small_swings_have_the_period_of_the_linear_oscillator() {
             .filter(|event| event.kind == "turning-point")
             .map(|event| event.t_s)
             .collect();
-        // T = 2π/(ω0 agm(1, cos(a/2))), Gauss.
+        // T = 2π/(ω0 agm(1, cos(a/2))), after Gauss.
         let (mut a, mut b) = (1.0, (amplitude / 2.0).cos());
         for _ in 0..60 {
             (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
         }
         let period = TAU / (rate * a);
-        // Angles near −90° are numbers 2.2e-16 apart: so many digits have a small amplitude, and the energy
-        // near the top is a difference of squares of the distance from it.
+        // Near −90° floats are 2.2e-16 apart, which limits the digits of a small amplitude. Near the top the energy is
+        // a difference of squares of the distance from it.
         let near_top: f64 = PI - amplitude;
         let digits = 1e-13 + 4e-16 / near_top.powi(2) + 4e-16 / amplitude;
         let found = turning[1];
@@ -274,7 +274,7 @@ fn small_swings_have_the_period_of_the_linear_oscillator() {
 
 #[test]
 fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
-    // Slider alone: ½ m v² is constant, the slider runs to and fro at constant speed.
+    // Slider alone: ½ m v² is constant, the slider moves to and fro at constant speed.
     let scene = Scene::new(0.05, 0.15)
         .slider(Slider { mass: 0.5 })
         .start(1.0, 30.0)
@@ -284,7 +284,7 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
     let speed = (row.dx * 30.0).abs();
     let run = by_energy(&scene);
     let stroke = kinematics.stroke_m;
-    // Strokes made in 1 s, from the position at the start, moving inwards.
+    // Strokes completed in 1 s, from the start position, moving inwards.
     let (outer, inner) = (0.2, 0.1);
     let way = (outer - row.x) + speed;
     let strokes = (way / stroke).floor();
@@ -297,7 +297,7 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
     let end = kinematics.row(run.summary.last.theta_rad);
     assert!((end.x - x).abs() < 1e-12, "{} {x}", end.x);
     assert_eq!(run.summary.events_total as f64, strokes);
-    // v = x' ω with x' = 0: no speed of the crank is large enough, whatever rounding leaves of x'.
+    // v = x' ω with x' = 0: no finite speed of the crank suffices, whatever rounding leaves of x'.
     for event in &run.summary.events {
         assert_eq!(event.omega_rad_per_s, f64::INFINITY, "{event:?}");
     }
@@ -351,7 +351,7 @@ fn what_the_energy_cannot_serve_is_run_in_time_and_said() {
     assert!(simulate(&at_rest, &with(Method::Energy)).is_err());
 }
 
-/// A flywheel under a torque that is linear between the rows of a table: between them the kinetic energy is a parabola.
+/// Flywheel under a torque that is linear between the rows of a table: between rows the kinetic energy is a parabola.
 struct Zigzag {
     rows: Vec<[f64; 2]>,
     period: f64,
@@ -379,14 +379,14 @@ impl Zigzag {
             .start(self.start[0], self.start[1])
     }
 
-    /// Angle and torque of a row, counted through all periods.
+    /// Returns angle and torque of a row, counted through all periods.
     fn row(&self, index: i64) -> [f64; 2] {
         let count = self.rows.len() as i64;
         let [angle, torque] = self.rows[index.rem_euclid(count) as usize];
         [angle + index.div_euclid(count) as f64 * self.period, torque]
     }
 
-    /// Time until an angle is reached, s, and the speed there, rad/s: from row to row, by Fejér's rule.
+    /// Returns the time at which an angle is reached, s, and the speed there, rad/s: from row to row, by Fejér's rule.
     fn until(&self, theta: f64) -> [f64; 2] {
         let rule = fejer(32);
         let [mut at, speed] = self.start;
@@ -417,7 +417,7 @@ impl Zigzag {
             };
             let nodes = (0..8).flat_map(|part| rule.iter().map(move |node| (part, node)));
             let duration: f64 = nodes.map(at_node).sum();
-            // Many terms, summed without their rounding.
+            // Compensated summation of many terms.
             let sum = time + duration;
             lost += duration - (sum - time);
             time = sum;
@@ -429,8 +429,8 @@ impl Zigzag {
     }
 }
 
-/// A table that repeats within a turn, over two turns, or keeps no step with the turns at all has its rows in other
-/// places than those of the file: panels end at all of them, in either direction.
+/// A table that repeats within a turn, over two turns, or out of step with the turns has its rows at other angles than
+/// those of the file: panels end at all of them, in either direction.
 #[test]
 fn rows_of_a_table_are_corners_wherever_they_come_again() {
     let rows = vec![[0.1, 0.9], [0.45, -1.3], [0.52, 0.4], [1.0, 0.3]];
@@ -466,15 +466,16 @@ fn rows_of_a_table_are_corners_wherever_they_come_again() {
                 "{what}: {:e}",
                 run.energy_residual
             );
-            // Panels grow to twice their length after a short one.
+            // After a short panel the panels double in length.
             let passed = 90.0 / period.min(TAU) * rows.len() as f64 + 40.0;
             assert!((run.steps as f64) < passed, "{what}");
         }
     }
 }
 
-/// A crank thrown up a little turns back soon: the turning point is as exact as the short way there, not as the panel of
-/// half a turn on which it is found. A pendulum, whose height there follows from its energy.
+/// A crank thrown up slightly turns back soon: the accuracy of the turning point is set by the short distance to it,
+/// not by the panel of half a turn in which it is found. Reference: pendulum, whose height there follows from its
+/// energy.
 #[test]
 fn a_short_way_to_a_turning_point_keeps_its_digits() {
     for (angle, speed) in [(0.6, 0.05), (0.2, 0.3), (0.9, 0.4), (0.05, 0.2)] {
@@ -496,7 +497,7 @@ fn a_short_way_to_a_turning_point_keeps_its_digits() {
             .iter()
             .find(|event| event.kind == "turning-point")
             .unwrap();
-        // m g c (sin of the highest angle − sin of the start) = I speed²/2, by a difference without cancellation.
+        // m g c (sin of the highest angle − sin of the start) = I speed²/2, solved without cancellation.
         let rise = 0.5 * inertia * speed * speed / (mass * g * cg);
         let mut way: f64 = 0.0;
         for _ in 0..50 {
@@ -511,7 +512,7 @@ fn a_short_way_to_a_turning_point_keeps_its_digits() {
     }
 }
 
-/// Error of the end and what is stated of it, rad or rad/s.
+/// Error at the end and the stated error, rad or rad/s.
 type Judged = [f64; 2];
 
 fn judged(scene: &Scene, method: Method, [theta, omega]: [f64; 2]) -> [Judged; 2] {
@@ -524,7 +525,8 @@ fn judged(scene: &Scene, method: Method, [theta, omega]: [f64; 2]) -> [Judged; 2
     ]
 }
 
-/// A start next to rest: the first panels are short, and what their series leave out is not what those of the end do.
+/// Start close to rest: the first panels are short, and the truncation errors of their series differ from those at the
+/// end.
 #[test]
 fn a_start_next_to_rest_is_stated_as_exact_as_it_is() {
     let inertia = 0.02;
@@ -544,7 +546,7 @@ fn a_start_next_to_rest_is_stated_as_exact_as_it_is() {
                 error <= 2.0 * stated + 1e-15,
                 "{speed}: {error:e} {stated:e}"
             );
-            // Of smaller errors rounding decides.
+            // Smaller errors are dominated by rounding.
             assert!(
                 stated <= 10.0 * error.max(3e-15),
                 "{speed}: {error:e} {stated:e}"
@@ -553,8 +555,8 @@ fn a_start_next_to_rest_is_stated_as_exact_as_it_is() {
     }
 }
 
-/// A start where the inertia is steep, next to a limit that is nearly reached: the rounding of the angle in its turn is
-/// an error of the energy. The ends are by quadrature of sqrt(M) with 34 digits, mpmath 1.3.
+/// Start where the inertia is steep, next to a limit that is nearly reached: the rounding of the angle in its turn is
+/// an error of the energy. Ends by quadrature of sqrt(M) with 34 digits, mpmath 1.3.
 #[test]
 fn a_start_where_the_inertia_is_steep_is_not_stated_too_exact() {
     let cases = [
@@ -576,7 +578,7 @@ fn a_start_where_the_inertia_is_steep_is_not_stated_too_exact() {
                     error <= 2.0 * stated,
                     "{method} {rod}: {error:e} {stated:e}"
                 );
-                // Of smaller errors rounding decides: of the speed that of the angle, too.
+                // Smaller errors are dominated by rounding; for the speed this includes the rounding of the angle.
                 let [theta, omega] = end;
                 let slope = Equation::new(&scene).acceleration(0.0, theta, omega) / omega;
                 let of_angle = [0.0, (0.5 * slope * theta).abs()][k];
@@ -591,7 +593,7 @@ fn a_start_where_the_inertia_is_steep_is_not_stated_too_exact() {
 }
 
 /// Where each turn gains or loses the same energy, the extreme speeds are those of the run, not of the turn in which it
-/// ends. By the energy: ω² = (M₀ ω₀² + 2 τ θ)/M, with M = I + m x'².
+/// ends. From the energy: ω² = (M₀ ω₀² + 2 τ θ)/M, with M = I + m x'².
 #[test]
 fn extreme_speeds_are_those_until_the_end() {
     let (r, l, inertia, mass) = (0.05, 0.2, 0.01, 1.0);
@@ -622,7 +624,7 @@ fn extreme_speeds_are_those_until_the_end() {
             .revolutions(turns);
         let summary = by_energy(&scene).summary;
         for (found, exact) in [(summary.omega_min, low), (summary.omega_max, high)] {
-            // An extreme between two steps differs from them by the square of the step.
+            // An extreme between two steps differs from them by a term of second order in the step.
             assert!(
                 (found / exact - 1.0).abs() < 1e-6,
                 "{torque} {turns}: {found} {exact}"

@@ -1,4 +1,4 @@
-//! What the energy engine states of its errors: next to rest, in small swings, and of the tails of its series.
+//! Stated errors of the energy engine: close to rest, in small swings, and truncation of its series.
 
 use std::f64::consts::PI;
 
@@ -9,10 +9,11 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Rod, Scene, Slider};
 use slider_crank::simulate::{Options, simulate};
 
-/// A scene, its end (rad, rad/s), and what half a unit in the last place of its lengths, start and duration changes there.
+/// Scene with its end (rad, rad/s), and the change of the end by half a unit in the last place of lengths, start and
+/// duration.
 ///
-/// The ends are of the equation of motion in time by extrapolation of the midpoint rule (Gragg) with 113 bits; orders 20
-/// and 22 agree to 1e-21 and better.
+/// The ends are by extrapolation of the midpoint rule (Gragg) with 113 bits for the equation of motion in time; orders
+/// 20 and 22 agree to 1e-21 or better.
 struct Known {
     scene: Scene,
     end: [f64; 2],
@@ -30,7 +31,7 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).unwrap())
 }
 
-/// Starts with little speed, of swings and of motions that go far.
+/// Starts with low speed, both of swings and of motions that go far.
 fn next_to_rest() -> [Known; 5] {
     let swing = Scene::new(0.05, 0.15)
         .crank(crank(0.02))
@@ -131,13 +132,13 @@ fn small_swings_and_slow_starts_are_as_exact_as_stated() {
                 stated <= 20.0 * error.max(floor),
                 "{i} {k}: {error:e} {stated:e}"
             );
-            // Sharp, and not only stated truly.
+            // The estimate is also sharp.
             assert!(error <= 4.0 * floor, "{i} {k}: {error:e} {floor:e}");
         }
     }
 }
 
-/// A motion whose speed is 1 + e cos θ: t = 2/√(1 − e²) arctan(√((1 − e)/(1 + e)) tan θ/2).
+/// Motion with the speed 1 + e cos θ: t = 2/√(1 − e²) arctan(√((1 − e)/(1 + e)) tan θ/2).
 struct Ellipse(f64);
 
 impl Ellipse {
@@ -149,7 +150,7 @@ impl Ellipse {
         (1.0 - self.0 * self.0).sqrt()
     }
 
-    /// At a time after it was at zero.
+    /// Returns the angle at a time after it was zero.
     fn angle(&self, t: f64) -> f64 {
         let half = 0.5 * self.rate() * t;
         let turns = (half / PI).round();
@@ -198,8 +199,8 @@ impl Profile for Ellipse {
     }
 }
 
-/// At tolerances that leave much more than rounding: what the series leave out of the time and of the speed is stated,
-/// inside the panels, and of many turns.
+/// At tolerances far above rounding, the truncation errors of time and speed are stated, inside panels and over many
+/// turns.
 #[test]
 fn the_tails_of_series_are_stated() {
     for e in [0.9, 0.95, 0.98] {
@@ -216,14 +217,14 @@ fn the_tails_of_series_are_stated() {
                     let theta = angle.radians();
                     let error = (theta - motion.angle(t)).abs() / speed;
                     late = [late[0].max(error), late[1].max(orbit.time_error(t))];
-                    // The speed of the angle: the time is another matter.
+                    // Error of the speed as a function of the angle; the error of the time is separate.
                     let error = (speed / motion.speed(angle.rest) - 1.0).abs();
                     fast = [fast[0].max(error), fast[1].max(orbit.speed_error(t))];
                 }
                 for [error, stated] in [late, fast] {
                     let message = format!("{e} {tolerance} {what}: {error:e} {stated:e}");
                     assert!(error <= 2.0 * stated + 1e-14 * (1.0 + first), "{message}");
-                    // The terms that follow alternate, and partly cancel over a turn.
+                    // The following terms alternate, and partly cancel over a turn.
                     assert!(stated <= 600.0 * error + 1e-14 * (1.0 + first), "{message}");
                 }
             }

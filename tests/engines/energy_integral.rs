@@ -1,5 +1,5 @@
-//! The motion without loads by quadrature: t = ∫ dθ sqrt(M/(2 (E − V))), M and V written out from the
-//! positions and velocities of the bodies.
+//! Reference for motion without loads by quadrature: t = ∫ dθ sqrt(M/(2 (E − V))), with M and V from the positions and
+//! velocities of the bodies.
 
 use slider_crank::scene::Scene;
 
@@ -9,7 +9,7 @@ pub struct EnergyIntegral {
     nodes: Vec<(f64, f64)>,
 }
 
-/// Panels in a turn.
+/// Number of panels in a turn.
 const PANELS: f64 = 240.0;
 
 impl EnergyIntegral {
@@ -25,7 +25,7 @@ impl EnergyIntegral {
         integral
     }
 
-    /// M and V at a crank angle.
+    /// Returns M and V at a crank angle.
     pub fn m_and_v(&self, theta: f64) -> (f64, f64) {
         let geometry = &self.scene.geometry;
         let (r, l, e, s) = (
@@ -67,7 +67,7 @@ impl EnergyIntegral {
         (m, v)
     }
 
-    /// Speed at a crank angle, rad/s, of the sign of the start.
+    /// Returns the speed at a crank angle, rad/s, with the sign of the start.
     pub fn speed(&self, theta: f64) -> f64 {
         let (m, v) = self.m_and_v(theta);
         (2.0 * (self.energy - v) / m)
@@ -75,7 +75,7 @@ impl EnergyIntegral {
             .copysign(self.scene.motion.speed)
     }
 
-    /// Time from `from` to `to` within one panel.
+    /// Returns the time from `from` to `to` within one panel.
     fn time(&self, from: f64, to: f64) -> f64 {
         let half = 0.5 * (to - from);
         let middle = 0.5 * (to + from);
@@ -83,14 +83,14 @@ impl EnergyIntegral {
         half * self.nodes.iter().map(node).sum::<f64>()
     }
 
-    /// Time from the start of a turn to the end of each of its panels.
+    /// Returns the times from the start of a turn to the end of each of its panels.
     fn times(&self) -> Vec<f64> {
         let panel = self.panel();
         let (mut sum, mut lost) = (0.0, 0.0);
         (0..PANELS as u32)
             .map(|i| {
                 let from = self.scene.motion.angle + f64::from(i) * panel;
-                // Kahan: the error of the sum is carried along.
+                // Kahan summation.
                 let corrected = self.time(from, from + panel) - lost;
                 let next: f64 = sum + corrected;
                 lost = (next - sum) - corrected;
@@ -104,7 +104,7 @@ impl EnergyIntegral {
         std::f64::consts::TAU / PANELS * self.scene.motion.speed.signum()
     }
 
-    /// Angle and speed at time t: whole turns, and a rest inside the first turn, where angles are small.
+    /// Returns angle and speed at time t: whole turns, and a remainder inside the first turn, where angles are small.
     pub fn state(&self, t: f64) -> (f64, f64) {
         let times = self.times();
         let turn = times[times.len() - 1];
@@ -118,7 +118,7 @@ impl EnergyIntegral {
         (whole + theta, speed)
     }
 
-    /// Newton for the angle that is reached a time `left` after `from`.
+    /// Solves by Newton's method for the angle that is reached a time `left` after `from`.
     fn inside(&self, from: f64, panel: f64, left: f64) -> (f64, f64) {
         let mut theta = from + (left * self.speed(from)).clamp(-panel.abs(), panel.abs());
         for _ in 0..50 {
@@ -132,8 +132,8 @@ impl EnergyIntegral {
     }
 }
 
-/// Nodes and weights of Fejér's first rule on [−1, 1], the interpolating one on the zeros of T_n (Davis and Rabinowitz,
-/// Methods of Numerical Integration, 2.5.5): exact for polynomials of lower degree than n.
+/// Returns nodes and weights of Fejér's first rule on [−1, 1], interpolatory on the zeros of T_n (Davis and Rabinowitz,
+/// Methods of Numerical Integration, 2.5.5): exact for polynomials of degree less than n.
 pub fn fejer(n: u32) -> Vec<(f64, f64)> {
     let count = f64::from(n);
     (0..n)

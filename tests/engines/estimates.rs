@@ -1,4 +1,4 @@
-//! Error estimates against true errors, and engines against each other, over random scenes.
+//! Error estimates compared with true errors, and engines with each other, over random scenes.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ use slider_crank::simulate::{Options, simulate};
 
 const SCENES: usize = 520;
 
-/// A load on the crank or on the slider, of the size of the torque and the force given.
+/// Load on the crank or on the slider, scaled by the given torque and force.
 #[derive(Clone, Copy, Debug)]
 enum Part {
     Gravity,
@@ -42,7 +42,7 @@ fn expression(text: String) -> Load {
     Load::Expression(Expression::parse(&text).unwrap())
 }
 
-/// `size` is from −1 to 1, `energy` (J) the kinetic energy of the mechanism, roughly.
+/// Adds a load; `size` is from −1 to 1, `energy` (J) approximately the kinetic energy of the mechanism.
 fn with_part(scene: Scene, part: Part, size: f64, r: f64, speed: f64, energy: f64) -> Scene {
     let torque = 0.2 * size * energy;
     let force = torque / r;
@@ -72,7 +72,7 @@ fn with_part(scene: Scene, part: Part, size: f64, r: f64, speed: f64, energy: f6
     }
 }
 
-/// A mechanism with loads, one to six turns of it at its first speed, and two tolerances.
+/// Strategy for a mechanism with loads, run for one to six turns at its first speed, and two tolerances.
 fn case() -> impl Strategy<Value = (Scene, [f64; 2])> {
     let lengths = (0.02..0.2f64, -3.0..1.0f64, -0.9..0.9f64, any::<bool>());
     let masses = (0.1..2.0f64, 0.0..2.0f64, 0.0..2.0f64, -0.1..0.1f64);
@@ -128,7 +128,7 @@ fn stated_errors_are_near_the_true_ones() {
         for what in ["theta", "omega"] {
             let of = |one: &&Judged| one.method == method && one.what == what;
             let found: Vec<&Judged> = sharp.iter().filter(of).collect();
-            // Where the truth is not known well enough, an estimate cannot be judged: few only.
+            // Estimates cannot be judged where the truth is uncertain; this may be rare only.
             let unknown = blurred.iter().filter(of).count();
             assert!(
                 50 * unknown <= found.len(),
@@ -141,8 +141,8 @@ fn stated_errors_are_near_the_true_ones() {
             }
             let above = |part| quantile(found.iter().map(|one| one.above()).collect(), part);
             assert!(above(0.99) <= 6.0, "{method} {what}: {}", above(0.99));
-            // What the test can see: the energy engine is at its rounding always, the angle engine often, as it
-            // resolves the forces further than the tolerance asks.
+            // Limits of the test: the energy engine is always at its rounding level, the angle engine often, because it
+            // resolves the forces further than the tolerance requires.
             let over_floor = found.iter().filter(|one| one.distance > one.floor);
             let usual = match method {
                 "energy" => 0,
@@ -154,9 +154,9 @@ fn stated_errors_are_near_the_true_ones() {
     }
 }
 
-/// A small crank in a rod that is longer than it needs to be by a part in 10^12 swings through the place where the rod
-/// stands almost normal to the guide, three times to and fro, and its speed jumps there. Reference: rods with pin forces
-/// in 34 digits, by extrapolation.
+/// A small crank with a rod longer than necessary by a part in 10^12 swings three times to and fro through the position
+/// where the rod stands almost normal to the guide, and its speed jumps there. Reference: equations of rods with pin
+/// forces in 34 digits, by extrapolation.
 #[test]
 fn next_to_a_change_point_the_stated_error_is_near_the_true_one() {
     let text = r#"
@@ -200,7 +200,7 @@ tolerance = 1e-12
         (summary.last.omega_rad_per_s + 20.039_494_528_103_546).abs() / stated.omega_rad_per_s,
     ];
     assert_eq!(summary.engine, "time");
-    // One of them may be smaller by chance.
+    // One of the two may be smaller by chance.
     let largest = off[0].max(off[1]);
     assert!((0.05..=2.0).contains(&largest), "{off:?}");
 }

@@ -1,7 +1,7 @@
-//! Free motion against an independent quadrature of the energy integral.
+//! Free motion compared with an independent quadrature of the energy integral.
 //!
-//! Without loads ½ M(θ) θ̇² + V(θ) stays what it was, so θ̇(θ) is known and t(θ) = ∫ dθ/θ̇. M and V are
-//! written out here once more, from positions and velocities of the bodies.
+//! Without loads ½ M(θ) θ̇² + V(θ) is constant, so that θ̇(θ) is known and t(θ) = ∫ dθ/θ̇. M and V are derived here
+//! independently, from positions and velocities of the bodies.
 
 use crate::energy_integral::EnergyIntegral;
 use slider_crank::plan::Method;
@@ -55,7 +55,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-/// Errors of θ and θ̇ below this are not told apart: rounding of the reference and of the final angle.
+/// Returns the resolution of θ and θ̇: rounding of the reference and of the final angle.
 fn resolution(theta: f64) -> f64 {
     4e-16 * theta.abs() + 2e-14
 }

@@ -1,5 +1,5 @@
-//! Runs that are handed from the angle to the time and back, against closed solutions, against integration in time
-//! alone, and against the reference in double-double arithmetic.
+//! Runs handed over from the angle engine to the time engine and back: compared with closed solutions, with integration
+//! in time alone, and with the reference in double-double arithmetic.
 
 use std::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ fn run(scene: &Scene, method: Method) -> Simulation {
 
 const INERTIA: f64 = 0.02;
 
-/// A crank whose inertia is the same at every angle.
+/// Returns a crank with constant inertia.
 fn wheel() -> Scene {
     Scene::new(0.05, 0.2).crank(Crank {
         inertia: INERTIA,
@@ -50,7 +50,7 @@ fn mechanism() -> impl Strategy<Value = Scene> {
         let speed = 10f64.powf(speed) * if clockwise { -1.0 } else { 1.0 };
         let inertia = (2.0 * crank + 0.6 * rod + 0.5 * slider) * r * r;
         let (turns, kind, loss, gravity) = loads;
-        // It comes to rest after about so many turns, and the run goes on beyond that.
+        // The crank would come to rest after about this many turns; the run continues beyond that.
         let brake = 0.5 * inertia * speed * speed.abs() / (turns * TAU);
         let stops = 2.0 * turns * TAU / speed.abs();
         let scene = machine([r, l, offset * r], left, [2.0 * crank, rod, slider], 0.0)
@@ -99,17 +99,17 @@ fn is_handed(summary: &Summary) -> bool {
     summary.engine == "angle" && engines.clone().any(|engine| engine == "time")
 }
 
-/// How often the angle was handed over to the time.
+/// Returns the number of handovers from angle to time.
 fn times_handed(summary: &Summary) -> usize {
     let pairs = summary.pieces.windows(2);
     let handed = pairs.filter(|pair| (pair[0].engine, pair[1].engine) == ("angle", "time"));
     handed.count()
 }
 
-/// θ and ω of a motion at a time.
+/// θ and ω of a closed solution at a time.
 type Closed<'a> = &'a dyn Fn(f64) -> (f64, f64);
 
-/// Fails unless the motion is the closed one, at the end to what is stated, inside to the tolerance.
+/// Checks that the motion is the closed solution, at the end to the stated error, inside to the tolerance.
 #[track_caller]
 fn follows(result: &Simulation, closed: Closed<'_>) {
     let summary = &result.summary;
@@ -148,7 +148,7 @@ fn follows(result: &Simulation, closed: Closed<'_>) {
     );
 }
 
-/// A constant torque on a constant inertia: θ is a parabola. The crank stops and turns back, both ways round.
+/// Constant torque on a constant inertia: θ is a parabola. The crank stops and turns back, in both directions.
 #[test]
 fn a_brake_that_turns_the_crank_back_makes_a_parabola() {
     for (speed, torque, duration) in [(60.0, -1.0, 3.0), (-60.0, 1.0, 3.0), (300.0, -0.5, 40.0)] {
@@ -167,7 +167,7 @@ fn a_brake_that_turns_the_crank_back_makes_a_parabola() {
             assert_eq!(engines, ["angle", "time", "angle"]);
             assert_eq!((pieces[0].from_s, pieces[2].to_s), (0.0, duration));
             assert!(pieces.windows(2).all(|w| w[0].to_s == w[1].from_s));
-            // The crank stands still in the piece in time.
+            // The crank stops within the piece in time.
             let stands = -speed / rate;
             assert!(pieces[1].from_s < stands && stands < pieces[1].to_s);
             let ends = [speed, speed + rate * duration];
@@ -187,7 +187,7 @@ fn a_brake_that_turns_the_crank_back_makes_a_parabola() {
     }
 }
 
-/// A loss that grows with the speed: it goes on for a hundred thousand turns and comes to rest after them.
+/// Speed-proportional loss: the crank turns a hundred thousand times before it comes to rest.
 #[test]
 fn coasting_to_rest_after_many_turns_is_an_exponential() {
     for (turns, direction) in [(10.0, 1.0), (1e5, -1.0)] {
@@ -211,7 +211,7 @@ fn coasting_to_rest_after_many_turns_is_an_exponential() {
     }
 }
 
-/// The same energy in every turn more, for millions of turns: its roundings must not add up.
+/// Equal energy gain in each of millions of turns: the rounding errors must not accumulate.
 #[test]
 fn a_gain_that_is_the_same_in_millions_of_turns_loses_nothing() {
     let (speed, rate, duration) = (-300.0, 25.0, 1000.0);
@@ -227,7 +227,7 @@ fn a_gain_that_is_the_same_in_millions_of_turns_loses_nothing() {
     assert!(stated <= 1e-14 * theta, "{stated:e}");
 }
 
-/// Same kinds in the same order, at the same times.
+/// Checks that events have equal kinds, order and times.
 #[track_caller]
 fn same_events(a: &Summary, b: &Summary, within: f64) {
     assert_eq!(a.events_total, b.events_total);
@@ -253,7 +253,7 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
             if !is_handed(&summary) {
                 continue;
             }
-            // A larger error may turn the crank on the other side of a dead centre.
+            // A larger error may put the reversal on the other side of a dead centre.
             if tolerance < 1e-8 {
                 same_events(&summary, &truth, 1e3 * tolerance);
             }
@@ -263,7 +263,7 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
                 "{}",
                 summary.energy_residual
             );
-            // A second run that reaches its end at once.
+            // Cost of a second run that reaches the end at once.
             let cost = summary.estimate_cost.unwrap().evaluations;
             assert!(cost <= 20 * summary.evaluations, "{cost}");
             let stated = summary.error_estimate.unwrap();
@@ -297,7 +297,7 @@ fn what_is_stated_is_near_the_distance_from_a_tight_run_in_time() {
     assert!(several > 5, "{several}");
 }
 
-/// The reference knows nothing of the engines.
+/// The reference is independent of the engines.
 #[test]
 fn what_is_stated_is_near_the_distance_from_the_reference() {
     let mut judged = 0;
@@ -321,7 +321,7 @@ fn what_is_stated_is_near_the_distance_from_the_reference() {
             for (error, stated) in pairs {
                 let (error, stated) = (error.unwrap(), stated.unwrap());
                 assert!(error <= 2.0 * stated, "{error:e} {stated:e}");
-                // Of smaller errors rounding decides.
+                // Smaller errors are dominated by rounding.
                 if error > 1e-11 {
                     assert!(stated <= 10.0 * error, "{error:e} {stated:e}");
                     judged += 1;
@@ -332,7 +332,7 @@ fn what_is_stated_is_near_the_distance_from_the_reference() {
     assert!(judged >= 8, "{judged}");
 }
 
-/// A thousand turns and a slow end.
+/// Returns a scene of a thousand turns and a slow end.
 fn coasting() -> Scene {
     Scene::duarte()
         .gravity(Gravity::standard())
@@ -404,7 +404,7 @@ fn turns_end_a_run_in_either_direction() {
         );
         let rate = torque / INERTIA;
         let way = summary.revolutions * TAU;
-        // The later root where it turns back.
+        // After the reversal take the later root.
         let root = (3600.0 + 2.0 * rate * way).sqrt();
         let t = if way < 0.0 {
             (-60.0 - root) / rate
@@ -444,7 +444,7 @@ fn a_start_too_slow_for_the_angle_is_handed_over_later() {
     );
 }
 
-/// A crank that is slow at one place of each turn, and does not stop there, stays with the angle.
+/// A crank that is slow in one place of each turn, without stopping, stays with the angle engine.
 #[test]
 fn a_crank_that_is_slow_in_each_turn_is_not_handed_over() {
     for sense in [1.0, -1.0] {

@@ -1,4 +1,4 @@
-//! The scenes of `data/hard/` against the references of its README, none of which comes from this program.
+//! Scenes of `data/hard/` compared with the references of its README, all independent of this program.
 
 use std::path::PathBuf;
 
@@ -124,8 +124,7 @@ fn check(name: &str, run: &Simulation, theta: f64, omega: f64, doubt: f64) {
     let summary = &run.summary;
     assert_eq!(summary.stopped, None, "{name}");
     let stated = summary.error_estimate.expect("an estimate");
-    // The estimate is never below the true error by more than a factor of two; one unit of the last place of the
-    // reference beside it.
+    // The true error is at most twice the estimate, plus one unit in the last place of the reference.
     let allowed = |stated: f64, value: f64| 2.0 * stated + doubt + f64::EPSILON * value.abs();
     let apart = (summary.last.theta_rad - theta).abs();
     assert!(
@@ -149,7 +148,7 @@ fn every_case_ends_at_its_reference() {
 }
 
 /// Loose joints: crank angle and speed, slider position and velocity at the end, and the errors of the reference in
-/// angle and position. Speeds may be off by more, as the contact is stiff.
+/// angle and position. Speeds have a larger allowance because the contact is stiff.
 #[test]
 fn loose_joints_end_at_their_references() {
     for (name, [theta, omega, x, v], [doubt_theta, doubt_x]) in [
@@ -200,7 +199,7 @@ fn loose_joints_end_at_their_references() {
     }
 }
 
-/// A pendulum of 1e-3 rad: the speed follows from a difference of energies that cancels to 1e-7 of them.
+/// Pendulum of 1e-3 rad: the speed follows from a difference of energies, which cancels to 1e-7 of them.
 #[test]
 fn a_small_libration_ends_at_its_reference() {
     let run = run("07-small-libration", Method::Auto);
@@ -213,11 +212,11 @@ fn a_small_libration_ends_at_its_reference() {
     );
 }
 
-/// A method that serves a case ends at the same state or says why it does not.
+/// A method either ends at the reference state or says why it does not.
 #[test]
 fn every_method_is_right_or_says_why_not() {
     for (name, theta, omega, doubt) in REFERENCES {
-        // Two million radians in time take too long for a test.
+        // A run of two million radians in time is too long for a test.
         if name.starts_with("06") {
             continue;
         }
@@ -236,7 +235,7 @@ fn every_method_is_right_or_says_why_not() {
     }
 }
 
-/// Angle and time at which the law of friction stops having one answer, from Newton's and Euler's equations.
+/// Angle and time, from the Newton-Euler equations, at which the friction law ceases to have one solution.
 #[test]
 fn jamming_is_named_where_it_begins() {
     let run = run("09-jamming", Method::Auto);
@@ -271,8 +270,8 @@ fn ten_thousand_reversals_keep_the_energy_balance() {
     );
 }
 
-/// At rest at the inner dead centre, 180 degrees, which no float is: the motion from the float next to it, which
-/// grows as cosh(18.26 t), stays below 1e-8 rad, and the estimate says so.
+/// Rest at the inner dead centre, 180 degrees, which is not a float: the motion from the nearest float grows as
+/// cosh(18.26 t) but stays below 1e-8 rad, and the estimate covers it.
 #[test]
 fn rest_at_a_rounded_dead_centre_says_how_unsure_it_is() {
     let run = run("05-rest-at-inner-dead-centre", Method::Auto);
@@ -281,7 +280,7 @@ fn rest_at_a_rounded_dead_centre_says_how_unsure_it_is() {
     assert!(moved <= 2.5 * run.summary.error_estimate.unwrap().theta_rad + 1e-15);
 }
 
-/// No run goes on for ever: with a small work limit all end, and say where.
+/// With a small work limit every run ends, and says where.
 #[test]
 fn the_work_limit_ends_every_run() {
     for name in [
@@ -317,7 +316,7 @@ fn the_work_limit_ends_every_run() {
     }
 }
 
-/// A run so short that the crank does not turn by a float ends where and as it starts.
+/// Runs too short to change the crank angle by one float end in their start state.
 #[test]
 fn runs_of_hardly_any_length_end_at_their_start() {
     let frictionless = scene("14-zero-duration");

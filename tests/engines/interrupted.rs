@@ -1,4 +1,4 @@
-//! A request to stop ends every engine where it is made, with what it has.
+//! A request to stop ends every engine at that point, and the computed part is kept.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,10 +15,10 @@ use slider_crank::simulate::{
 };
 use slider_crank::sweep::{Sweep, SweepOptions};
 
-/// What is evaluated after the request at most: panels and steps that are under way, and tables of a turn.
+/// Largest number of evaluations after the request: current panels and steps, and tables of a turn.
 const BEYOND: u64 = 5000;
 
-/// A load that asks for the end at one of its evaluations, and counts them.
+/// Returns a load that requests the stop at one of its evaluations, and counts the evaluations.
 fn asking(
     reads: Variables,
     at: u64,
@@ -55,7 +55,7 @@ fn interrupted(summary: &Summary, calls: u64, at: u64) {
     assert!(words.starts_with("interrupted: stopped at t = "), "{words}");
     assert_eq!(stopped.at.t, summary.last.t_s);
     assert!(summary.last.t_s < 1e4);
-    // Over the angle the work of the loads is a quadrature of its own, over what was computed.
+    // Over the angle the work of the loads is a separate quadrature over the computed part.
     assert!(calls <= 2 * at + BEYOND, "{calls} calls, asked at {at}");
 }
 
@@ -125,7 +125,7 @@ fn run(scene: Scene, method: Method, stop: Stop, (at, count): (u64, &AtomicU64))
     }
 }
 
-/// Rows, too, are those until then.
+/// The rows end where the run is stopped.
 #[test]
 fn rows_end_where_the_run_does() {
     let (load, stop, _) = asking(Variables::OMEGA.or(Variables::T), 20_000, |now| {
@@ -149,7 +149,7 @@ fn rows_end_where_the_run_does() {
     );
 }
 
-/// A steady state is found or not; a sweep hands no design on that is not complete.
+/// A steady state is found or not; a sweep does not pass on an incomplete design.
 #[test]
 fn searches_and_sweeps_say_that_they_are_interrupted() {
     let period = Period::turns(1).expect("a period");

@@ -16,15 +16,15 @@ const ROCKER: Kind = Kind {
     slack: 0.0,
 };
 
-/// A crank angle at which the crank pin is this part of the way between the least and the largest height that the
-/// rod reaches.
+/// Returns a crank angle at which the crank pin is at this fraction of the way between the least and the largest height
+/// that the rod can reach.
 fn reached([r, l, e]: [f64; 3], part: f64, beyond: bool) -> f64 {
     let (low, high) = (f64::max(-l, e - r), f64::min(l, e + r));
     let angle = ((low + part * (high - low) - e) / r).asin();
     if beyond { PI - angle } else { angle }
 }
 
-/// A double rocker or a rotating rod, off the change points by a twentieth of the sum of the lengths or so.
+/// Strategy for a double rocker or a rotating rod, about a twentieth of the sum of the lengths away from change points.
 fn lengths() -> impl Strategy<Value = [f64; 3]> {
     let size = || magnitude(0.02, 0.3);
     prop_oneof![

@@ -1,5 +1,4 @@
-//! Long motions whose turns gain the same work each: against the sum over every single turn, by a quadrature written
-//! apart from the engine.
+//! Long motions whose turns gain equal work: compared with the sum over all single turns, by an independent quadrature.
 
 #[allow(dead_code, reason = "shared with other tests")]
 use std::f64::consts::{PI, TAU};
@@ -11,7 +10,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{Gravity, Load, Period, Scene, Variables};
 use slider_crank::simulate::{Options, Simulation, simulate};
 
-/// A torque over the crank angle and its integral from zero.
+/// Torque over the crank angle, and its integral from zero.
 #[derive(Clone, Copy, Debug)]
 struct Torque {
     mean: f64,
@@ -29,7 +28,7 @@ impl Torque {
     }
 }
 
-/// Inertia, work since the start of the turn and weight at the nodes of one turn.
+/// Inertia, work since the start of the turn, and weight at the nodes of one turn.
 struct EveryTurn {
     nodes: Vec<(f64, f64, f64)>,
     kinetic: f64,
@@ -60,7 +59,8 @@ impl EveryTurn {
         }
     }
 
-    /// Time of the turn after so many, s; none if the crank comes so near to rest that the panels are too coarse.
+    /// Returns the time of the turn after this many turns, s; none if the crank comes so close to rest that the panels
+    /// are too coarse.
     fn time(&self, turns: u32) -> Option<f64> {
         let kinetic = self.kinetic + f64::from(turns) * self.gain;
         let mut sum = 0.0;
@@ -74,7 +74,7 @@ impl EveryTurn {
         Some(sum)
     }
 
-    /// Time until so many turns are complete, or until the last one that is: the turns and the time (s).
+    /// Returns the time (s) until this many turns are complete, or until the last one that is, and their number.
     fn until(&self, turns: u32) -> (u32, f64) {
         let (mut sum, mut lost) = (0.0, 0.0);
         for turn in 0..turns {
@@ -93,7 +93,7 @@ fn mechanism() -> impl Strategy<Value = (Scene, Torque)> {
     let lengths = (0.02..0.2f64, 0.3..2.0f64, -0.9..0.9f64, prop::bool::ANY);
     let masses = (0.3..3.0f64, 0.1..2.0f64, 0.1..2.0f64, -0.1..0.1f64);
     let motion = (0.0..TAU, 0.8..2.0f64, prop::bool::ANY, -PI..PI);
-    // Work of a turn and of its swing, in parts of the kinetic energy.
+    // Work of a turn, and its swing, relative to the kinetic energy.
     let torque = (-4.0..-0.5f64, prop::bool::ANY, -0.05..0.05f64);
     (lengths, masses, motion, torque).prop_map(|(lengths, masses, motion, torque)| {
         let (r, longer, offset, left) = lengths;
@@ -149,27 +149,27 @@ proptest! {
         let last = run.summary.last;
         let stated = run.summary.error_estimate.unwrap();
         let truth = scene.motion.angle + direction * TAU * f64::from(turns);
-        // The sum over all turns is itself rounded: to the rounding of its end.
+        // The sum over all turns has rounding errors itself, about that of its end.
         let rounding = 4.0 * f64::EPSILON * (truth.abs() + (last.omega_rad_per_s * end).abs());
         let error = (last.theta_rad - truth).abs();
         prop_assert!(error <= 2.0 * stated.theta_rad + rounding, "{error:e} {stated:?}");
         let m0 = EnergyIntegral::new(&scene).m_and_v(scene.motion.angle).0;
         let kinetic = every.kinetic + f64::from(turns) * every.gain;
-        // Where the crank does not slow down, which amplifies what its energy is off, all that is stated is rounding.
+        // Unless the crank slows down, which amplifies errors of its energy, the stated error is rounding alone.
         if kinetic > 0.7 * every.kinetic {
             prop_assert!(stated.theta_rad <= 10.0 * rounding, "{stated:?} {rounding:e}");
         }
         let speed = direction * (2.0 * kinetic / m0).sqrt();
         let error = (last.omega_rad_per_s - speed).abs();
         prop_assert!(error <= 2.0 * stated.omega_rad_per_s + 1e-14 * speed.abs(), "{error:e} {stated:?}");
-        // On the way the states are those of shorter sums, in the first turns and in the later ones.
+        // Intermediate states agree with shorter sums, in early and in late turns.
         for part in [7, turns / 3, turns / 2, turns - 2] {
             let (_, t) = every.until(part);
             let (theta, _) = run.at(t).unwrap();
             let truth = scene.motion.angle + direction * TAU * f64::from(part);
             prop_assert!((theta - truth).abs() <= 2.0 * stated.theta_rad + rounding, "{part}");
         }
-        // The same end asked for by turns.
+        // The end by number of turns.
         let run = by_energy(&loaded(&scene, torque).revolutions(f64::from(turns - 1)));
         let (_, t) = every.until(turns - 1);
         let slowest = run.summary.omega_min.abs().min(run.summary.omega_max.abs());
@@ -180,7 +180,8 @@ proptest! {
 
 #[test]
 fn a_constant_torque_over_millions_of_turns_is_right_to_rounding() {
-    // Every turn summed in 19 digits (x87), 24 Gauss nodes on each quarter; torque, duration, angle and speed.
+    // Reference: all turns summed in 19 digits (x87), 24 Gauss nodes on each quarter; torque, duration, angle and
+    // speed.
     let references = [
         (2.0, 10.0, 4334.207178463392, 755.2638870700546),
         (-0.02, 100.0, 6486.554075103779, 31.30441631516967),
@@ -221,7 +222,7 @@ fn the_cost_hardly_grows_with_the_turns() {
     };
     let (few, most) = (evaluations(10.0), evaluations(3000.0));
     assert!(most <= 3 * few, "{few} {most}");
-    // No work in a turn, but the load does not say so.
+    // The turn does no net work, which the load does not declare.
     let torque = Torque {
         mean: 0.0,
         swing: 3.0,

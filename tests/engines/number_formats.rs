@@ -1,4 +1,4 @@
-//! Interpolation and double-double arithmetic against published values and whole numbers.
+//! Interpolation and double-double arithmetic compared with published values and with integers.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use slider_crank::numeric::angle::TAU_REST;
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::interpolate::{Curve, Interpolation, lacks};
 
-/// Values of an independent implementation (scipy.interpolate.PchipInterpolator).
+/// Reference values of an independent implementation (scipy.interpolate.PchipInterpolator).
 #[test]
 fn pchip_matches_published_implementation() {
     let curve = Curve::new(
@@ -33,7 +33,7 @@ const PCHIP_REFERENCE: &[(f64, f64)] = &[
     (5.0, 3.5),
 ];
 
-/// 2π/3 less its float, from 40 digits of π; a period that is no part of a turn is what it is.
+/// 2π/3 minus its float, from 40 digits of π; a period that is not a fraction of a turn is kept as it is.
 #[test]
 fn what_the_float_of_a_period_lacks() {
     assert_eq!(lacks(TAU), TAU_REST);
@@ -47,7 +47,7 @@ fn what_the_float_of_a_period_lacks() {
     assert_eq!((lacks(4.269881), lacks(0.1)), (0.0, 0.0));
 }
 
-/// Up and down again like a tent, against whole numbers of 2⁻⁵⁰.
+/// Triangle wave, compared with integer multiples of 2⁻⁵⁰.
 #[test]
 fn periods_are_taken_off_without_rounding() {
     let unit = 2f64.powi(-50);
@@ -82,7 +82,7 @@ fn a_periodic_curve_closes_smoothly() {
     assert!((slope(0.0) - slope(TAU - 1e-9)).abs() < 1e-6);
 }
 
-/// What a number has beyond its nearest float.
+/// Returns the difference of a number from its nearest float.
 fn low(a: DoubleDouble) -> f64 {
     (a - a.value()).value()
 }
@@ -104,7 +104,7 @@ fn the_rules_of_arithmetic_hold() {
         assert!(close((a + b) * (a - b), a * a - b * b));
         a = (a * b + 0.1) / (b + 1.0);
     }
-    // 1/3 is 0.333…: the second half is what the first leaves out.
+    // 1/3 is 0.333…: the second half holds the remainder of the first.
     let third = DoubleDouble::ONE / 3.0;
     assert_eq!((third * 3.0 - 1.0).value().abs() < 1e-31, low(third) != 0.0);
     assert!(DoubleDouble::from(-1.0).sqrt().value().is_nan());
@@ -118,12 +118,12 @@ fn sine_and_cosine_are_right_to_the_last_digits() {
         let ((sin_a, cos_a), (sin_b, cos_b)) = (a.sin_cos(), b.sin_cos());
         let (sin, cos) = (a + b).sin_cos();
         assert!(close(sin_a * sin_a + cos_a * cos_a, DoubleDouble::ONE));
-        // The sum of the angles is rounded too.
+        // The sum of the angles is rounded as well.
         let close = |x: DoubleDouble, y| (x - y).value().abs() < 1e-25;
         assert!(close(sin, sin_a * cos_b + cos_a * sin_b), "{k}");
         assert!(close(cos, cos_a * cos_b - sin_a * sin_b), "{k}");
     }
-    // Digits 17 to 32 of sine and cosine of a half.
+    // Digits 17 to 32 of the sine and cosine of one half.
     let (sin, cos) = DoubleDouble::from(0.5).sin_cos();
     assert_eq!((sin.value(), cos.value()), 0.5f64.sin_cos());
     assert!((low(sin) - -5.103969860556013e-18).abs() < 1e-31);

@@ -1,4 +1,4 @@
-//! Numerical tools against closed forms and published values.
+//! Numerical tools compared with closed forms and published values.
 
 mod chebyshev {
     use slider_crank::numeric::chebyshev::Rule;
@@ -37,7 +37,7 @@ mod chebyshev {
     fn polynomials_of_the_degree_are_reproduced() {
         for degree in Rule::DEGREES {
             let rule = Rule::of(degree);
-            // T_k itself, whose only coefficient is 1.
+            // T_k itself: its only nonzero coefficient is 1.
             for k in 0..=degree {
                 let values = rule.values(|x| (k as f64 * x.acos()).cos());
                 let series = rule.series(&values);
@@ -96,7 +96,7 @@ mod maximum {
             };
             let (t, value) = largest(parabola, a, b);
             assert!((t - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-15);
-            // Golden sections alone take 45.
+            // Golden section search alone takes 45.
             assert!(calls < 45, "{calls}");
         }
     }
@@ -182,7 +182,7 @@ mod angle {
 mod student {
     use slider_crank::numeric::student::half_band;
 
-    /// The root of the regularized incomplete beta function, computed to 30 digits.
+    /// Root of the regularized incomplete beta function, computed to 30 digits.
     #[test]
     fn the_point_is_exact_for_any_degrees_of_freedom() {
         for (freedom, expected) in [

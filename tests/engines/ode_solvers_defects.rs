@@ -1,5 +1,5 @@
-//! The defects of ode_solvers 0.6.2 that `src/engine/library.rs` works around. A failure here means that they
-//! are mended, and that the guards can go.
+//! Defects of ode_solvers 0.6.2 for which `src/engine/runge_kutta.rs` has workarounds. A failure here means that they
+//! are repaired, and that the workarounds can go.
 
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 
@@ -20,7 +20,7 @@ impl System<f64, SVector<f64, 2>> for Oscillator {
     }
 }
 
-/// Two stage times of Dop853 are wrong, so that it loses its order where time occurs.
+/// Two stage times of Dop853 are wrong: it loses its order if the equation depends on time.
 #[test]
 fn dop853_loses_its_order_where_time_occurs() {
     let mut solver = Dop853::from_param(

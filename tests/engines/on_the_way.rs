@@ -1,4 +1,4 @@
-//! Errors on the way: a motion that comes back to a course of its own ends better than it was before.
+//! Errors of the rows: a motion attracted to one course is more accurate at its end than before.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Friction, Load, Scene, Slider};
 use slider_crank::simulate::{Options, Simulation, simulate};
 
-/// A crank that is held to 30 rad/s, with a gust in between.
+/// Crank held to 30 rad/s, with a gust in between.
 fn held(friction: bool) -> Scene {
     let gust = "40*exp(-((t-0.3)/0.02)^2) - 2*(omega-30)";
     let mut scene = Scene::new(0.05, 0.15)
@@ -57,7 +57,7 @@ fn the_worst_error_on_the_way_is_stated() {
             let worst = times.map(off).fold([0.0f64; 2], |worst, off| {
                 [worst[0].max(off[0]), worst[1].max(off[1])]
             });
-            // Between the ends of steps the motion is not as good.
+            // Between the ends of steps the motion is less accurate.
             assert!(
                 worst[0] <= 2.0 * rows.theta_rad,
                 "{method}: {worst:?}, {rows:?}"

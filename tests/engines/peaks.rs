@@ -1,4 +1,4 @@
-//! The largest joint forces: formulas, rows that lie close, every engine, impacts.
+//! Largest joint forces: compared with formulas and with dense rows, for every engine and with impacts.
 
 use crate::support::machines;
 use slider_crank::plan::Method;
@@ -22,7 +22,7 @@ fn values(peaks: &Peaks) -> [f64; 5] {
     peaks.named().map(|(_, peak)| peak.value_n)
 }
 
-/// Sizes in a row, in the order of the peaks.
+/// Returns the sizes of the forces in a row, in the order of the peaks.
 fn sizes(row: &Row) -> [f64; 5] {
     let f = row.reactions.expect("asked for");
     let size = |[x, y]: [f64; 2]| x.hypot(y);
@@ -35,7 +35,7 @@ fn sizes(row: &Row) -> [f64; 5] {
     ]
 }
 
-/// An engine whose crank has weight as well.
+/// Engine whose crank has weight as well.
 fn engine() -> Scene {
     machines::engine(0.01).crank(Crank {
         mass: 1.2,
@@ -45,7 +45,7 @@ fn engine() -> Scene {
     })
 }
 
-/// A slider alone at constant crank speed: m r ω² (1 + r/l) at the outer dead centre.
+/// Slider alone at constant crank speed: m r ω² (1 + r/l) at the outer dead centre.
 #[test]
 fn the_largest_inertia_force_of_a_slider_is_that_of_the_formula() {
     let (r, l, mass, speed) = (0.05, 0.16, 0.3, 80.0);
@@ -73,7 +73,7 @@ fn the_largest_inertia_force_of_a_slider_is_that_of_the_formula() {
     }
 }
 
-/// No row of many is above the peak, and the highest one comes close to it.
+/// Checks that no row is above the peak, and that the highest row comes close to it.
 #[track_caller]
 fn is_the_top_of_rows(name: &str, scene: &Scene, method: Method, close: f64) {
     let step = Every::Time(2.5e-5);
@@ -131,7 +131,7 @@ fn no_row_is_above_the_peaks() {
     ] {
         is_the_top_of_rows(name, &scene, method, 1e-5);
     }
-    // The friction's force jumps where the slider turns round: rows come as close as they lie.
+    // The friction force jumps where the slider reverses: rows approach the peak to within their spacing.
     is_the_top_of_rows("friction", &rubbing, Method::Auto, 1e-3);
     let stopping = rubbing.torque(Load::Viscous(0.02)).duration(2.0);
     is_the_top_of_rows("coming to rest", &stopping, Method::Auto, 1e-3);
@@ -152,7 +152,8 @@ fn a_rod_that_is_hardly_long_enough_has_narrow_peaks() {
             );
             continue;
         };
-        // About sin(theta) = 1, where the rod stands nearly normal to the guide, rows as close as the peak is narrow.
+        // Near sin(theta) = 1, where the rod is nearly normal to the guide, the rows are spaced by the width of the
+        // peak.
         let reactions = |theta: f64| {
             let at = Scene { ..scene.clone() }
                 .constant_speed(theta, 20.0)

@@ -1,4 +1,4 @@
-//! The comparison of methods, and the reference it rests on.
+//! Comparison of methods, and its reference.
 
 use crate::support::machines::{leaning, rubbing};
 use crate::support::reference::precision;
@@ -23,7 +23,7 @@ fn rows<'a>(result: &'a Precision, method: &'a str) -> impl Iterator<Item = &'a 
     result.rows.iter().filter(move |row| row.method == method)
 }
 
-/// An engine on the left branch with offset, weight and a rod whose centre lies beside it.
+/// Engine on the left branch with offset, weight and a rod whose centre of gravity is off its axis.
 fn engine() -> Scene {
     Scene::new(0.05, 0.15)
         .offset(-0.01)
@@ -47,7 +47,7 @@ fn engine() -> Scene {
         .duration(0.5)
 }
 
-/// A flywheel with constant torque and viscous loss: omega tends to a limit by an exponential.
+/// Flywheel with constant torque and viscous loss: omega tends to a limit exponentially.
 #[test]
 fn errors_are_those_against_a_closed_solution() {
     let (inertia, torque, loss, start, duration) = (0.5, 3.0, 0.25, 40.0, 2.0);
@@ -116,7 +116,7 @@ fn every_method_that_can_serve_has_its_rows() {
     assert!(lossy.left_out.len() == 1 && lossy.left_out[0].contains("energy"));
 }
 
-/// Two engines that have nothing in common with the reference but the scene agree with it.
+/// Two engines independent of the reference agree with it.
 #[test]
 fn the_reference_agrees_with_the_engines_to_rounding() {
     for scene in [
@@ -141,7 +141,7 @@ fn the_reference_agrees_with_the_engines_to_rounding() {
     }
 }
 
-/// More turns than are followed one by one: the reference is made of one period.
+/// For many equal turns the reference is made from one period.
 #[test]
 fn many_equal_turns_cost_no_more_than_one() {
     let result = compare(&engine().duration(200.0), &[1e-6]);
@@ -166,7 +166,7 @@ fn errors_fall_with_the_tolerance_and_cost_rises() {
     );
 }
 
-/// Loads in floats limit the reference; rows nearer than a hundredfold say so.
+/// Loads in floats limit the reference; errors less than a hundred times its own are marked as bounds.
 #[test]
 fn a_reference_that_is_not_better_makes_bounds() {
     let rough = Load::function(Variables::OMEGA, |now| -1e-3 * now.omega * now.omega.abs());
@@ -193,7 +193,8 @@ fn a_prescribed_motion_has_its_closed_form() {
     assert!(row.error_theta_rad.unwrap() < 1e-14);
 }
 
-/// A rocker without rod and slider runs against its limit, and a mechanism without inertia at its dead centres into a singularity.
+/// A rocker without rod and slider runs into its limit, and a mechanism without inertia at its dead centres has a
+/// singularity there.
 #[test]
 fn what_fails_is_a_row_that_says_so() {
     let mut rocker = engine();
@@ -230,7 +231,7 @@ fn a_tolerance_that_no_run_takes_is_refused() {
     assert!(precision(&engine(), &options).is_err());
 }
 
-/// A slider alone with friction: v falls by μ g, whatever the massless crank and rod do.
+/// Slider alone with friction: v falls by μ g, whatever the massless crank and rod do.
 fn braked(duration: f64) -> Scene {
     let mut scene = Scene::new(0.1, 0.3)
         .offset(0.02)
@@ -285,7 +286,7 @@ fn friction_is_in_the_reference() {
     }
 }
 
-/// All runs jam at one place: they are measured there, and none has failed.
+/// All runs jam at one place: their errors are measured there, and no row counts as a failure.
 #[test]
 fn where_the_motion_ends_its_methods_are_measured() {
     let scene = leaning(0.2).gravity(Gravity::standard()).start(0.3, 6.0);
@@ -299,7 +300,7 @@ fn where_the_motion_ends_its_methods_are_measured() {
     }
 }
 
-/// A journal in its bearing: errors of crank and slider against equations in other unknowns.
+/// Journal in its bearing: errors of crank and slider from equations in other unknowns.
 #[test]
 fn a_loose_joint_has_its_rows() {
     for joint in [Joint::CrankPin, Joint::WristPin] {

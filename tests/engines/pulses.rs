@@ -1,4 +1,4 @@
-//! Narrow pulses: no engine may step over one, in angle, time or speed, in whatever turn it stands.
+//! Narrow pulses over angle, time or speed, in any turn: no engine may step over one.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use slider_crank::simulate::{Options, Simulation, simulate};
 
 use crate::support::pulses::{Case, Chance, MACHINE, Of, Pulse, Shape};
 
-/// Random scenes, unless the environment says another number.
+/// Number of random scenes, unless the environment gives another number.
 const CASES: u64 = 1000;
 const MORE_CASES: &str = "SLIDER_CRANK_PULSES";
 
@@ -58,7 +58,8 @@ fn run(scene: &Scene, method: Method) -> Result<Simulation, slider_crank::error:
     simulate(scene, &options)
 }
 
-/// Whether a run ends at an angle and a speed within ten times its stated errors and the tolerance, and how far it is off.
+/// Checks that a run ends at an angle and a speed within ten times its stated errors plus the tolerance; the error says
+/// by how much it is off.
 fn agrees(simulation: &Simulation, [theta, omega]: [f64; 2]) -> Result<(), String> {
     let summary = &simulation.summary;
     let Some(stated) = summary.error_estimate else {
@@ -94,7 +95,7 @@ fn random_pulses_are_met_by_every_method() {
         for method in [Method::Auto, Method::Time, Method::Angle, Method::Dop853] {
             let simulation = match run(&scene, method) {
                 Ok(simulation) => simulation,
-                // What it cannot serve it refuses.
+                // The angle engine refuses scenes to which it does not apply.
                 Err(_) if method == Method::Angle => continue,
                 Err(error) => panic!("seed {seed}: {error}"),
             };
@@ -109,9 +110,10 @@ fn random_pulses_are_met_by_every_method() {
     assert!(compared > 2 * count, "{compared} of {count}");
 }
 
-/// A pulse over the speed that is passed inside a pulse in time, behind the edge of that one (141); pulses in time far
-/// narrower than the run (368): DOP853 of SciPy at 1e-13, in pieces between all edges. A bell over the speed whose edges are
-/// passed 185 times (266): extrapolated midpoint steps in quadruple precision. Angle and speed at the end.
+/// Seed, and angle and speed at the end. 141: a pulse over the speed that is passed inside a pulse in time, behind its
+/// edge; 368: pulses in time far narrower than the run; both by DOP853 of SciPy at 1e-13, in pieces between all edges.
+/// 266: a bell over the speed whose edges are passed 185 times; by the extrapolated midpoint rule in quadruple
+/// precision.
 const MET: [(u64, [f64; 2]); 3] = [
     (141, [41.81380208714959, 6.89027717895671]),
     (266, [53.76283331550184, 12.642529443563264]),
@@ -129,7 +131,8 @@ fn a_pulse_behind_the_edge_of_another_is_met() {
     }
 }
 
-/// Loads, start and turns or time, and where they end: DOP853 of SciPy at 1e-13, in pieces between the edges of the pulses.
+/// Loads, start, extent in turns or time, and the end: DOP853 of SciPy at 1e-13, in pieces between the edges of the
+/// pulses.
 struct Pulsed {
     torque: Option<&'static str>,
     force: Option<&'static str>,
@@ -205,7 +208,7 @@ fn a_blow_in_a_later_turn_is_met() {
             let last = &summary.last;
             let [t, omega] = pulsed.end;
             let off = (last.omega_rad_per_s - omega).abs();
-            // The reference is good to 1e-9.
+            // The reference is accurate to 1e-9.
             let allowed = 2.0 * stated.omega_rad_per_s + 1e-9;
             assert!(
                 off <= allowed,

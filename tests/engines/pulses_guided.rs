@@ -1,24 +1,24 @@
-//! Narrow pulses under friction at the guide, and where rod or crank rock: over t, theta, omega, x and v.
+//! Narrow pulses over t, theta, omega, x and v, with friction at the guide and with a rocking rod or crank.
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Friction, Load, Scene, Slider};
 use slider_crank::simulate::{Options, simulate};
 
-/// A machine of crank inertia 0.02 kg m² and slider 0.6 kg.
+/// Machine with crank inertia 0.02 kg m² and slider mass 0.6 kg.
 struct Guided {
-    /// Crank, rod, offset, m.
+    /// Crank, rod and offset, m.
     lengths: [f64; 3],
     friction: f64,
-    /// rad, rad/s
+    /// Start angle, rad, and start speed, rad/s.
     start: [f64; 2],
-    /// s
+    /// Duration, s.
     duration: f64,
     /// Constant torque, N m.
     torque: f64,
     torques: &'static [&'static str],
     force: Option<&'static str>,
-    /// Angle (rad) and speed (rad/s) at the end: crank and slider as two bodies and a rod without mass, by DOP853 of SciPy
-    /// at 3e-14 in pieces between all edges of pulses, dead centres and changes of sign of the normal force.
+    /// Angle (rad) and speed (rad/s) at the end: crank and slider as two bodies and a massless rod, by DOP853 of SciPy
+    /// at 3e-14 in pieces between all edges of pulses, dead centres and sign changes of the normal force.
     end: [f64; 2],
 }
 
@@ -145,7 +145,7 @@ fn pulses_are_met_under_friction_and_on_rockers() {
             let [theta, omega] = guided.end;
             let last = &summary.last;
             let off = [last.theta_rad - theta, last.omega_rad_per_s - omega].map(f64::abs);
-            // The reference is good to 1e-9.
+            // The reference is accurate to 1e-9.
             let allowed = [stated.theta_rad, stated.omega_rad_per_s].map(|most| 10.0 * most + 1e-9);
             let is_met = off[0] <= allowed[0] && off[1] <= allowed[1];
             assert!(is_met, "{method} {:?}: {off:?}, {stated:?}", guided.lengths);

@@ -1,4 +1,4 @@
-//! What is said of a run that stops, or of a method that is refused: the cause that applies, and no other.
+//! Reasons for stops and refusals: the applicable cause, and no other.
 
 use slider_crank::scene::{
     Crank, Expression, Friction, Interpolation, Load, Scene, Slider, Table, Variable,
@@ -29,14 +29,14 @@ fn stopped(scene: &Scene, method: Method) -> String {
     summary.stopped.expect("a reason").to_string()
 }
 
-/// The number after these words.
+/// Returns the number that follows these words.
 fn number_after(text: &str, words: &str) -> f64 {
     let (_, rest) = text.split_once(words).expect(words);
     let end = rest.find([' ', ',', ':']).unwrap_or(rest.len());
     rest[..end].parse().expect("a number")
 }
 
-/// A motor of 60 N m against a stop of 200 N/mm on the way inwards: where it stands the two balance.
+/// Motor of 60 N m against a stop of 200 N/mm on the inward stroke: at the stall the two balance.
 #[test]
 fn a_press_that_stalls_says_where_and_under_which_torques() {
     let press = machine()
@@ -78,7 +78,7 @@ fn a_press_that_stalls_says_where_and_under_which_torques() {
     }
 }
 
-/// One that swings about, and one that has far to go, have not stalled.
+/// A swinging crank, and one that has far to go, are not stalled.
 #[test]
 fn a_crank_that_swings_or_turns_has_not_stalled() {
     let spring = machine().force(Load::Spring {
@@ -142,7 +142,7 @@ fn a_crank_that_friction_holds_says_what_it_holds() {
     );
 }
 
-/// What a refusal does not say is as much a part of it.
+/// A refusal must not name unrelated loads.
 #[test]
 fn a_refusal_names_the_load_that_is_the_cause() {
     let speeds = Table::new(

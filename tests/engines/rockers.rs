@@ -1,4 +1,4 @@
-//! Mechanisms whose crank cannot turn fully, past their limits: against an integration of both angles along the
+//! Mechanisms whose crank cannot turn fully, past their limits: compared with an integration of both angles along the
 //! configuration curve, with the speed from the energy.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -9,7 +9,7 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{Branch, Crank, Geometry, Gravity, Load, Rod, Scene, Slider};
 use slider_crank::simulate::{Options, Row, simulate, simulate_rows};
 
-/// Crank inertia about O; rod mass, its place along the rod and inertia; slider mass; gravity downwards.
+/// Crank inertia about O; rod mass, centre of gravity along the rod, and inertia; slider mass; downward gravity.
 const BODIES: [f64; 6] = [0.02, 0.8, 0.03, 0.002, 0.5, 9.81];
 
 fn scene(g: &Geometry, theta: f64, omega: f64, duration: f64) -> Scene {
@@ -36,11 +36,11 @@ fn scene(g: &Geometry, theta: f64, omega: f64, duration: f64) -> Scene {
         .duration(duration)
 }
 
-/// The mechanism as two angles: that of the crank, and that of the rod below +x.
+/// Mechanism described by two angles: that of the crank, and that of the rod below +x.
 struct Plane(Geometry);
 
 impl Plane {
-    /// Rates of both angles at unit speed along the curve, and twice the kinetic energy.
+    /// Returns the rates of both angles at unit speed along the curve, and twice the kinetic energy.
     fn rates(&self, [theta, rod]: [f64; 2]) -> ([f64; 2], f64) {
         let Geometry {
             crank: r, rod: l, ..
@@ -72,7 +72,7 @@ impl Plane {
         }
     }
 
-    /// Both angles after a time, by the classical method of Runge and Kutta; the motion must not come to rest.
+    /// Integrates both angles over a time by the classical Runge-Kutta method; the motion must not come to rest.
     fn after(&self, theta: f64, omega: f64, time: f64, steps: u32) -> [f64; 2] {
         let mut now = self.start(theta);
         let ([dtheta, _], twice) = self.rates(now);
@@ -101,7 +101,7 @@ impl Plane {
     }
 }
 
-/// A crank angle about which crank pin heights are in the middle of those that the rod reaches.
+/// Returns a crank angle at the middle of the crank pin heights that the rod can reach.
 fn middle(g: &Geometry) -> f64 {
     let Geometry {
         crank: r,
@@ -169,7 +169,7 @@ fn a_rocker_swings_past_its_limits_as_both_angles_say() {
                     .filter(|event| event.kind == "limit");
                 assert_eq!(flips.count(), limits.count(), "{g:?}");
                 for w in rows.windows(2) {
-                    // x and v are those of one motion, through the limit too.
+                    // x and v belong to one motion, also through the limit.
                     let h = w[1].t - w[0].t;
                     let mean = 0.5 * (w[0].v + w[1].v) - h / 12.0 * (w[1].a - w[0].a);
                     close("x follows v", w[1].x - w[0].x, h * mean, 1.0, 3e-7);
@@ -179,8 +179,8 @@ fn a_rocker_swings_past_its_limits_as_both_angles_say() {
     }
 }
 
-/// l = r, e = 0: the smooth motion turns the rod as the crank, x = 2 r cos θ, and slider and crank make one body:
-/// with M = I + 4 m r² sin²θ the time is a quadrature.
+/// l = r, e = 0: in the smooth motion the rod turns with the crank, x = 2 r cos θ, and slider and crank act as one
+/// body: with M = I + 4 m r² sin²θ the time is a quadrature.
 #[test]
 fn a_change_point_is_crossed_with_continuous_velocities() {
     let (r, inertia, mass, omega) = (0.1, 0.01, 0.7, 15.0);
@@ -195,7 +195,7 @@ fn a_change_point_is_crossed_with_continuous_velocities() {
             .duration(duration)
     };
     let m = |theta: f64| inertia + 4.0 * mass * r * r * theta.sin().powi(2);
-    // The midpoint rule is exact to rounding over whole turns; 3.5 turns of a function of 2θ are whole.
+    // The midpoint rule is exact to rounding over whole periods; 3.5 turns are whole periods of a function of 2θ.
     let count = 4000;
     let turned = 7.0 * FRAC_PI_2 * 2.0;
     let speed = |theta: f64| omega * (m(0.3) / m(theta)).sqrt();
@@ -236,7 +236,7 @@ fn a_change_point_is_crossed_with_continuous_velocities() {
     }
 }
 
-/// With an offset the curve crosses itself once a turn: the crank turns twice before all is as before.
+/// With an offset the curve crosses itself once a turn: the crank turns twice until the motion repeats.
 #[test]
 fn the_branch_changes_at_each_passage_of_a_change_point_with_offset() {
     for (offset, rod) in [(0.05, 0.15), (-0.05, 0.15), (0.05, 0.05), (-0.05, 0.05)] {
@@ -247,7 +247,7 @@ fn the_branch_changes_at_each_passage_of_a_change_point_with_offset() {
                 offset,
                 branch,
             };
-            // A rod that is hardly longer or shorter keeps close to the crossing at other times.
+            // A slightly longer or shorter rod would pass close to the crossing at other times.
             let run = simulate(&scene(&g, middle(&g), 20.0, 0.06), &Options::default()).unwrap();
             let mut rows: Vec<Row> = Vec::new();
             simulate_rows(
@@ -270,7 +270,7 @@ fn the_branch_changes_at_each_passage_of_a_change_point_with_offset() {
                 );
             }
             assert!(run.summary.energy_residual.abs() < 1e-9);
-            // Until the crossing, both angles say the same.
+            // Until the crossing, both descriptions agree.
             let plane = Plane(g);
             let want = plane.after(middle(&g), 20.0, 0.02, 20_000);
             close("before", run.at(0.02).unwrap().0, want[0], 1.0, 1e-9);
@@ -278,7 +278,7 @@ fn the_branch_changes_at_each_passage_of_a_change_point_with_offset() {
     }
 }
 
-/// Forward, and back again with the speed reversed.
+/// Forward run, and back again with the speed reversed.
 #[test]
 fn a_motion_through_limits_can_be_run_back() {
     for [crank, rod, offset] in SHAPES {
@@ -301,15 +301,15 @@ fn a_motion_through_limits_can_be_run_back() {
         back.geometry.branch = if side { Branch::Right } else { Branch::Left };
         let run = simulate(&back, &Options::default()).unwrap();
         let last = run.summary.last;
-        // Whole turns do not matter; a start just below zero must not count as nearly one of them.
+        // Whole turns do not matter; the shift keeps a difference just below zero from counting as nearly a turn.
         let off = (last.theta_rad - theta + 1.0).rem_euclid(TAU) - 1.0;
         close("theta", off, 0.0, 1.0, 1e-7);
         close("omega", last.omega_rad_per_s, -12.0, 12.0, 1e-7);
     }
 }
 
-/// A rod longer than needed by 1e-6 and 1e-12 crank lengths: no collapse of the steps, and the stated error holds
-/// against the energy integral in the crank angle.
+/// A rod longer than needed by 1e-6 and 1e-12 crank lengths: the steps do not collapse, and the stated error holds
+/// against the energy integral over the crank angle.
 #[test]
 fn next_to_the_limit_the_steps_do_not_collapse() {
     for margin in [1e-3, 1e-6, 1e-9, 1e-12] {
@@ -345,7 +345,7 @@ fn next_to_the_limit_the_steps_do_not_collapse() {
     }
 }
 
-/// Joint forces along the curve are those of the mechanism in its crank angle, and finite at the limits.
+/// Joint forces along the curve equal those from the crank angle, and are finite at the limits.
 #[test]
 fn joint_forces_past_a_limit_are_those_of_newton_and_euler() {
     for [crank, rod, offset] in SHAPES {

@@ -1,4 +1,4 @@
-//! Which rows a run writes: its first state and its last, and no time twice.
+//! Rows of a run: first and last state, and no time twice.
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Load, Scene, Slider};
@@ -21,7 +21,7 @@ poisson_ratio = 0.3
 restitution = 0.8
 "#;
 
-/// A crank of constant inertia that turns ten times a second, by itself if there is nothing else.
+/// Machine with a crank of constant inertia and these parts.
 fn scene(rod: &str, parts: &str, motion: &str, run: &str) -> Scene {
     let text = format!(
         "[geometry]\ncrank = \"50 mm\"\nrod = \"{rod}\"\n[crank]\ninertia = \"0.02 kg m^2\"\n{parts}\n\
@@ -32,7 +32,7 @@ fn scene(rod: &str, parts: &str, motion: &str, run: &str) -> Scene {
 
 const SPEED: &str = "speed = \"600 rpm\"";
 
-/// Times of the rows and of the end; none if the method cannot serve the scene, or the run ends where there is no row.
+/// Returns the times of the rows and of the end; none if the method does not apply, or the run ends between rows.
 fn times(scene: &Scene, method: Method) -> Option<(Vec<f64>, f64)> {
     let options = Options {
         method,
@@ -62,7 +62,7 @@ fn no_time_is_written_twice() {
         "speed = \"-600 rpm\"",
         "kind = \"constant-speed\"\nspeed = \"600 rpm\"",
     ];
-    // The ends fall on rows but for their rounding.
+    // The ends fall on rows up to rounding.
     let runs = [
         "duration = 0",
         "revolutions = 0",
@@ -104,7 +104,7 @@ fn each<'a>(
     pairs.flat_map(|(part, motion)| runs.iter().map(move |run| (*part, *motion, *run)))
 }
 
-/// The last whole step of the rows and the end are one row; a shorter one before the end is not.
+/// The last whole step of the rows coincides with the end in one row; a step slightly before the end does not.
 #[test]
 fn an_end_beside_a_row_is_a_row_of_its_own() {
     for (turns, rows) in [(1.0, 11), (1.0 + 1e-6, 12), (1.0 - 1e-6, 11)] {
@@ -119,7 +119,7 @@ fn an_end_beside_a_row_is_a_row_of_its_own() {
     }
 }
 
-/// Rows at times would go on to the largest time there is.
+/// Rows over time would continue to the largest representable time.
 #[test]
 fn turns_of_a_crank_that_stays_at_rest_are_refused() {
     for rod in ["150 mm", "40 mm"] {
@@ -133,7 +133,7 @@ fn turns_of_a_crank_that_stays_at_rest_are_refused() {
     }
 }
 
-/// Every engine: loads over theta, a motor, friction that sticks, constant speed, a rocker past its limits.
+/// Every engine: loads over theta, a motor, friction with stick, constant speed, a rocker past its limits.
 #[test]
 fn a_row_asked_for_afterwards_is_the_row_that_was_written() {
     let load = |name: &str| Scene::load(format!("data/{name}.toml")).expect("a scene");
@@ -199,7 +199,7 @@ fn a_row_asked_for_afterwards_is_the_row_that_was_written() {
             "{name}: {compared} of {}",
             rows.len()
         );
-        // Where friction jumps, a row at the very time may be that of either side.
+        // Where friction jumps, a row at that exact time may be from either side.
         assert!(apart <= 2, "{name}: {apart} of {compared}");
     }
     let outside = simulate(&load("gupta"), &Options::default()).expect("a run");

@@ -1,4 +1,4 @@
-//! Nothing hangs: motions that make no way end in a clear message, and rest is found without a search for ever.
+//! No run hangs: motions that make no progress end with a clear message, and rest is found without endless search.
 
 use crate::support::machines;
 use slider_crank::plan::Method;
@@ -43,7 +43,7 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// Formulas that turn round with the speed hold it at zero by chattering.
+/// Formulas that reverse with the speed hold it at zero by chattering.
 #[test]
 fn motions_that_make_no_way_are_given_up() {
     for (scene, t) in [
@@ -61,7 +61,7 @@ fn motions_that_make_no_way_are_given_up() {
     }
 }
 
-/// A motor of 10⁴ N m s keeps its speed to what the other loads, some N m, take from it; it reaches it within some 10⁻⁷ s.
+/// A motor of 10⁴ N m s/rad holds its speed against other loads of some N m, and reaches it within some 10⁻⁷ s.
 #[test]
 fn a_steep_loss_is_followed_in_few_steps() {
     let steep = Load::Motor {
@@ -84,7 +84,7 @@ fn a_steep_loss_is_followed_in_few_steps() {
     }
 }
 
-/// The same in friction's own words is a rest.
+/// Modelled as friction, the chattering case is a rest.
 #[test]
 fn dry_friction_comes_to_rest_at_once() {
     let summary = run(&rubbing(0.2, 0.3).force(formula("-5*sign(v)")));
@@ -93,8 +93,8 @@ fn dry_friction_comes_to_rest_at_once() {
     assert!(summary.evaluations < 10_000);
 }
 
-/// At the outer dead centre no force on the slider moves the crank, however it grows, and the band of friction is
-/// zero all the time.
+/// At the outer dead centre no force on the slider moves the crank, however large it grows, and the friction band is
+/// always zero.
 #[test]
 fn rest_at_a_dead_centre_is_found_without_search() {
     let mut scene = rubbing(0.2, 0.3).start(0.0, 0.0).force(formula("50*t"));
@@ -106,7 +106,7 @@ fn rest_at_a_dead_centre_is_found_without_search() {
     assert!(summary.evaluations < 10_000, "{}", summary.evaluations);
 }
 
-/// A search for the end of a rest that runs into the work limit says so: it does not say rest for good.
+/// A search for the end of a rest that hits the work limit reports this, and not a permanent rest.
 #[test]
 fn a_rest_that_was_not_searched_to_its_end_is_not_for_good() {
     let scene = rubbing(0.2, 0.3)
@@ -132,13 +132,13 @@ fn a_rest_that_was_not_searched_to_its_end_is_not_for_good() {
     assert!(whole.events.iter().any(|event| event.kind == "slip"));
 }
 
-/// Stiff losses and long rests: what is stated for the place of rest is what is known of it.
+/// Stiff losses and long rests: the stated error of the rest position is its true uncertainty.
 #[test]
 fn a_place_of_rest_is_known_however_long_it_lasts() {
     let stiff = rubbing(0.2, 0.3).torque(Load::Viscous(1e9));
     let way = 5.0 * stiff.crank.unwrap().inertia / 1e9;
     let summary = run(&stiff);
-    // Slider and rod add to the inertia of the crank.
+    // Slider and rod increase the inertia of the crank.
     assert!((summary.last.theta_rad - 0.9).abs() < 10.0 * way);
     assert!(summary.error_estimate.unwrap().theta_rad < 1e-12);
     let short = run(&rubbing(0.2, 0.3));
@@ -149,7 +149,7 @@ fn a_place_of_rest_is_known_however_long_it_lasts() {
     assert!((short.last.theta_rad - long.last.theta_rad).abs() <= a + b);
 }
 
-/// Coefficients, starts and loads at the edges of what they may be: a run, or a reason.
+/// Coefficients, starts and loads at the limits of their ranges: a run, or a reason.
 #[test]
 fn extremes_are_computed_or_refused() {
     let pulses = || Load::function(Variables::T, |now| 20.0 * (1e3 * now.t).sin());
@@ -188,7 +188,7 @@ fn extremes_are_computed_or_refused() {
             }
             let summary = run_with(scene, &options);
             let Some(why) = summary.stopped else {
-                // Next to nothing moves: the potential rounds by more than that.
+                // Almost nothing moves: the rounding of the potential is larger.
                 let kept =
                     summary.energy_residual_j.abs() < 1e-14 || summary.energy_residual.abs() < 1e-6;
                 assert!(kept, "{number} {method}");

@@ -1,5 +1,5 @@
-//! The periodic steady state against closed solutions, against a quadrature written out here, and against long
-//! simulations in time.
+//! Periodic steady state compared with closed solutions, with an independent quadrature, and with long simulations in
+//! time.
 
 use std::f64::consts::TAU;
 
@@ -42,7 +42,7 @@ fn crank(inertia: f64) -> Scene {
     })
 }
 
-/// A pump with all masses, an offset and a load on the slider; `sense` turns the motor round.
+/// Pump with all masses, an offset and a load on the slider; `sense` reverses the motor.
 fn pump(branch: Branch, sense: f64) -> Scene {
     Scene::new(0.05, 0.15)
         .offset(-0.015)
@@ -85,7 +85,7 @@ fn turns(scene: &Scene, turns: f64, method: Method) -> Summary {
     simulate(&scene, &options).unwrap().summary
 }
 
-/// Least, largest and mean speed of I ω dω/dθ = τ0 + τ1 sin θ − c ω: the method of Runge and Kutta over the angle,
+/// Returns least, largest and mean speed of I ω dω/dθ = τ0 + τ1 sin θ − c ω, by the Runge-Kutta method over the angle,
 /// turn after turn.
 fn reference(inertia: f64, tau: [f64; 2], c: f64) -> [f64; 4] {
     const STEPS: u32 = 20_000;
@@ -102,7 +102,7 @@ fn reference(inertia: f64, tau: [f64; 2], c: f64) -> [f64; 4] {
             let k2 = slope(theta + 0.5 * h, w + 0.5 * h * k1);
             let k3 = slope(theta + 0.5 * h, w + 0.5 * h * k2);
             let k4 = slope(theta + h, w + h * k3);
-            // The trapezoidal rule over a period has no error that counts.
+            // The error of the trapezoidal rule over a period is negligible.
             time += h / w;
             w += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
             (low, high) = (low.min(w), high.max(w));
@@ -143,7 +143,7 @@ fn a_torque_that_varies_over_the_angle() {
     for (inertia, tau, c) in [
         (0.02, [3.0, 8.0], 0.1),
         (0.5, [3.0, -20.0], 0.05),
-        // So much loss that a turn forgets its start.
+        // The loss is so large that a turn forgets its start.
         (1e-4, [3.0, 2.0], 0.2),
     ] {
         let [low, high, mean, at_zero] = reference(inertia, tau, c);
@@ -163,10 +163,10 @@ fn a_torque_that_varies_over_the_angle() {
             };
             near(found.omega_rad_per_s.value, at_zero, 1e-10);
             near(found.omega_mean_rad_per_s.value, mean, 1e-10);
-            // The reference has the extremes of its points, 3e-4 rad apart.
+            // The extremes of the reference are at its points, 3e-4 rad apart.
             near(found.slowest.omega_rad_per_s.value, low, 1e-6);
             near(found.fastest.omega_rad_per_s.value, high, 1e-6);
-            // There the torque is in balance.
+            // At an extreme of the speed the torques balance.
             for extreme in [found.slowest, found.fastest] {
                 let theta = extreme.theta_rad.unwrap();
                 let omega = extreme.omega_rad_per_s.value;
@@ -177,7 +177,7 @@ fn a_torque_that_varies_over_the_angle() {
     }
 }
 
-/// SciPy's DOP853 at rtol 3e-14 over the angle, on energies written from the loop closure, and Brent's root.
+/// Reference: DOP853 of SciPy at rtol 3e-14 over the angle, with energies from the loop closure, and Brent's root.
 #[test]
 fn the_motor_driven_pump_agrees_with_scipy() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/motor-and-losses.toml");
@@ -218,7 +218,8 @@ fn a_long_simulation_in_time_comes_to_the_same_motion() {
     }
 }
 
-/// A small deviation dies out with the damping over the inertia: its rate is ∂θ̈/∂ω less that of the inertia's change.
+/// The multiplier of a small deviation follows from damping over inertia: its rate is ∂θ̈/∂ω minus that of the changing
+/// inertia.
 #[test]
 fn a_deviation_is_left_as_the_damping_says() {
     let (c, d) = (0.02, 12.0);
@@ -252,7 +253,7 @@ fn a_deviation_is_left_as_the_damping_says() {
 
 #[test]
 fn stated_errors_hold_where_a_deviation_dies_slowly() {
-    // The speed is known from the balance of the losses alone: 1e-6 of a deviation is lost in a turn.
+    // The speed follows from the balance of the losses alone: a turn removes 1e-6 of a deviation.
     let (inertia, tau, c) = (2.0, 1e-4, 1e-5);
     let scene = crank(inertia)
         .torque(Load::Constant(tau))
@@ -289,7 +290,7 @@ fn of_several_steady_states_it_is_the_one_that_the_start_approaches() {
 
 #[test]
 fn a_start_that_stops_is_said() {
-    // The weight of the crank is too much for the start, but not for the steady state.
+    // The crank cannot lift its weight from the start, but can in the steady state.
     let scene = Scene::new(0.05, 0.15)
         .crank(Crank {
             mass: 3.0,
@@ -375,7 +376,7 @@ fn the_flywheel_gives_the_wanted_fluctuation() {
                 with.crank.as_mut().unwrap().inertia += added.value;
                 let anew = steady(&with);
                 assert!((anew.fluctuation.value / wanted - 1.0).abs() < 1e-9);
-                // By integration in time over a turn.
+                // Reference: integration in time over a turn.
                 let turn = turns(&anew.start(&with), 1.0, Method::Dop853);
                 let mean = TAU / turn.last.t_s;
                 let simulated = (turn.omega_max - turn.omega_min) / mean;
@@ -385,7 +386,7 @@ fn the_flywheel_gives_the_wanted_fluctuation() {
     }
 }
 
-/// δ = ΔE/(I ω²) for a heavy flywheel, ΔE = 2 τ1 of a torque τ1 sin θ (Norton, Design of Machinery, ch. 11).
+/// δ = ΔE/(I ω²) for a heavy flywheel, with ΔE = 2 τ1 for a torque τ1 sin θ (Norton, Design of Machinery, ch. 11).
 #[test]
 fn a_heavy_flywheel_follows_the_rule_of_its_energy() {
     let (tau, tau_1, c) = (3.0, 5.0, 0.1);

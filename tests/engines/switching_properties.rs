@@ -1,4 +1,4 @@
-//! Symmetries, balances and reversal of random motions of cranks under loads that switch.
+//! Symmetries, balances and reversal of random motions under switching loads.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -12,20 +12,21 @@ use proptest::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Interpolation, Variable};
 
-/// The plan chooses the engine.
+/// Kind with the engine chosen by the plan.
 const CHOSEN: Kind = Kind {
     method: Method::Auto,
     limits: false,
     slack: 0.0,
 };
-/// Jumps of formulas are not announced, and the stepper finds them by its steps; two runs may find one alike by chance.
+/// Kind with formulas whose jumps are found only by step control; two runs may locate a jump alike by chance.
 const STEPPED: Kind = Kind {
     method: Method::Time,
     limits: false,
     slack: 1.0,
 };
 
-/// What acts on a crank that turns round: tables over time and angle with corners and steep flanks, formulas that jump.
+/// Switching load on a rotating crank: tables over time and angle with corners and steep flanks, or formulas with
+/// jumps.
 #[derive(Clone, Copy, Debug)]
 struct Switch {
     kind: usize,
@@ -52,14 +53,14 @@ fn switch(kinds: Range<usize>) -> impl Strategy<Value = Switch> {
         })
 }
 
-/// Of the kinds of switches.
+/// Kinds of switches that are tables, and below those that are formulas.
 const TABLES: Range<usize> = 0..5;
 const FORMULAS: Range<usize> = 5..8;
 const OVER_ANGLE: Range<usize> = 5..6;
 const IN_TIME: Range<usize> = 6..8;
 
 impl Switch {
-    /// As a load of this size, in a run of this duration.
+    /// Returns the switch as a load of this size, in a run of this duration.
     fn act(&self, unit: f64, duration: f64, omega: f64) -> Act {
         let (low, high) = (self.low * unit, self.high * unit);
         let over = |of, whole: f64, flank: f64, period| {

@@ -1,5 +1,5 @@
-//! The stepper in time: its order by theory and by trial, the motion inside a step, events, and what it does
-//! where there is no motion.
+//! Stepper in time: its order in theory and by trial, the motion inside a step, events, and its behaviour where there
+//! is no motion.
 
 use std::f64::consts::{PI, TAU};
 
@@ -19,7 +19,7 @@ use slider_crank::scene::{
 };
 use slider_crank::simulate::{Options, Simulation, simulate};
 
-/// A rooted tree: its branches.
+/// Rooted tree, given by its branches.
 #[derive(Clone, Debug, PartialEq)]
 struct Tree(Vec<Tree>);
 
@@ -28,7 +28,7 @@ impl Tree {
         1 + self.0.iter().map(Tree::order).sum::<usize>()
     }
 
-    /// γ(t): the order times the γ of the branches.
+    /// Returns γ(t): the order times the γ of the branches.
     fn density(&self) -> f64 {
         self.order() as f64 * self.0.iter().map(Tree::density).product::<f64>()
     }
@@ -46,7 +46,7 @@ impl Tree {
     }
 }
 
-/// All rooted trees of an order: the branches are trees in falling rank.
+/// Returns all rooted trees of an order; the branches are ordered by falling rank.
 fn trees(order: usize) -> Vec<Tree> {
     fn forests(nodes: usize, largest: (usize, usize), all: &[Vec<Tree>]) -> Vec<Vec<Tree>> {
         if nodes == 0 {
@@ -103,7 +103,7 @@ fn the_order_conditions_hold() {
             );
         }
     }
-    // Beyond: the quadrature of order 2n, and the collocation conditions of order n that give order 2n.
+    // Beyond these trees: the quadrature of order 2n, and the collocation conditions of order n, which give order 2n.
     let c = &tableau.nodes;
     for q in 1..=2 * NODES {
         let power = |s: f64| s.powi(q as i32 - 1);
@@ -133,7 +133,7 @@ fn the_order_conditions_hold() {
     }
 }
 
-/// θ̈ as a function of time, angle and speed, with corners.
+/// θ̈ given as a function of time, angle and speed, with corners.
 struct Made<F: Fn(f64, f64, f64) -> f64> {
     acceleration: F,
     corners: Vec<f64>,
@@ -185,7 +185,7 @@ fn settings(tolerance: f64, t_end: f64) -> Settings<'static> {
     }
 }
 
-/// The steps of a run, how it ended, and its evaluations.
+/// Integrates; returns the steps, the kind of end, and the number of evaluations.
 fn steps(
     motion: &dyn Motion,
     start: (f64, f64, f64),
@@ -236,7 +236,7 @@ fn a_nonlinear_motion_under_a_load_in_time_reaches_its_order() {
             (omega - omega_true).abs() < 20.0 * tolerance + 5e-14,
             "{tolerance:e}: {omega}"
         );
-        // Inside the steps too.
+        // The solution inside the steps is tested too.
         for step in &steps {
             for i in 0..=10 {
                 let t = step.start.t + step.length() * f64::from(i) / 10.0;
@@ -258,7 +258,7 @@ fn a_nonlinear_motion_under_a_load_in_time_reaches_its_order() {
         }
         evaluations.push(count as f64);
     }
-    // The polynomial has the degree NODES + 1: eight more digits take 10^(8/NODES) times the steps.
+    // The degree of the polynomial is NODES + 1: eight more digits take 10^(8/NODES) times the steps.
     let growth = evaluations[4] / evaluations[0];
     assert!(
         growth < 1.5 * 1e8f64.powf(1.0 / NODES as f64),
@@ -268,7 +268,7 @@ fn a_nonlinear_motion_under_a_load_in_time_reaches_its_order() {
 
 #[test]
 fn the_ends_of_steps_of_fixed_length_converge_faster_than_any_order_tested() {
-    // One step of length h, tolerance out of the way: halving h gains 2^(2n + 1) until rounding.
+    // One step of length h, with the tolerance ineffective: halving h gains 2^(2n + 1) until rounding.
     let exact = |t: f64| t.sin().exp();
     let error = |h: f64| {
         let motion = Made {
@@ -291,19 +291,19 @@ fn a_load_in_time_alone_is_integrated() {
     assert!((theta - (1.0 - 30f64.cos())).abs() < 1e-12, "{theta}");
     assert!((omega - 30f64.sin()).abs() < 1e-12, "{omega}");
     assert!(evaluations < 1000, "{evaluations}");
-    // The work of cos t at speed sin t.
+    // Work of cos t at speed sin t.
     let work = steps.last().unwrap().end.work;
     assert!((work - 0.5 * 30f64.sin().powi(2)).abs() < 1e-10, "{work}");
 }
 
 #[test]
 fn many_turns_at_rounding_lose_little() {
-    // A pendulum of small swing around a fast turn has no closed form; a harmonic one has.
+    // A harmonic oscillator, unlike a pendulum with small swing around fast rotation, has a closed form.
     let motion = made(|_, theta, _| -theta);
     let (steps, _, _) = steps(&motion, (0.0, 1.0, 0.0), &settings(1e-14, 1000.0 * TAU));
     let (theta, omega) = end(&steps);
     let t: f64 = steps.last().unwrap().end.t;
-    // Coefficients rounded to half a unit act like a clock that is wrong by as much.
+    // Coefficients rounded to half a unit act like a clock that is off by this amount.
     assert!(
         (theta - t.cos()).abs() < f64::EPSILON * t,
         "{:e}",
@@ -327,7 +327,7 @@ fn turns_are_taken_off_the_angle_without_a_trace() {
     let angle = last.angle(last.end.theta);
     assert!(angle.rest.abs() <= 2.0 * TAU, "{angle:?}");
     assert!(steps.iter().all(|step| step.start.theta.abs() <= TAU));
-    // −TAU as a number is not a whole turn.
+    // −TAU as a float is not a whole turn.
     let missing = 5000.0 * 2.4492935982947064e-16;
     let apart = Angle {
         turns: angle.turns + 5000.0,
@@ -339,7 +339,7 @@ fn turns_are_taken_off_the_angle_without_a_trace() {
     assert!(apart.abs() < 2e-15, "{apart:e}");
 }
 
-/// Thrown up: θ = v t − ½ g t².
+/// Vertical throw: θ = v t − ½ g t².
 fn thrown() -> Made<impl Fn(f64, f64, f64) -> f64> {
     made(|_, _, _| -9.81)
 }
@@ -402,7 +402,7 @@ fn a_start_on_an_event_does_not_meet_it_and_a_restart_on_it_does_not_repeat_it()
     assert!(!crossings_of(&again).is_empty());
 }
 
-/// From rest, under an acceleration that begins with nothing.
+/// Start from rest, under an acceleration that begins at zero.
 #[test]
 fn a_start_from_rest_is_no_turning_point() {
     for rate in [0.3, 3.0, 38.4] {
@@ -450,7 +450,7 @@ fn a_jump_that_nobody_told_of_is_passed_by_small_steps() {
     }
 }
 
-/// The nodes of the last step lie before a bend that is near enough to its end.
+/// The nodes of the last step lie before a bend close to its end.
 #[test]
 fn a_bend_just_before_the_end_is_seen() {
     for tolerance in [1e-6, 1e-9, 1e-12] {
@@ -459,8 +459,8 @@ fn a_bend_just_before_the_end_is_seen() {
             let motion = made(|t, _, _| 1e3 * (t - bend).max(0.0));
             let (steps, _, _) = steps(&motion, (0.0, 0.0, 0.0), &settings(tolerance, 1.0));
             let error = (end(&steps).1 - 500.0 * before * before).abs();
-            // Inside a step a bend is worth some tens of tolerances: the series of a bend decays slowly. Not seen, it
-            // is worth 500 times the square of its distance from the end.
+            // A bend inside a step costs some tens of tolerances, because its series decays slowly. If unseen, it costs
+            // 500 times the square of its distance from the end.
             assert!(
                 error < 100.0 * tolerance,
                 "{tolerance:e} {before:e}: {error:e}"
@@ -486,7 +486,7 @@ fn a_run_ends_where_the_acceleration_does() {
     assert!(none.is_empty());
     assert_eq!(finish, Finish::NoStart);
 
-    // θ = −ln(1 − t) goes to infinity at t = 1.
+    // θ = −ln(1 − t) tends to infinity at t = 1.
     let motion = made(|_, _, omega| omega * omega);
     let (steps_to, finish, _) = steps(&motion, (0.0, 0.0, 1.0), &settings(1e-9, 2.0));
     assert_ne!(finish, Finish::AtEnd);
@@ -514,7 +514,7 @@ fn work_has_a_limit_and_time_does_not_run_backwards() {
     }
 }
 
-/// ω − cos t decays with λ: after the first moment steps follow cos t, however large λ is (Prothero and Robinson's problem).
+/// ω − cos t decays with rate λ: after the transient the steps follow cos t for any λ (Prothero-Robinson problem).
 #[test]
 fn a_stiff_loss_takes_few_steps() {
     for rate in [2e3, 2e5, 2e7] {
@@ -525,7 +525,7 @@ fn a_stiff_loss_takes_few_steps() {
         assert!((omega - 10f64.cos()).abs() < 1e-8, "{rate}: {omega}");
         let exact = 10f64.sin() + 4.0 / rate;
         assert!((theta - exact).abs() < 1e-8, "{rate}: {theta}");
-        // An explicit method takes about 10 λ/3 of them.
+        // An explicit method would take about 10 λ/3 evaluations.
         assert!(evaluations < 100_000, "{rate}: {evaluations}");
     }
 }
@@ -548,7 +548,7 @@ fn simulated(scene: &Scene, method: Method, tolerance: f64) -> Simulation {
 fn formulas_functions_and_tables_over_time_give_the_same_motion() {
     let formula = Load::Expression(Expression::parse("-200 + 300*sin(50*t)").unwrap());
     let function = Load::function(Variables::T, |now| -200.0 + 300.0 * (50.0 * now.t).sin());
-    // Read with theta too, it is no load of time alone.
+    // A load that also reads theta is not a load in time alone.
     let mixed = Load::function(Variables::T.or(Variables::THETA), |now| {
         -200.0 + 300.0 * (50.0 * now.t).sin()
     });
@@ -633,7 +633,7 @@ proptest! {
     }
 }
 
-/// Accelerations of many instants at once are those of each instant.
+/// Accelerations of a batch of instants equal those of each instant.
 #[test]
 fn a_batch_is_what_its_instants_are() {
     use slider_crank::mechanism::{Equation, Instants};
@@ -643,7 +643,7 @@ fn a_batch_is_what_its_instants_are() {
             stiffness: 900.0,
             rest: 0.12,
         }),
-        // Hardly a full turn: near the limit the position needs its other formula.
+        // Barely a full turn: near the limit the position needs its other formula.
         Scene::new(0.05, 0.0700001)
             .offset(0.02)
             .branch(Branch::Left)
@@ -697,7 +697,7 @@ fn a_batch_is_what_its_instants_are() {
                     let near = |d: f64| equation.acceleration(t[i], angle.plus(d), omega[i]);
                     (near(1e-7) - near(-1e-7)).abs() / 2e-7
                 };
-                // Sine and cosine differ in the last place, which is a change of the angle.
+                // Sine and cosine differ in the last place, which amounts to a change of the angle.
                 let allowed = 1e-13 * a.abs() + 1e-15 * slope + 1e-12;
                 assert!(
                     (alpha[i] - a).abs() <= allowed,
@@ -715,7 +715,7 @@ fn a_batch_is_what_its_instants_are() {
     }
 }
 
-/// A run of one step is far better than a loose tolerance: a second one that takes the same step says nothing.
+/// A run of one step is far better than a loose tolerance; a second run with the same step would tell nothing.
 #[test]
 fn a_short_run_at_a_loose_tolerance_is_stated_as_exact_as_it_is() {
     for (i, duration) in [1e-3, 3e-3, 0.01, 0.03, 0.1].into_iter().enumerate() {
@@ -759,7 +759,7 @@ fn a_short_run_at_a_loose_tolerance_is_stated_as_exact_as_it_is() {
     }
 }
 
-/// Rows of a table at 0 and 180 degrees end steps where the dead centres are.
+/// Steps end at the rows of a table at 0 and 180 degrees, which are the dead centres.
 #[test]
 fn dead_centres_at_the_rows_of_a_table_are_passed_once_in_each_turn() {
     let angles: Vec<f64> = (0..=12).map(|i| f64::from(i) * TAU / 12.0).collect();
@@ -793,7 +793,7 @@ fn dead_centres_at_the_rows_of_a_table_are_passed_once_in_each_turn() {
     }
 }
 
-/// θ̈ = cos 30t at t = 3·10⁵ s is off by 30 t ε = 2·10⁻⁹ for the rounding of t, which no shorter step mends.
+/// For θ̈ = cos 30t at t = 3·10⁵ s the rounding of t causes an error of 30 t ε = 2·10⁻⁹, which no shorter step reduces.
 #[test]
 fn the_rounding_of_late_times_shortens_no_step() {
     let motion = made(|t, _, _| (30.0 * t).cos());

@@ -1,5 +1,5 @@
-//! Error estimates where a motion is unstable: at and near the top of the potential, on the way over it, and driven
-//! to and fro across it. There what rounding does grows with the motion, by many orders of magnitude.
+//! Error estimates of unstable motions: at and near the top of the potential, on the way over it, and driven to and fro
+//! across it. There rounding errors grow with the motion, by many orders of magnitude.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,17 +15,17 @@ use slider_crank::simulate::{Options, simulate};
 
 const SCENES: usize = 30;
 
-/// What makes the balance.
+/// Cause of the unstable equilibrium.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Weight,
     Push,
     Spring,
-    /// A spring that pushes away from its rest.
+    /// Spring that pushes away from its rest.
     Repelling,
 }
 
-/// What there is beside it.
+/// Additional load.
 #[derive(Clone, Copy, Debug)]
 enum Beside {
     Nothing,
@@ -34,12 +34,12 @@ enum Beside {
     OfTime,
 }
 
-/// Where the motion starts.
+/// Start of the motion.
 #[derive(Clone, Copy, Debug)]
 enum Begin {
-    /// In balance, as near as a float can be.
+    /// In equilibrium, as closely as a float can be.
     Balance,
-    /// Beside it, or passing it slowly.
+    /// Beside the equilibrium, or passing it slowly.
     Near,
     /// Far below, with nearly the energy of the top.
     Below,
@@ -51,7 +51,7 @@ fn formula(text: String) -> Load {
     Load::Expression(Expression::parse(&text).unwrap())
 }
 
-/// An angle of balance from which the crank is driven away on both sides, and the rate (1/s) at which it goes.
+/// Returns an angle of unstable equilibrium, and the rate (1/s) at which the motion leaves it.
 fn top(scene: &Scene, which: f64) -> Option<(f64, f64)> {
     const PLACES: usize = 400;
     let equation = Equation::new(scene);
@@ -74,7 +74,7 @@ fn top(scene: &Scene, which: f64) -> Option<(f64, f64)> {
     (slope.is_finite() && slope > 1e-3).then(|| (high, slope.sqrt()))
 }
 
-/// Potential energy, J; the repelling spring's is not known to the equation.
+/// Returns the potential energy, J; the equation does not know that of the repelling spring.
 fn potential(scene: &Scene, theta: f64, repelling: Option<(f64, f64)>) -> f64 {
     let equation = Equation::new(scene);
     let x = equation.linkage().pose(theta).x;
@@ -220,7 +220,7 @@ fn cases(seed: u64, count: usize) -> Vec<(Scene, [f64; 2])> {
 fn stated_errors_are_near_the_true_ones() {
     let all = estimates(&cases(7, SCENES));
     let sharp: Vec<&Judged> = all.iter().filter(|one| one.is_sharp()).collect();
-    // Chaotic motion under loads in floats is not known well enough.
+    // The reference is not accurate enough for chaotic motion under loads in floats.
     assert!(5 * sharp.len() >= 4 * all.len());
     for method in ["energy", "angle", "time", "dop853", "dopri5"] {
         let count = sharp.iter().filter(|one| one.method == method).count();
@@ -232,8 +232,8 @@ fn stated_errors_are_near_the_true_ones() {
     }
 }
 
-/// At rest at the inner dead centre under a force that pushes it away: what 180 degrees lack as a float, and every
-/// rounding after it, grows as cosh.
+/// Rest at the inner dead centre under a force that pushes away from it: the rounding of 180 degrees to a float, and
+/// every later rounding, grows as cosh.
 #[test]
 fn what_grows_in_a_balance_is_stated() {
     let [r, l, inertia, force, duration] = [0.1, 0.3, 0.02, 100.0, 1.0f64];

@@ -1,4 +1,4 @@
-//! Runs that cannot reach their end are given up, and no others.
+//! Work forecast: runs that cannot reach their end are given up, and no others.
 
 use slider_crank::engine::WorkLimit;
 use slider_crank::engine::time::{Ends, FAR};
@@ -6,8 +6,8 @@ use slider_crank::engine::work_forecast::WorkForecast;
 
 const LIMIT: u64 = 100_000_000;
 
-/// Feeds a run that takes 100 evaluations a turn and has turned by `way(t)` (rad); whether it is given up before
-/// its end or the limit.
+/// Feeds the forecast with a run that takes 100 evaluations a turn and has turned by `way(t)` (rad); returns whether it
+/// is given up before its end or the limit.
 fn given_up(ends: Ends<'_>, in_time: bool, way: impl Fn(f64) -> f64) -> bool {
     let mut pace = WorkForecast::new(0.0, 0, ends, in_time);
     let (mut t, mut before, mut evaluations) = (0.0, 0.0, 0);
@@ -44,7 +44,8 @@ fn a_speed_that_lasts_is_given_up_if_it_takes_too_long() {
     assert!(!given_up(ends(FAR, 4e6), false, steady));
 }
 
-/// Friction may bring it to rest, a load in time may do anything, and one that swings has its turns before it.
+/// Runs that must not be given up: friction may stop the crank, a load in time may do anything, and a swinging crank
+/// makes few turns.
 #[test]
 fn a_speed_that_may_not_last_is_not() {
     let slowing = |t: f64| 4e6 * (1.0 - (-t).exp());

@@ -1,4 +1,4 @@
-//! The work limit holds whichever engine computes, keeps what was computed, and is foreseen where it can be.
+//! Work limit: it holds for every engine, keeps the computed results, and is foreseen where possible.
 
 use crate::support::machines;
 use slider_crank::plan::Method;
@@ -11,7 +11,7 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// A small crank alone, of constant inertia, and one that moves a slider.
+/// Small crank of constant inertia alone.
 fn crank() -> Scene {
     Scene::new(0.005, 0.015).crank(Crank {
         inertia: INERTIA,
@@ -37,7 +37,7 @@ fn run(scene: &Scene, method: Method) -> Summary {
         .summary
 }
 
-/// Turns that are all alike, that gain the same work, that differ, and a swing; by time and by turns.
+/// Equal turns, turns of equal work, unequal turns, and a swing; by time and by turns.
 #[test]
 fn every_engine_ends_at_the_limit_with_what_it_has() {
     let weighted = |scene: Scene| scene.gravity(Gravity::standard());
@@ -56,7 +56,7 @@ fn every_engine_ends_at_the_limit_with_what_it_has() {
                 for limit in [1, 100, 700, 3000] {
                     let limited = match simulate(&scene, &options(method, limit)) {
                         Ok(limited) => limited,
-                        // The third one starts in a balance.
+                        // The third scene starts in equilibrium.
                         Err(error) => {
                             assert!(error.to_string().contains("a crank at rest"), "{error}");
                             continue;
@@ -80,7 +80,7 @@ fn every_engine_ends_at_the_limit_with_what_it_has() {
                         continue;
                     }
                     assert!(why.to_string().contains("--max-evaluations"), "{why}");
-                    // The tables of a turn beyond it at most.
+                    // At most the tables of one turn exceed the limit.
                     assert!(
                         *evaluations < limit + 1500,
                         "{number} {method} {limit}: {evaluations}"
@@ -102,8 +102,8 @@ fn every_engine_ends_at_the_limit_with_what_it_has() {
     }
 }
 
-/// Positions that are tabulated anew where panels are cut count as well: past the first tables, a panel beyond the limit at most,
-/// of 40 sweeps at 33 points.
+/// Positions tabulated anew for divided panels count as well: after the first tables, the limit is exceeded by at most
+/// one panel, of 40 sweeps at 33 points.
 #[test]
 fn panels_that_are_cut_count_too() {
     let scene = machine()
@@ -118,7 +118,7 @@ fn panels_that_are_cut_count_too() {
     }
 }
 
-/// A speed that the torque makes up in a way shorter than angles are rounded: t = (ω − ω₀) I/τ, ω² = ω₀² + 2 τ θ/I.
+/// The torque gains the start speed within an angle below the rounding of angles: t = (ω − ω₀) I/τ, ω² = ω₀² + 2 τ θ/I.
 #[test]
 fn a_crank_under_far_too_strong_a_torque_is_computed_over_its_turns() {
     for (torque, speed, turns) in [(1e10, 10.0, 3e4), (1e10, -10.0, 3e4), (5.0, 1e-6, 1e5)] {
@@ -138,7 +138,7 @@ fn a_crank_under_far_too_strong_a_torque_is_computed_over_its_turns() {
     }
 }
 
-/// What is left after a second would take years: it is said soon.
+/// After a second the rest of the run would take years: the run ends early with that reason.
 #[test]
 fn too_many_turns_are_foreseen() {
     let strong = || {
@@ -169,7 +169,7 @@ fn too_many_turns_are_foreseen() {
     }
 }
 
-/// Run-up to a speed that lasts: all turns from there on are the same, however many.
+/// Run-up to a constant speed: from there on all turns are equal, whatever their number.
 #[test]
 fn a_steady_speed_is_reached_whatever_follows() {
     let scene = machine()
@@ -182,8 +182,8 @@ fn a_steady_speed_is_reached_whatever_follows() {
     assert!(summary.revolutions > 1e13, "{}", summary.revolutions);
 }
 
-/// The residual is relative to the energies of the run, not to those of turns that follow: at the end of this one the
-/// crank has the work of the torque.
+/// The residual is relative to the energies of the run, not of later turns: at the end of this run the crank has the
+/// work of the torque.
 #[test]
 fn the_residual_is_relative_to_the_run() {
     let scene = machine()
@@ -202,7 +202,7 @@ fn the_residual_is_relative_to_the_run() {
     );
 }
 
-/// A ripple that the tolerance does not see is all that the second run of the estimate would have to follow.
+/// The second run of the estimate would have to resolve a ripple that the tolerance of the first ignores.
 #[test]
 fn the_second_run_takes_a_share_of_work_only() {
     let scene = machine()
@@ -224,7 +224,7 @@ fn the_second_run_takes_a_share_of_work_only() {
         .iter()
         .any(|warning| warning.to_string().contains("could not be estimated"));
     assert!(said, "{:?}", summary.warnings);
-    // Without a limit of its own it runs for many times as long. A busy machine makes both runs slower.
+    // Without its own limit the second run would take many times as long. A busy machine slows down both runs.
     let most = f64::max(3.0, 100.0 * summary.wall_s);
     assert!(took < most, "{took} s, {} s", summary.wall_s);
 }

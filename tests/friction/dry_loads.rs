@@ -1,4 +1,5 @@
-//! Loads that oppose motion, against closed forms, an integration in pieces by other means, and the balance of energy.
+//! Loads that oppose motion, compared with closed forms, with an independent piecewise integration, and with the energy
+//! balance.
 
 use std::f64::consts::TAU;
 
@@ -35,7 +36,7 @@ fn times(summary: &Summary, kind: &str) -> Vec<f64> {
     events.map(|event| event.t_s).collect()
 }
 
-/// Whether the end is as far from a reference as is stated, beside what is known of the reference.
+/// Checks that the end is within the stated error of a reference, plus the uncertainty `known` of the reference.
 fn ends_at(summary: &Summary, theta: f64, omega: f64, known: f64) {
     let stated = summary.error_estimate.expect("an estimate");
     let off = [
@@ -49,7 +50,7 @@ fn ends_at(summary: &Summary, theta: f64, omega: f64, known: f64) {
     );
 }
 
-/// ω falls linearly: at rest after J ω/T, having turned by J ω²/(2 T), in either direction.
+/// ω falls linearly: rest after J ω/T, with a rotation of J ω²/(2 T), in either direction.
 #[test]
 fn a_wheel_comes_to_rest_when_the_brake_has_taken_its_speed() {
     for (inertia, torque, speed) in [(0.02, 0.5, 100.0_f64), (0.3, 7.0, -40.0), (1e-5, 1e-6, 3.0)] {
@@ -75,7 +76,7 @@ fn a_wheel_comes_to_rest_when_the_brake_has_taken_its_speed() {
     }
 }
 
-/// Under 2 sin 3t the band of 1 N m holds until sin 3t = 1/2, and the motion that follows is elementary.
+/// Under 2 sin 3t the band of 1 N m holds until sin 3t = 1/2; the motion after that is elementary.
 #[test]
 fn a_torque_in_time_tears_it_loose_at_the_edge_of_the_band() {
     let inertia = 0.02;
@@ -96,7 +97,7 @@ fn a_torque_in_time_tears_it_loose_at_the_edge_of_the_band() {
     ends_at(&run.summary, theta, omega, 1e-14);
 }
 
-/// A blow of 20 us at the crank, or at the slider that the guide holds, in two seconds of rest.
+/// Blow of 20 us in two seconds of rest, at the crank or at a slider held by the guide.
 #[test]
 fn a_blow_while_it_is_held_is_not_missed() {
     let (at, width) = (0.7321, 2e-5);
@@ -111,7 +112,7 @@ fn a_blow_while_it_is_held_is_not_missed() {
         })
         .force(blow(3.0))
         .start(1.0, 0.0);
-    // Without a torque the rod carries nothing, and the guide holds 0.2 times 5 N.
+    // Without a torque the rod transmits nothing, and the guide holds 0.2 times 5 N.
     rubbing.friction = Some(Friction {
         coefficient: 0.2,
         static_coefficient: 0.2,
@@ -127,7 +128,8 @@ fn a_blow_while_it_is_held_is_not_missed() {
     }
 }
 
-/// Integrated by scipy's DOP853 at its tightest from reversal to dead centre to rest, with the equation written anew.
+/// Reference: DOP853 of SciPy at its tightest tolerance, from reversal to dead centre to rest, for an independent
+/// equation.
 #[test]
 fn a_crank_and_a_slider_that_rub_turn_back_at_different_places() {
     let scene = Scene::new(0.05, 0.15)
@@ -170,7 +172,7 @@ fn a_crank_and_a_slider_that_rub_turn_back_at_different_places() {
     }
     ends_at(&summary, -23.216639572346278, -10.25002258320934, 2e-12);
     let (rows, _) = rows(&scene);
-    // At rest nothing moves, and the forces hold each other.
+    // At rest nothing moves, and the forces balance.
     let still = rows.iter().filter(|row| row.omega == 0.0).count();
     assert!(still > 30, "{still}");
 }
@@ -185,7 +187,7 @@ fn rows(scene: &Scene) -> (Vec<Row>, Summary) {
     (rows, run.summary)
 }
 
-/// A brake on the crank holds a force on the slider through the rod, one on the slider holds it there.
+/// A brake on the crank holds a force on the slider through the rod; a brake on the slider holds it directly.
 #[test]
 fn what_holds_decides_where_the_force_goes() {
     let held = |brake: fn(Scene) -> Scene| {
@@ -209,14 +211,14 @@ fn what_holds_decides_where_the_force_goes() {
     assert!(by_slider < 1e-12, "{by_slider}");
 }
 
-/// Brakes on both and the guide: what they hold adds up.
+/// The holding forces of brakes on crank and slider and of the guide add up.
 #[test]
 fn the_bands_add_up() {
     let (theta, weight) = (1.1_f64, 0.5 * 9.81);
     let phi = (0.05 * theta.sin() / 0.15).asin();
     let dx = -0.05 * theta.sin() - 0.05 * theta.cos() * phi.tan();
     let torque: f64 = 0.7;
-    // The rod hands the torque to the slider, and presses it on the guide.
+    // The rod transmits the torque to the slider, and presses it on the guide.
     let along = torque / dx.abs();
     let most = |mu: f64, aside: f64| along + 4.0 + mu * (weight + aside).abs();
     for (mu, push) in [(0.0, 1.0), (0.0, -1.0), (0.2, 1.0), (0.2, -1.0)] {
@@ -249,7 +251,7 @@ fn the_bands_add_up() {
     }
 }
 
-/// A drive at constant speed works against both, whichever way it turns.
+/// A drive at constant speed works against both brakes, in either sense of rotation.
 #[test]
 fn a_driven_crank_works_against_them() {
     for speed in [3.0, -3.0] {
@@ -260,7 +262,7 @@ fn a_driven_crank_works_against_them() {
             .duration(TAU / 3.0);
         let summary = run(&scene).summary;
         let range = summary.driving_torque.expect("a driving torque");
-        // Once to and fro over the stroke of 0.1 m in a turn.
+        // In a turn the slider moves to and fro over the stroke of 0.1 m.
         let mean = speed.signum() * (0.5 + 20.0 * 2.0 * 0.1 / TAU);
         assert!((range.mean_nm - mean).abs() < 1e-9, "{range:?} for {mean}");
         let least = if speed > 0.0 {
@@ -272,8 +274,8 @@ fn a_driven_crank_works_against_them() {
     }
 }
 
-/// A motor line of 5 N m at rest and none at 100 rad/s against a brake of 2 N m: 60 rad/s, and of a small deviation
-/// exp(-c T/J) is left after a turn.
+/// Motor line of 5 N m at rest and none at 100 rad/s against a brake of 2 N m: the speed is 60 rad/s, and the
+/// multiplier of a small deviation is exp(-c T/J).
 #[test]
 fn a_motor_and_a_brake_agree_on_a_speed() {
     for sense in [1.0, -1.0] {
@@ -293,7 +295,7 @@ fn a_motor_and_a_brake_agree_on_a_speed() {
     }
 }
 
-/// A table over omega is over its size, and both directions see the same.
+/// A table over omega is read at |omega|, so that both directions agree.
 #[test]
 fn a_magnitude_over_the_speed_is_the_same_in_both_directions() {
     let stribeck = || {
@@ -322,8 +324,8 @@ fn a_magnitude_over_the_speed_is_the_same_in_both_directions() {
 proptest! {
     #![proptest_config(cases(60))]
 
-    /// Energy goes where it is said to go, over limits, dead centres and rests; and a formula with the sign of the speed
-    /// does the same until the first rest.
+    /// Energy is balanced over limits, dead centres and rests, and a formula with the sign of the speed agrees up to
+    /// the first rest.
     #[test]
     fn energy_is_balanced_and_a_formula_with_the_sign_agrees(
         lengths in prop_oneof![

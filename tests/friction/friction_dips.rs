@@ -1,5 +1,4 @@
-//! Short dips of the normal force of the guide through zero: friction turns over and back within a small part of a
-//! step.
+//! Short dips of the normal force of the guide through zero: friction reverses twice within a small part of a step.
 
 use std::f64::consts::PI;
 
@@ -21,7 +20,7 @@ const MU: f64 = 0.4;
 const G: f64 = 9.81;
 const DURATION: f64 = 0.15;
 
-/// A heavy slider on a rod without mass: the rod lifts it off its lower guide for a hundredth of a turn at most.
+/// Heavy slider on a massless rod, which lifts it off its lower guide for a hundredth of a turn at most.
 fn scene(speed: f64) -> Scene {
     let mut scene = Scene::new(R, L)
         .crank(Crank {
@@ -43,8 +42,8 @@ fn scene(speed: f64) -> Scene {
     scene
 }
 
-/// Angular acceleration and normal force from the balances of slider and crank, S being the force in the rod:
-/// m ẍ = S cos ψ − μ |N| sgn ẋ, N = m g + S sin ψ, J θ̈ = S r sin(θ + ψ), r sin θ = l sin ψ.
+/// Returns angular acceleration and normal force from the equations of slider and crank, with the force S in the rod: m
+/// ẍ = S cos ψ − μ |N| sgn ẋ, N = m g + S sin ψ, J θ̈ = S r sin(θ + ψ), r sin θ = l sin ψ.
 fn balances(theta: f64, omega: f64) -> [f64; 2] {
     let (sin, cos) = theta.sin_cos();
     let sin_psi = R * sin / L;
@@ -71,7 +70,7 @@ fn balances(theta: f64, omega: f64) -> [f64; 2] {
     }
 }
 
-/// The motion by the classical method of Runge and Kutta in equal steps, and all normal forces on the way.
+/// Integrates the motion by the classical Runge-Kutta method in equal steps; returns all normal forces as well.
 fn in_small_steps(speed: f64, steps: usize) -> ([f64; 2], Vec<f64>) {
     let h = DURATION / steps as f64;
     let (mut theta, mut omega) = (0.0, speed);
@@ -101,7 +100,7 @@ fn run(scene: &Scene, method: Method, tolerance: f64) -> Simulation {
     simulate(&scene, &options).expect("a run")
 }
 
-/// Angles at which rows show a normal force below zero, and the least of all.
+/// Returns the angles of rows with a negative normal force, and the least normal force.
 fn lifted(scene: &Scene, method: Method) -> (Vec<f64>, f64) {
     let options = Options {
         method,
@@ -117,10 +116,10 @@ fn lifted(scene: &Scene, method: Method) -> (Vec<f64>, f64) {
     (at.map(|row| row.theta).collect(), least)
 }
 
-/// From no dip to one of a fiftieth of a radian, 4.09 rad from the start.
+/// Speeds from no dip to a dip of a fiftieth of a radian, 4.09 rad from the start.
 const SPEEDS: [f64; 6] = [38.5818, 38.58292, 38.58312, 38.58382, 38.58582, 38.59282];
 
-/// Every method finds the dip, and arrives where small steps do, each of which asks for the sign of the force anew.
+/// Every method finds the dip, and agrees with small steps, each of which determines the sign of the force anew.
 #[test]
 fn short_dips_are_found_by_every_method() {
     for (i, speed) in SPEEDS.into_iter().enumerate() {
@@ -150,7 +149,7 @@ fn short_dips_are_found_by_every_method() {
     }
 }
 
-/// A crank at unit speed.
+/// Crank at unit speed.
 struct Steady;
 
 impl Motion for Steady {
@@ -175,7 +174,7 @@ impl Motion for Steady {
     }
 }
 
-/// Zero at both ends of a dip.
+/// Function that is zero at both ends of a dip.
 struct Dip {
     from: f64,
     length: f64,
@@ -202,7 +201,7 @@ fn changes(dip: &Dip, sign: f64) -> Vec<f64> {
     found.into_iter().map(|change| change.t).collect()
 }
 
-/// Both ends of a dip are located, wherever it lies between the looks at a step.
+/// Both ends of a dip are located, wherever it lies between the test points of a step.
 #[test]
 fn both_ends_of_a_dip_are_located() {
     for i in 0..400 {
@@ -216,7 +215,7 @@ fn both_ends_of_a_dip_are_located() {
     }
 }
 
-/// A step that begins where the dip does shows its end, however soon it comes.
+/// In a step that begins at the start of a dip, the end of the dip is found however soon it comes.
 #[test]
 fn a_dip_from_the_start_of_a_step_ends_where_it_does() {
     for length in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.05, 0.2] {

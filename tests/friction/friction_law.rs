@@ -1,5 +1,5 @@
-//! The equation on the configuration curve and the law of friction, against Newton's and Euler's equations of
-//! the single bodies.
+//! Equation on the configuration curve and the friction law, compared with the Newton-Euler equations of the single
+//! bodies.
 
 use crate::support::random::{Case, any_class, case, cases, magnitude, rotating_crank};
 use crate::support::run::Run;
@@ -9,7 +9,7 @@ use slider_crank::mechanism::{Curve, CurveEquation, Equation, Free, FromRest, Li
 use slider_crank::numeric::angle::Angle;
 use slider_crank::scene::{Friction, Scene};
 
-/// A case on its curve: the equation, the coordinate, the speed along it, θ' and θ''.
+/// Case on its curve: equation, coordinate, speed along the curve, θ' and θ''.
 struct OnCurve {
     equation: CurveEquation,
     q: Angle,
@@ -37,7 +37,7 @@ impl OnCurve {
     }
 }
 
-/// θ̈ and N that Newton and Euler give with this much friction.
+/// Returns θ̈ and N from the Newton-Euler equations with this friction force.
 fn newton(run: &Run<'_>, omega: f64, friction: f64) -> (f64, f64) {
     let (alpha, reactions) = run.parts.solve(omega, run.torque, run.force + friction);
     (alpha, reactions.guide)
@@ -115,7 +115,7 @@ fn check_forces(case: &Case, mu: f64, tolerance: f64) {
     }
 }
 
-/// Signs of N for which sliding in direction `sgn_v` satisfies its equations.
+/// Returns the signs of N for which sliding in direction `sgn_v` satisfies its equations.
 fn solutions(free: &Free, mu: f64, sgn_v: f64) -> usize {
     let consistent = |sgn_n: f64| free.sliding(-mu * sgn_v * sgn_n).1.normal * sgn_n > 0.0;
     [1.0, -1.0]
@@ -183,7 +183,8 @@ proptest! {
                 for way in [1.0, -1.0] {
                     let sgn_v = way * run.dx.signum();
                     let acceleration = free.sliding(free.opposing(mu, sgn_v)).0;
-                    // Between the kinetic and the static band both are possible; it moves only beyond the latter.
+                    // Between the kinetic and the static band both are possible; motion starts only beyond the static
+                    // one.
                     prop_assert_eq!(acceleration * way > 0.0, way == direction, "{} {}", way, acceleration);
                 }
             }
@@ -207,7 +208,7 @@ proptest! {
         prop_assert_eq!(touch.is_some(), mu * slope.abs() < 1.0);
         prop_assume!(mu * slope.abs() < 0.9);
         let touch = touch.unwrap();
-        // The torque that makes this motion with that friction, found from Newton's equations, linear in it.
+        // The torque for this motion with this friction, from Newton's equations, which are linear in it.
         let with = |torque: f64| run.parts.solve(case.omega, run.torque + torque, run.force + touch.friction);
         let (rest, _) = with(0.0);
         let m = run.expected_terms()[0];
@@ -219,7 +220,7 @@ proptest! {
     }
 }
 
-/// Positions around each curve satisfy the loop closure, and their derivatives are those of finite differences.
+/// Positions along each curve satisfy the loop closure, and their derivatives agree with finite differences.
 #[test]
 fn the_curve_closes_and_is_smooth() {
     use slider_crank::scene::{Branch, Geometry};
@@ -323,11 +324,11 @@ fn the_curve_closes_and_is_smooth() {
                         );
                     }
                 }
-                // Once round is the same place again.
+                // A full cycle along the curve returns to the same position.
                 let round = curve.place(q0.rest + std::f64::consts::TAU);
                 close("round", round.x, start.x, 1.0, 1e-13);
                 for dead in curve.dead_centres() {
-                    // A coordinate is rounded, and next to a change point x' is steep.
+                    // The coordinate is rounded, and x' is steep next to a change point.
                     let there = curve.place(dead);
                     let size = crank + rod + 6.0 * there.d2x.abs();
                     close("dead centre", there.dx, 0.0, size, 4e-15);
@@ -340,7 +341,7 @@ fn the_curve_closes_and_is_smooth() {
     }
 }
 
-/// The normal force at many angles at once against that of the equation on the configuration curve, one by one.
+/// Compares the normal force at a batch of angles with that of the equation on the configuration curve at each.
 fn check_normals(case: &Case, tolerance: f64) {
     let scene = &case.scene;
     let equation = Equation::new(scene);

@@ -1,5 +1,5 @@
-//! Motion with Coulomb friction: against closed solutions, an independent integration of Newton's and Euler's
-//! equations, and the energy balance.
+//! Motion with Coulomb friction: compared with closed solutions, with an independent integration of the Newton-Euler
+//! equations, and with the energy balance.
 
 use std::f64::consts::PI;
 
@@ -27,14 +27,14 @@ fn kinds(run: &Simulation, kind: &str) -> usize {
         .count()
 }
 
-/// x of a massless crank and rod at a crank angle.
+/// Returns x of a massless crank and rod at a crank angle.
 fn x(scene: &Scene, theta: f64) -> f64 {
     let g = &scene.geometry;
     let drop = g.offset + g.crank * theta.sin();
     g.crank * theta.cos() + g.branch.sign() * (g.rod * g.rod - drop * drop).sqrt()
 }
 
-/// A slider on a massless crank and rod carries its own weight: it slows down by μ g and stays where it stops.
+/// A slider on a massless crank and rod carries its own weight: it decelerates by μ g and stays where it stops.
 #[test]
 fn a_slider_alone_stops_after_v2_over_2_mu_g() {
     for (branch, offset, up, theta, omega) in [
@@ -78,7 +78,7 @@ fn a_slider_alone_stops_after_v2_over_2_mu_g() {
     }
 }
 
-/// With a spring it loses 2 μ m g/k of its amplitude in each half swing, hundreds of times.
+/// With a spring the amplitude decreases by 2 μ m g/k in each of hundreds of half swings.
 #[test]
 fn an_oscillator_with_dry_friction_loses_the_same_amplitude_in_each_half_swing() {
     let (mass, stiffness, mu, g) = (2.0, 800.0, 0.002, 9.81);
@@ -143,7 +143,7 @@ fn an_oscillator_with_dry_friction_loses_the_same_amplitude_in_each_half_swing()
     }
 }
 
-/// Bodies of the scenes whose motion was integrated independently.
+/// Bodies of the scenes with an independent reference.
 fn machine() -> Scene {
     Scene::new(0.05, 0.15)
         .crank(Crank {
@@ -166,7 +166,7 @@ fn machine() -> Scene {
         })
 }
 
-/// A strategy of scenes with all kinds of loads; speeds, sizes and friction vary.
+/// Strategy for scenes with all kinds of loads; speeds, sizes and friction vary.
 fn any_scene() -> impl Strategy<Value = Scene> {
     (
         (magnitude(0.02, 0.3), 1.15..5.0, -0.9..0.9, any::<bool>()),
@@ -186,7 +186,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
             let (mu, more, omega, theta) = motion;
             let (torque, force, stiffness, damping, rate): (f64, f64, f64, f64, f64) = loads;
             let rod = crank * (ratio + 1.0);
-            // Small enough for friction not to jam where the rod leans most.
+            // Small enough to exclude jamming where the rod is steepest.
             let mu = mu * 0.4;
             rubbing(Scene::new(crank, rod), mu, mu * more)
                 .offset(crank * offset * 0.5)
@@ -237,7 +237,7 @@ proptest! {
 
     #[test]
     fn the_mirror_image_moves_as_the_mechanism(scene in any_scene()) {
-        // About the x axis: angles, offset, torques and gravity change their signs.
+        // Mirror image about the x axis: angles, offset, torques and gravity change their signs.
         let here = run_unless_stopped(&scene);
         prop_assume!(here.is_some());
         let mut mirrored = scene.clone();
@@ -283,7 +283,7 @@ proptest! {
 
     #[test]
     fn units_do_not_matter(scene in any_scene(), length in magnitude(1e-3, 1e3), mass in magnitude(1e-3, 1e3)) {
-        // Longer by a factor and heavier by another, in the same time: accelerations grow with the length.
+        // Lengths and masses scaled in the same time: accelerations are proportional to the length.
         let here = run_unless_stopped(&scene);
         prop_assume!(here.is_some());
         let mut other = scene.clone();
@@ -323,9 +323,8 @@ fn run_unless_stopped(scene: &Scene) -> Option<Simulation> {
     (run.summary.stopped.is_none() && estimated).then_some(run)
 }
 
-/// Final states of another program: Newton's and Euler's equations of the three bodies with all joint forces
-/// unknown, friction in the balance of the slider, both signs of the normal force tried, SciPy's DOP853 with
-/// events at 1e-13.
+/// Final states by another program: Newton-Euler equations of the three bodies with all joint forces unknown, friction
+/// in the balance of the slider, both signs of the normal force tried, DOP853 of SciPy with events at 1e-13.
 #[test]
 fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
     let coasting = rubbing(machine().offset(0.01), 0.2, 0.2)
@@ -360,7 +359,7 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
             [1.1882117042847302, 6.446446970206754],
             2e-9,
         ),
-        // Its 31 changes of sign of the normal force leave the other program fewer digits.
+        // With its 31 sign changes of the normal force, the other program has fewer digits.
         ("fast", fast, [48.4610754918868, 107.0321664381423], 2e-8),
     ] {
         let run = run(&scene);
@@ -375,7 +374,8 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
     }
 }
 
-/// Torn loose when the force in time leaves the static band: F = 12 sin 9t − 60 (x − 0.15), found there too.
+/// The slider slips when the time-dependent force leaves the static band: F = 12 sin 9t − 60 (x − 0.15), with a
+/// reference by the other program.
 #[test]
 fn a_sticking_slider_slips_when_its_static_band_is_left() {
     let scene = rubbing(machine().offset(0.01), 0.25, 0.35)
@@ -390,11 +390,11 @@ fn a_sticking_slider_slips_when_its_static_band_is_left() {
     close("slip", events[1].t_s, 0.020585209, 1.0, 6e-10);
 }
 
-/// Beyond μ |dN/dF| = 1 rigid bodies have no answer: said, and computed up to there. At rest a guide may hold by
-/// itself.
+/// Beyond μ |dN/dF| = 1 the rigid-body equations have no unique solution: the run ends there with this reason. At rest
+/// a guide may be self-locking.
 #[test]
 fn jamming_is_named() {
-    // μ tan φ > 1 on a part of the turn.
+    // μ tan φ > 1 on part of the turn.
     let scene = |mu: f64| rubbing(leaning(0.2), mu, mu).gravity(Gravity::standard());
     let run = simulate(&scene(1.5).start(0.3, 6.0), &Options::default()).unwrap();
     let why = run.summary.stopped.expect("jams").to_string();
@@ -405,7 +405,7 @@ fn jamming_is_named() {
     assert_eq!(locked.summary.events[0].kind, "rest");
 }
 
-/// Friction whose coefficients are tiny changes nothing that can be seen; of zero strength, nothing at all.
+/// Tiny coefficients of friction have no visible effect; zero ones have none at all.
 #[test]
 fn friction_of_no_strength_is_left_out() {
     let scene = machine().offset(0.01).start(0.3, 20.0).duration(0.5);
@@ -424,8 +424,8 @@ fn friction_of_no_strength_is_left_out() {
     );
 }
 
-/// Rows of a free and of a driven motion: the forces from outside change the momentum, and what the guide adds along
-/// x is Coulomb's.
+/// Rows of a free and of a driven motion: the external forces change the momentum, and the guide force along x is
+/// Coulomb's.
 #[test]
 fn rows_hold_the_friction_in_their_forces() {
     let free = rubbing(machine().offset(0.01), 0.3, 0.3)
@@ -457,7 +457,7 @@ fn rows_hold_the_friction_in_their_forces() {
             let across = -forces.shaking[1] - forces.crank_bearing[1] - weight;
             close("guide", forces.guide, across, size, 1e-10);
             if let Some(torque) = row.driving_torque {
-                // The drive's power is the rate of energy and what friction takes.
+                // The power of the drive is the rate of energy plus the friction loss.
                 let equation = Equation::new(&scene);
                 let rate =
                     equation.driving_torque(row.t, row.theta, row.omega, row.alpha) * row.omega;
@@ -473,8 +473,8 @@ fn rows_hold_the_friction_in_their_forces() {
     }
 }
 
-/// Without masses but the crank's the guide feels the rod alone: N = R tan φ for the force R that it passes on. So what
-/// `explain` says of a torque that holds the crank is checked by hand.
+/// If only the crank has mass, the guide is loaded by the rod alone: N = R tan φ for the transmitted force R. The
+/// holding torque of `explain` is checked by hand.
 #[test]
 fn torques_that_hold_the_crank_are_explained_with_friction() {
     let (push, inertia, mu, mu_static) = (-100.0, 2e-3, 0.2, 0.3);

@@ -1,5 +1,5 @@
-//! Coulomb friction of a crank that turns, computed over the crank angle: against integration in time, an independent
-//! integration of Newton's and Euler's equations, the energy balance and symmetries.
+//! Coulomb friction of a turning crank, computed over the crank angle: compared with integration in time, with an
+//! independent integration of the Newton-Euler equations, with the energy balance and with symmetries.
 
 use std::f64::consts::{PI, TAU};
 
@@ -48,7 +48,7 @@ fn machine(r: f64, l: f64, e: f64, lateral: f64, flywheel: f64) -> Scene {
         .slider(Slider { mass: 0.6 })
 }
 
-/// Cranks that turn, under loads of every kind, with friction far from jamming.
+/// Strategy for turning cranks under loads of every kind, with friction far from jamming.
 fn turning() -> impl Strategy<Value = Scene> {
     (
         (magnitude(0.02, 0.3), 1.3..5.0, -0.6..0.6, any::<bool>()),
@@ -126,7 +126,7 @@ fn turning() -> impl Strategy<Value = Scene> {
         })
 }
 
-/// A run with the forces of the guide at crank angles so far apart, rad.
+/// Runs a scene; returns the guide forces at this spacing of the crank angle, rad, as well.
 fn guided(scene: &Scene, spacing: f64) -> (Simulation, Vec<f64>) {
     let options = Options {
         reactions: true,
@@ -139,7 +139,7 @@ fn guided(scene: &Scene, spacing: f64) -> (Simulation, Vec<f64>) {
     (run, forces.collect())
 }
 
-/// A turn under so much weight that the slider all but stays on its lower guide; `part` of the weight is missing.
+/// Returns a scene whose weight is too small by `part` to keep the slider on its lower guide.
 fn dipping(scene: Scene, part: f64) -> Option<Scene> {
     let speed = scene.motion.speed.abs();
     let unit = scene.geometry.crank * speed * speed;
@@ -167,7 +167,7 @@ fn dipping(scene: Scene, part: f64) -> Option<Scene> {
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// The engines have nothing but the law of friction in common.
+    /// The angle and time engines share only the friction law.
     #[test]
     fn angle_and_time_agree_within_what_they_state(scene in turning()) {
         let (over, timed) = (run(&scene, Method::Auto), in_time(&scene));
@@ -187,7 +187,7 @@ proptest! {
         }
     }
 
-    /// At the tightest tolerance the work of friction and loads is the change of the energy, to rounding.
+    /// At the tightest tolerance the work of friction and loads equals the change of the energy, to rounding.
     #[test]
     fn the_energy_balances_to_rounding(scene in turning()) {
         let mut scene = scene;
@@ -201,7 +201,7 @@ proptest! {
 proptest! {
     #![proptest_config(cases(40))]
 
-    /// They agree too where the normal force dips through zero within a small part of a step.
+    /// The engines agree also where the normal force dips through zero within a small part of a step.
     #[test]
     fn angle_and_time_agree_where_the_normal_force_dips(scene in turning(), part in magnitude(1e-5, 1e-3)) {
         let scene = dipping(scene, part);
@@ -223,8 +223,8 @@ proptest! {
     }
 }
 
-/// Final states of another program: Newton's and Euler's equations of the three bodies with all joint forces unknown,
-/// friction in the balance of the slider, SciPy's DOP853 at 3e-14 from one located change of sign to the next.
+/// Final states by another program: Newton-Euler equations of the three bodies with all joint forces unknown, friction
+/// in the balance of the slider, DOP853 of SciPy at 3e-14 between located sign changes.
 #[test]
 fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
     let driven = machine(0.05, 0.15, 0.01, 0.01, 0.002)
@@ -280,7 +280,7 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
     }
 }
 
-/// Acceleration, joint forces and the force of the guide in the rows are those of a run in time.
+/// Acceleration, joint forces and guide force in the rows agree with those of a run in time.
 #[test]
 fn rows_are_those_of_a_run_in_time() {
     let scene = rubbing(machine(0.05, 0.15, 0.01, 0.01, 0.004), 0.3)
@@ -323,7 +323,7 @@ fn rows_are_those_of_a_run_in_time() {
     }
 }
 
-/// The mirror image about the x axis, and the mechanism turned half round, move as it does.
+/// The mirror image about the x axis, and the mechanism rotated by half a turn, move alike.
 #[test]
 fn images_move_as_the_mechanism() {
     let up = |direction: f64| Gravity {
@@ -373,7 +373,7 @@ fn images_move_as_the_mechanism() {
     );
 }
 
-/// A crank that coasts is handed over where it comes near to rest, and rests where integration in time says.
+/// A coasting crank is handed over close to rest, and comes to rest as in integration in time.
 #[test]
 fn a_crank_that_coasts_to_rest_is_handed_over() {
     let scene = rubbing(machine(0.05, 0.15, 0.01, 0.01, 0.02), 0.3)
@@ -403,7 +403,7 @@ fn a_crank_that_coasts_to_rest_is_handed_over() {
     }
 }
 
-/// The plan takes the angle where the crank turns, and refuses what it does not serve.
+/// The plan selects the angle engine for a turning crank, and refuses it where it does not apply.
 #[test]
 fn the_plan_says_what_serves() {
     let scene = rubbing(machine(0.05, 0.15, 0.01, 0.01, 0.004), 0.3)
@@ -426,7 +426,7 @@ fn the_plan_says_what_serves() {
     assert!(Plan::new(&at_rest, Method::Angle).is_err());
 }
 
-/// A guide that jams at some angle of the turn is left to integration in time, which names it.
+/// A guide that jams at some angle of the turn is left to integration in time, which reports it.
 #[test]
 fn jamming_is_named() {
     let scene = rubbing(leaning(0.05), 1.5).start(0.3, 6.0);
@@ -453,7 +453,7 @@ fn jamming_is_named() {
     assert!(why.contains("jams"), "{why}");
 }
 
-/// A guide that nothing presses does not rub.
+/// Without a normal force there is no friction.
 #[test]
 fn without_a_normal_force_there_is_no_friction() {
     let scene = rubbing(Scene::new(0.05, 0.15).offset(0.01), 0.5)

@@ -1,4 +1,4 @@
-//! Coulomb friction at the guide: law, reversals, sticking, estimates.
+//! Coulomb friction at the guide: law, reversals, stick-slip, estimates.
 
 #[path = "../support/mod.rs"]
 mod support;

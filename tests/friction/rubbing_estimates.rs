@@ -1,6 +1,6 @@
-//! Error estimates against true errors over random scenes with friction, limits and loads that switch. The truth is
-//! the reference of the comparison of methods: event by event in double-double arithmetic, from equations with the
-//! force of the guide as an unknown.
+//! Error estimates compared with true errors over random scenes with friction, limits and switching loads. The truth is
+//! the reference of the comparison of methods: integration from event to event in double-double arithmetic, with the
+//! guide force as an unknown.
 
 use std::thread;
 
@@ -14,7 +14,7 @@ use proptest::test_runner::TestRunner;
 use slider_crank::precision::PrecisionOptions;
 use slider_crank::scene::Scene;
 
-/// Of 240 the same is true; it takes longer.
+/// Number of scenes; a longer test with 240 scenes also passes.
 const SCENES: usize = 100;
 const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
 
@@ -29,17 +29,17 @@ struct Judged {
     error: f64,
     unsure: f64,
     stated: f64,
-    /// Smaller errors are not judged from above.
+    /// Floor below which errors are not judged from above.
     floor: f64,
 }
 
 impl Judged {
-    /// Whether the truth is known well enough for a judgement from above.
+    /// Whether the truth is accurate enough to judge an overestimate.
     fn is_sharp(&self) -> bool {
         self.unsure <= 0.1 * self.error.max(self.stated)
     }
 
-    /// True error over stated error.
+    /// Returns the true error over the stated error.
     fn below(&self) -> f64 {
         let least = (self.error - self.unsure).max(0.0);
         if least == 0.0 {
@@ -49,7 +49,7 @@ impl Judged {
         }
     }
 
-    /// Stated error over true error, or over the floor.
+    /// Returns the stated error over the true error, or over the floor.
     fn above(&self) -> f64 {
         self.stated / (self.error + self.unsure).max(self.floor)
     }
@@ -87,7 +87,7 @@ fn judge(index: usize, scene: &Scene) -> Vec<Judged> {
         ..PrecisionOptions::default()
     };
     let result = precision(scene, &options).unwrap();
-    // Another method is no truth for errors near rounding.
+    // Another method is no reference for errors near rounding.
     if !result.reference.contains("double-double") {
         return Vec::new();
     }

@@ -1,7 +1,7 @@
-//! Symmetries and balances of random motions with friction, in mechanisms of all classes, under loads that switch.
+//! Symmetries and balances of random motions with friction, in mechanisms of all classes, under switching loads.
 //!
-//! Reversed in time friction would drive instead of brake, and from rest it does not say where the motion came
-//! from: only motions without friction run back.
+//! In reversed time friction would drive instead of brake, and a state of rest does not determine the motion before it:
+//! only motions without friction are run back.
 
 use crate::support::alike::{Kind, image_moves_alike, runs_back, scaling, tolerances_agree};
 use crate::support::image::{Image, Setting};
@@ -17,7 +17,7 @@ const ANY: Kind = Kind {
     limits: false,
     slack: 0.0,
 };
-/// Jumps of formulas are not announced, and the stepper finds them by its steps.
+/// Kind with formulas whose jumps are found only by step control.
 const STEPPED: Kind = Kind { slack: 1.0, ..ANY };
 
 const ANNOUNCED: Without = Without {
@@ -38,14 +38,14 @@ const NO_LOADS: Without = Without {
     ..ANNOUNCED
 };
 
-/// Kinetic and potential energy of a row from positions and velocities of the bodies, J.
+/// Returns kinetic and potential energy of a row from positions and velocities of the bodies, J.
 fn energy(scene: &Scene, row: &Row) -> f64 {
     let g = &scene.geometry;
     let (sin, cos) = row.theta.sin_cos();
     let a = [g.crank * cos, g.crank * sin];
     let va = [-a[1] * row.omega, a[0] * row.omega];
     let d = [(row.x - a[0]) / g.rod, (-g.offset - a[1]) / g.rod];
-    // The velocity of the wrist pin seen from the crank pin lies across the rod.
+    // The velocity of the wrist pin relative to the crank pin is normal to the rod.
     let spin = ((row.v - va[0]) * -d[1] - va[1] * d[0]) / g.rod;
     let (crank, rod, slider) = (
         scene.crank.unwrap(),
@@ -74,7 +74,7 @@ fn energy(scene: &Scene, row: &Row) -> f64 {
         + scene.forces.iter().map(spring).sum::<f64>()
 }
 
-/// Without loads but weight and a spring, friction takes energy and never gives any.
+/// Checks that friction only dissipates energy if the other loads are weight and a spring.
 fn friction_only_takes(setting: &Setting) -> Result<(), TestCaseError> {
     let scene = setting.scene(&Image::SAME).tolerance(1e-10);
     let mut rows: Vec<Row> = Vec::new();
@@ -92,7 +92,7 @@ fn friction_only_takes(setting: &Setting) -> Result<(), TestCaseError> {
         least = least.min(*energy);
         moved = f64::max(moved, row.v.abs());
     }
-    // The energy lost is the whole of it: what the summary calls residual does not hide any.
+    // This covers the whole loss: the residual of the summary hides none.
     prop_assert!(run.summary.energy_residual.abs() < 1e-7);
     prop_assert!(moved == 0.0 || least < energies[0], "{moved}");
     Ok(())
@@ -133,7 +133,7 @@ proptest! {
 
     #[test]
     fn without_friction_it_runs_back(setting in rubbing(NO_FRICTION)) {
-        // At rest there is no speed to turn round.
+        // At rest there is no speed to reverse.
         prop_assume!(setting.start.1 != 0.0);
         runs_back(&setting, ANY)?;
     }

@@ -1,4 +1,4 @@
-//! Measured motions of `data/hard/`: against the polynomial they are samples of, or refused with line and column.
+//! Measured motions of `data/hard/`: compared with the polynomial that they sample, or refused with line and column.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -14,7 +14,7 @@ fn hard(name: &str) -> PathBuf {
 
 const COEFFICIENTS: [f64; 11] = [2.0, 3.0, -1.0, 0.5, 0.6, -0.8, 0.4, 0.7, -0.5, -0.3, 0.4];
 
-/// The polynomial of `12-polynomial.csv`: angle, speed and acceleration at a time of the Unix clock.
+/// Returns the polynomial of `12-polynomial.csv`: angle, speed and acceleration at a time of the Unix clock.
 fn motion(t: f64) -> [f64; 3] {
     let u = (t - 1_700_000_002.0) / 2.0;
     let mut sum = [0.0; 3];
@@ -28,7 +28,8 @@ fn motion(t: f64) -> [f64; 3] {
     [sum[0], sum[1] / 2.0, sum[2] / 4.0]
 }
 
-/// Slider force of the scene from its closed form: (J α)/x' + m (x' α + x'' ω²), x = r cos θ + √(l² − (e + r sin θ)²).
+/// Returns the slider force of the scene in closed form: (J α)/x' + m (x' α + x'' ω²), x = r cos θ + √(l² − (e + r sin
+/// θ)²).
 fn force([theta, omega, alpha]: [f64; 3]) -> f64 {
     let (r, l, e, inertia, mass): (f64, f64, f64, f64, f64) = (0.05, 0.15, 0.01, 0.002, 0.4);
     let (sin, cos) = theta.sin_cos();
@@ -45,7 +46,7 @@ fn inverted(measurement: &Measurement) -> Inverse {
     inverse(&scene, measurement, &InverseOptions::default()).expect("an inversion")
 }
 
-/// Errors of the slider force of all rows that have one, in standard errors.
+/// Returns the errors of the slider force of all rows that have one, in standard errors.
 fn errors(found: &Inverse) -> Vec<f64> {
     let rows = found.rows.iter();
     rows.filter_map(|row| Some((row.slider_force? - force(motion(row.t))) / row.slider_force_se?))
@@ -79,7 +80,7 @@ fn without_noise_the_rounding_of_time_is_all_that_is_lost() {
     for row in &found.rows {
         let [theta, omega, alpha] = motion(row.t);
         assert!((row.theta - theta).abs() < 1e-14);
-        // The largest speed is 4.1 rad/s, the largest acceleration 26 rad/s².
+        // The largest speed is 4.1 rad/s and the largest acceleration 26 rad/s².
         assert!((row.omega - omega).abs() < 1e-12, "{} {omega}", row.omega);
         assert!((row.alpha - alpha).abs() < 1e-10, "{} {alpha}", row.alpha);
     }

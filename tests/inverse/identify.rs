@@ -8,7 +8,7 @@ use slider_crank::scene::{Assigned, Draft, Measured, Measurement, NumberKey};
 
 use super::noise::Random;
 
-/// A flywheel of J = 0.02 kg m² whose rod and slider weigh nothing.
+/// Returns a flywheel of J = 0.02 kg m² with massless rod and slider.
 fn flywheel(loads: &str, inertia: f64) -> Draft {
     let text = format!(
         "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[crank]\ninertia = \"{inertia} kg m^2\"\n{loads}"
@@ -41,7 +41,7 @@ fn identified(draft: &Draft, keys: &[&str], motion: &Measurement) -> Result<Iden
     identify(&scene_at, &free.collect::<Vec<_>>(), motion)
 }
 
-/// Samples of a motion with noise, rad.
+/// Samples a motion with noise, rad.
 fn sampled(theta: impl Fn(f64) -> f64, sigma: f64, seed: u64) -> Measurement {
     let mut random = Random((seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let times: Vec<f64> = (0..400).map(|i| 0.0025 * f64::from(i)).collect();
@@ -50,7 +50,7 @@ fn sampled(theta: impl Fn(f64) -> f64, sigma: f64, seed: u64) -> Measurement {
     Measurement::new(Measured::Theta, times, values).expect("a measurement")
 }
 
-/// J ω' = -c ω - d from ω(0) = w.
+/// Returns the solution of J ω' = -c ω - d from ω(0) = w.
 fn run_down(inertia: f64, c: f64, d: f64, w: f64) -> impl Fn(f64) -> f64 {
     move |t| {
         let tau = inertia / c;
@@ -58,7 +58,8 @@ fn run_down(inertia: f64, c: f64, d: f64, w: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
-/// Counts the bands of viscous and dry friction that hold the true values, and asks that each is narrower than a part of its value.
+/// Counts the bands of viscous and dry friction that hold the true values, and checks that each is narrower than a
+/// fraction of its value.
 fn count_inside(motion: &Measurement, truths: [f64; 2], widest: f64, inside: &mut [usize; 2]) {
     let keys = ["torque[1].coefficient", "torque[2].value"];
     let found = identified(&flywheel(VISCOUS_AND_DRY, 0.02), &keys, motion).expect("told");
@@ -91,12 +92,12 @@ fn friction_of_a_run_down_lies_within_its_band() {
         }
         assert!(found.correlations[0][1] < -0.9);
     }
-    // 38 of 40 are expected; fewer than 34 are one chance in a hundred.
+    // 38 of 40 are expected; fewer than 34 have a probability of one in a hundred.
     assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
 }
 
-/// Noise of which 0.9 stays from each sample to the next is white only once that is taken off: taken as it is, the equation would not
-/// describe the record, or the bands would be four times too narrow.
+/// Noise with correlation 0.9 from sample to sample is white only after prewhitening: unmodelled, it would make the
+/// equation seem wrong, or the bands four times too narrow.
 #[test]
 fn correlated_noise_leaves_friction_within_its_band() {
     let (c, d, kept) = (0.0055, 0.13, 0.9f64);
@@ -114,11 +115,11 @@ fn correlated_noise_leaves_friction_within_its_band() {
         let motion = Measurement::new(Measured::Theta, times, values).expect("a measurement");
         count_inside(&motion, [c, d], 0.6, &mut inside);
     }
-    // 19 of 20 are expected; fewer than 16 are one chance in 400.
+    // 19 of 20 are expected; fewer than 16 have a probability of one in 400.
     assert!(inside.iter().all(|count| *count >= 16), "{inside:?}");
 }
 
-/// A coarse encoder says between which codes the crank is: several samples in a code are no several samples of noise.
+/// A coarse encoder says between which codes the crank is: several samples in one code are not independent.
 #[test]
 fn codes_of_a_coarse_encoder_tell_friction_within_its_band() {
     let (c, d, step) = (0.0055, 0.13, std::f64::consts::TAU / 360.0);
@@ -131,11 +132,11 @@ fn codes_of_a_coarse_encoder_tell_friction_within_its_band() {
         let motion = Measurement::new(Measured::Theta, times, values).expect("a measurement");
         count_inside(&motion, [c, d], 0.3, &mut inside);
     }
-    // As above.
+    // Bound on the counts from 38 expected of 40.
     assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
 }
 
-/// A dry torque that is stated a third too large: the viscous one alone cannot make up for it.
+/// The stated dry torque is a third too large, and the viscous one alone cannot compensate.
 #[test]
 fn an_equation_that_does_not_describe_the_record_is_said() {
     let motion = sampled(run_down(0.02, 0.004, 0.15, 40.0), 3e-4, 3);
@@ -173,7 +174,7 @@ fn what_the_record_cannot_tell_is_refused() {
     let motion = sampled(run_down(0.02, 0.0055, 0.13, 40.0), 3e-4, 1);
     let draft = flywheel(VISCOUS_AND_DRY, 0.02);
     let all = ["torque[1].coefficient", "torque[2].value", "crank.inertia"];
-    // J, c and d times one number have the same motion.
+    // J, c and d times one factor give the same motion.
     refused(
         &draft,
         &all,

@@ -1,4 +1,4 @@
-//! A request to stop ends an inverse computation whenever it is made.
+//! A request to stop ends an inverse computation at any time.
 
 use std::thread;
 use std::time::Instant;
@@ -27,7 +27,7 @@ fn scene() -> Scene {
         .duration(2.0)
 }
 
-/// Samples with noise: angles, slider positions, and angles in steps of an encoder.
+/// Returns noisy samples: angles, slider positions, and angles in encoder steps.
 fn records() -> Vec<Measurement> {
     let run = simulate(&scene(), &Options::default()).expect("a run");
     let times: Vec<f64> = (0..SAMPLES)
@@ -76,7 +76,7 @@ fn it_may_be_asked_to_end_at_any_time() {
                 thread::sleep(wait);
                 asks.request();
             });
-            // How soon depends on the machine; what is asked for at the start is heeded at once.
+            // The delay depends on the machine; a request made before the start takes effect at once.
             match recovered(&record, Some(stop)) {
                 Err(Error::Interrupted) => heeded += 1,
                 Ok(_) => assert!(part > 0),

@@ -1,4 +1,4 @@
-//! Forward runs, sampled and inverted, give back the applied force, within the stated band.
+//! Sampled forward runs, inverted, return the applied force within the stated band.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,7 +21,7 @@ fn pump() -> Scene {
         .gravity(Gravity::standard())
 }
 
-/// A scene, the force on its slider over time and position, and how it is sampled.
+/// Scene, force on its slider over time and position, and sampling.
 struct Case {
     scene: Scene,
     force: fn(f64, f64) -> f64,
@@ -67,7 +67,7 @@ impl Case {
     }
 }
 
-/// What an instrument shows at crank angles.
+/// Returns the readings of an instrument at crank angles.
 fn shown(scene: &Scene, measured: Measured, theta: &[f64]) -> Vec<f64> {
     let linkage = Linkage::new(&scene.geometry);
     let value = |theta: &f64| {
@@ -97,7 +97,7 @@ fn fitted(fit: FitKind) -> InverseOptions {
     }
 }
 
-/// Rows whose band covers the force, and all that have one.
+/// Returns the number of rows whose band covers the force, and the number of rows with a force.
 fn covered(case: &Case, found: &Inverse, run: &Simulation, scene: &Scene) -> (usize, usize) {
     let linkage = Linkage::new(&scene.geometry);
     let (mut inside, mut all) = (0, 0);
@@ -134,7 +134,7 @@ fn covers(case: &Case, fit: FitKind, measured: Measured, noise: f64, repeats: u3
         });
         let motion = Measurement::new(measured, times.clone(), values.collect()).expect("samples");
         let found = inverse(&scene, &motion, &fitted(fit)).expect("an inversion");
-        // Without noise what is left is the error of the forward run, which is no white noise.
+        // Without noise the residual is the error of the forward run, which is not white noise.
         let said = |warning: &String| warning.contains("not white noise");
         if noise == 0.0 && found.summary.warnings.iter().any(said) {
             return;
@@ -176,8 +176,8 @@ fn bands_without_noise_cover_the_force_or_are_warned_of() {
     covers(&turns(), FitKind::Smoother, Measured::Theta, 0.0, 1);
 }
 
-/// Motions by formula on mechanisms of all kinds: turning either way, swinging back before the dead centres and passing
-/// them on the way back.
+/// Motions by formula on mechanisms of all kinds: rotation in either sense, reversal before the dead centres, and dead
+/// centres passed on the way back.
 #[test]
 fn folded_measurements_are_unfolded() {
     type Angle = fn(f64) -> f64;
@@ -201,7 +201,7 @@ fn folded_measurements_are_unfolded() {
             check_unfolding(&scene, angle, 2.0);
         }
     }
-    // A rocker: r = 50, l = 40, e = 5 mm reaches θ from −44 to 64 degrees; it passes its dead centres.
+    // Rocker: with r = 50, l = 40, e = 5 mm θ ranges from −44 to 64 degrees; the motion passes the dead centres.
     let rocker = Scene::new(0.05, 0.04)
         .offset(0.005)
         .slider(Slider { mass: 1.0 });
@@ -233,8 +233,8 @@ fn check_unfolding(scene: &Scene, angle: fn(f64) -> f64, end: f64) {
     }
 }
 
-/// A motion that starts slowly from a place near a dead centre, or far from it, and reverses at once: the scene's angle
-/// says which stroke it is, whatever the sense of its small speed.
+/// The motion starts slowly, near a dead centre or far from one, and reverses at once: the scene's angle determines the
+/// stroke, whatever the sense of its small speed.
 #[test]
 fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
     let offsets = [
@@ -245,7 +245,7 @@ fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
     for (offset, branch) in offsets {
         for start in [0.4, 1.3, 2.5, -0.5, -1.4, -2.2] {
             for sense in [1.0, -1.0] {
-                // θ = start + sense (0.3 t − 40 t²): the first 4 ms run against all that follows.
+                // θ = start + sense (0.3 t − 40 t²): the first 4 ms run in the opposite sense to the rest.
                 let angle = move |t: f64| start + sense * (0.3 * t - 40.0 * t * t);
                 let scene = Scene::new(0.05, 0.15)
                     .offset(offset)
@@ -274,8 +274,8 @@ fn the_angle_of_the_scene_decides_where_the_motion_reverses_at_once() {
     }
 }
 
-/// With a rod hardly longer than the crank the slider, and with it the rod, stands still for half a turn: noise is all that
-/// the angle at the crank pin shows then, and no fit may make turns of it.
+/// With a rod barely longer than the crank, slider and rod stand still for half a turn. The angle at the crank pin then
+/// shows only noise, which no fit may turn into rotations.
 #[test]
 fn samples_that_do_not_tell_the_motion_are_refused_or_followed() {
     let scene = Scene::new(0.05, 0.05002)
@@ -299,7 +299,7 @@ fn samples_that_do_not_tell_the_motion_are_refused_or_followed() {
     }
 }
 
-/// Far from either start, or not said, the scene's angle gives way to its speed.
+/// Where the scene's angle is absent or far from both possible starts, its speed decides.
 #[test]
 fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
     let times: Vec<f64> = (0..=300).map(|i| 0.001 * f64::from(i)).collect();
@@ -316,8 +316,8 @@ fn the_speed_of_the_scene_decides_where_its_angle_says_nothing() {
     }
 }
 
-/// The mirror image of a motion has other forces; where neither they nor the scene tell, both are named. In line the image is
-/// exact; a crank that starts at rest says nothing by its speed.
+/// The mirror image of a motion has other forces; if neither forces nor scene decide, both motions are named. With the
+/// guide through the pivot the image is exact; for a crank that starts at rest the speed is no evidence.
 #[test]
 fn motions_and_their_mirror_images_are_told_or_both_named() {
     let times: Vec<f64> = (0..=300).map(|i| 0.004 * f64::from(i)).collect();
@@ -367,7 +367,7 @@ fn angles_reduced_to_one_turn_are_continued() {
     );
 }
 
-/// A sensor whose scale is a little long, with noise, shows more than one turn.
+/// A noisy sensor whose scale is slightly too long shows more than one turn.
 #[test]
 fn angles_reduced_to_a_little_more_than_one_turn_are_continued() {
     let mut random = Random(1_442_695_040_888_963_407);
@@ -439,7 +439,7 @@ fn forces_of_the_scene_are_in_or_beside_the_result() {
     }
 }
 
-/// The terms of (9) as printed at θ = 0.7 rad, from 50-digit evaluations of the printed formula; the weight with 9.81 m/s².
+/// Terms of (9) as printed at θ = 0.7 rad, from 50-digit evaluation of the printed formula; the weight with 9.81 m/s².
 #[test]
 fn the_printed_equation_is_the_printed_one() {
     let scene = Scene::duarte();
@@ -467,7 +467,7 @@ fn the_printed_equation_is_the_printed_one() {
     }
 }
 
-/// The table of forces under `data/` is what the program computes.
+/// The table of forces under `data/` agrees with the program.
 #[test]
 fn the_table_of_forces_is_right() {
     let scene = Scene::duarte();
@@ -494,7 +494,7 @@ fn the_table_of_forces_is_right() {
                 "{cell} for {expected}"
             );
         }
-        // The file is to be made anew where the band becomes another one.
+        // The file must be regenerated when the band changes.
         let error = row.slider_force_se.expect("an error");
         assert!(
             (cells[5] / error - 1.0).abs() < 0.01,

@@ -1,5 +1,5 @@
-//! Slider force and crank torque of a motion with friction at the guide, against forward runs and Newton's and Euler's
-//! equations.
+//! Slider force and crank torque of a motion with friction at the guide, compared with forward runs and the
+//! Newton-Euler equations.
 
 use crate::support::newton::Parts;
 use crate::support::random::{cases, rotating_crank};
@@ -31,7 +31,7 @@ fn rubbing(scene: Scene, mu: f64) -> Scene {
     scene
 }
 
-/// A crank that turns and one that swings, driven by a force that changes over time.
+/// Rotating and swinging crank, driven by a time-dependent force.
 #[test]
 fn a_forward_run_gives_back_its_force() {
     for (start, speed, amplitude) in [(0.3, 20.0, 10.0), (0.6, 0.0, 25.0), (0.3, -18.0, 8.0)] {
@@ -41,7 +41,7 @@ fn a_forward_run_gives_back_its_force() {
         let mut scene = base.clone().force(load).start(start, speed).duration(0.6);
         scene.run.tolerance = 1e-11;
         let run = simulate(&scene, &Options::default()).expect("a run");
-        // From one reversal to the next the motion is smooth.
+        // Between two reversals the motion is smooth.
         let turning = run
             .summary
             .events
@@ -65,7 +65,7 @@ fn a_forward_run_gives_back_its_force() {
             ..InverseOptions::default()
         };
         let found = inverse(&base.start(start, speed), &motion, &options).expect("an inversion");
-        // Where the normal force changes its sign, and friction with it, the acceleration has a corner.
+        // Where the normal force, and friction with it, changes sign, the acceleration has a corner.
         let sides: Vec<_> = found
             .rows
             .iter()
@@ -85,7 +85,7 @@ fn a_forward_run_gives_back_its_force() {
         });
         let share = inside.count() as f64 / rows.len() as f64;
         assert!(share > 0.9, "{start}, {speed}: {share}");
-        // Without friction the force would be another one by much more than the band.
+        // Without friction the force would differ by much more than the band.
         let mut bare = scene.clone();
         bare.friction = None;
         let without = inverse(&bare, &motion, &options).expect("an inversion");
@@ -96,7 +96,8 @@ fn a_forward_run_gives_back_its_force() {
     }
 }
 
-/// At rest the friction may be anything up to its limit: the force is empty, and the torque has that in its error.
+/// At rest the friction may have any value up to its limit: the force is empty, and the error of the torque includes
+/// this.
 #[test]
 fn at_rest_the_force_is_empty() {
     let times: Vec<f64> = (0..=200).map(|i| 0.005 * f64::from(i)).collect();
@@ -117,8 +118,8 @@ fn at_rest_the_force_is_empty() {
     );
 }
 
-/// The crank turns back at t = 0.5 s under a brake of 0.7 N m and, where it counts, a dry force of 20 N on the slider: before
-/// and after it they have their sense, next to it any value up to their magnitude.
+/// The crank reverses at t = 0.5 s under a brake of 0.7 N m and, where it counts, a dry force of 20 N on the slider:
+/// these have their sense before and after, and near the reversal any value up to their magnitude.
 #[test]
 fn at_a_reversal_dry_loads_are_in_the_band() {
     let times: Vec<f64> = (0..=200).map(|i| 0.005 * f64::from(i)).collect();
@@ -163,8 +164,8 @@ fn at_a_reversal_dry_loads_are_in_the_band() {
     }
 }
 
-/// The guide locks itself where mu |tan phi| > 1: there is no torque there, but there is a force, and the
-/// other rows have both.
+/// The guide is self-locking where mu |tan phi| > 1: there the torque is empty but not the force, and the other rows
+/// have both.
 #[test]
 fn where_a_guide_locks_itself_the_torque_is_empty() {
     let times: Vec<f64> = (0..200).map(|i| 0.005 * f64::from(i)).collect();
@@ -194,7 +195,8 @@ fn where_a_guide_locks_itself_the_torque_is_empty() {
     assert!(said.contains(&format!("at {locked} samples")), "{said}");
 }
 
-/// The rod presses the slider into the guide at 45° and more, and mu = 1.2: no torque on the crank keeps it moving.
+/// The rod presses the slider into the guide at 45° and more, and mu = 1.2: no torque on the crank keeps the slider
+/// moving.
 #[test]
 fn a_guide_that_locks_itself_is_refused() {
     let times: Vec<f64> = (0..50).map(|i| 0.01 * f64::from(i)).collect();
@@ -211,7 +213,7 @@ fn a_guide_that_locks_itself_is_refused() {
 proptest! {
     #![proptest_config(cases(60))]
 
-    /// Force and torque are those with which Newton's and Euler's equations have the measured acceleration.
+    /// Force and torque give the measured acceleration in the Newton-Euler equations.
     #[test]
     fn newton_and_euler_agree(
         geometry in rotating_crank(0.3),
@@ -247,7 +249,7 @@ proptest! {
         let direction = (dx * row.omega).signum();
         if let Some(force) = row.slider_force {
             let friction = -mu * direction * {
-                // The whole force along the guide from the acceleration, which is linear in it.
+                // The acceleration is linear in the whole force along the guide.
                 let (a, b) = (with(0.0, 0.0), with(0.0, 1.0));
                 let along = (row.alpha - a[0]) / (b[0] - a[0]);
                 with(0.0, along)[1].abs()
@@ -257,7 +259,7 @@ proptest! {
             prop_assert!((friction + mu * direction * normal.abs()).abs() < 1e-6 * (1e-3 + friction.abs()));
         }
         // Acceleration and normal force are linear in torque and friction: with the torque of the row, the friction
-        // that gives the acceleration has to be that of the normal force.
+        // that gives the acceleration must be that of the normal force.
         let Some(torque) = row.crank_torque else {
             return Ok(());
         };

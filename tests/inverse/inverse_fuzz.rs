@@ -1,5 +1,5 @@
-//! Random mechanisms, motions and files through the inversion: right within the band or said to be in doubt; damaged files
-//! are refused with their place or read right.
+//! Inversion of random mechanisms, motions and files: the result is right within the band or stated to be in doubt;
+//! damaged files are refused with the place or read correctly.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
@@ -12,14 +12,14 @@ use proptest::prelude::*;
 use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Crank, Gravity, Measured, Measurement, Reading, Rod, Scene, Slider};
 
-/// θ(t) = start + speed (1 − exp(−slowing t))/slowing + swing sin(rate t), sampled from 0 to `end`.
+/// Motion θ(t) = start + speed (1 − exp(−slowing t))/slowing + swing sin(rate t), sampled from 0 to `end`.
 #[derive(Clone, Copy, Debug)]
 struct Formula {
     start: f64,
     speed: f64,
     swing: f64,
     rate: f64,
-    /// 1/s; negative where the crank gets faster.
+    /// Decay rate, 1/s; negative where the crank gets faster.
     slowing: f64,
     end: f64,
 }
@@ -46,7 +46,7 @@ fn formula() -> impl Strategy<Value = Formula> {
     let start = -3.0..3.0;
     let steady = Just(0.0);
     prop_oneof![
-        // Several turns either way, unevenly.
+        // Several turns in either sense, unsteady.
         (
             start.clone(),
             signed(8.0, 30.0),
@@ -54,9 +54,9 @@ fn formula() -> impl Strategy<Value = Formula> {
             3.0..12.0,
             steady
         ),
-        // Swings, with or without passing dead centres.
+        // Swings, with dead centres passed or not.
         (start.clone(), steady, signed(0.3, 3.0), 4.0..9.0, steady),
-        // Coming to rest, and running up, by a factor of up to a hundred.
+        // Run-down and run-up, by a factor of up to a hundred.
         (start.clone(), signed(20.0, 70.0), steady, steady, 1.5..4.5),
         (start, signed(1.0, 3.0), steady, steady, -3.5..-1.0),
     ]
@@ -92,7 +92,8 @@ fn scene(geometry: slider_crank::scene::Geometry, motion: &Formula) -> Scene {
     scene
 }
 
-/// The slider force that gives the acceleration of a motion, by Newton's and Euler's equations, which are linear in it.
+/// Returns the slider force that gives the acceleration of a motion, by the Newton-Euler equations, which are linear in
+/// it.
 fn force(scene: &Scene, [theta, omega, alpha]: [f64; 3]) -> f64 {
     let parts = Parts::new(scene, theta);
     let with = |force: f64| parts.solve(omega, 0.0, force).0;
@@ -166,7 +167,7 @@ impl Style {
     }
 }
 
-/// Whatever comes out is a number or empty.
+/// Checks that every result is finite or empty.
 fn all_finite(found: &Inverse) {
     for row in &found.rows {
         let numbers = [
@@ -218,7 +219,7 @@ proptest! {
         let options = InverseOptions { fit: FitKind::Smoother, ..InverseOptions::default() };
         let found = match inverse(&scene, &read, &options) {
             Ok(found) => found,
-            // What cannot be told is refused, with what would help.
+            // Undecidable motions are refused, with advice.
             Err(refused) => {
                 prop_assert!(measured != Measured::Theta && refused.to_string().contains("help:"), "{}", refused);
                 return Ok(());
@@ -278,7 +279,7 @@ proptest! {
     }
 }
 
-/// One kind of damage.
+/// Applies one kind of damage.
 fn break_one(bytes: &mut Vec<u8>, kind: usize, place: prop::sample::Index, byte: u8) {
     if bytes.is_empty() {
         return;
@@ -313,7 +314,7 @@ fn break_one(bytes: &mut Vec<u8>, kind: usize, place: prop::sample::Index, byte:
         7 => insert(bytes, &[0, byte]),
         8 => insert(bytes, &[0xff, byte | 0x80]),
         _ => {
-            // A line twice.
+            // Duplicate a line.
             let start = bytes[..at]
                 .iter()
                 .rposition(|b| *b == b'\n')

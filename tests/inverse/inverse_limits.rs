@@ -1,4 +1,4 @@
-//! Measured motions of cranks that cannot turn fully, near their limits and past them: the force is inside its band, left
+//! Measured motions of cranks that cannot turn fully, near their limits and past them: the force is inside its band or
 //! empty, or the motion is refused.
 
 use std::f64::consts::{PI, TAU};
@@ -15,7 +15,7 @@ const CRANK: f64 = 0.05;
 const INERTIA: f64 = 2e-3;
 const MASS: f64 = 0.4;
 
-/// Crank with inertia and slider, with a massless rod.
+/// Returns a crank with inertia and a slider, joined by a massless rod.
 fn rocker(rod: f64, offset: f64, branch: Branch) -> Scene {
     Scene::new(CRANK, rod)
         .offset(offset)
@@ -28,8 +28,8 @@ fn rocker(rod: f64, offset: f64, branch: Branch) -> Scene {
         .gravity(Gravity::standard())
 }
 
-/// One sample: crank angle, slider position, angle at the crank pin; the slider force of the crank and slider by Newton:
-/// force − m x'' goes through the rod, whose moment about O turns the crank.
+/// Sample: crank angle, slider position, angle at the crank pin, and the slider force by Newton's law: force − m x''
+/// acts through the rod, whose moment about O accelerates the crank.
 struct Sample {
     theta: f64,
     x: f64,
@@ -37,7 +37,7 @@ struct Sample {
     force: f64,
 }
 
-/// The position with the rod at angle φ from the guide, for a rod that turns through φ = 90°: cos θ > 0.
+/// Returns the position with the rod at angle φ from the guide, for a rod that passes φ = 90°: cos θ > 0.
 fn place(scene: &Scene, phi: f64) -> [f64; 2] {
     let (r, l, e) = (
         scene.geometry.crank,
@@ -48,7 +48,7 @@ fn place(scene: &Scene, phi: f64) -> [f64; 2] {
     [theta, r * theta.cos() + l * phi.cos()]
 }
 
-/// A motion of the rod, φ(t), with derivatives by central differences of fourth order.
+/// Samples a motion φ(t) of the rod, with derivatives by central differences of fourth order.
 fn sample(scene: &Scene, phi: &dyn Fn(f64) -> f64, t: f64) -> Sample {
     let h = 2e-4;
     let at = |k: f64| place(scene, phi(t + k * h));
@@ -63,7 +63,7 @@ fn sample(scene: &Scene, phi: &dyn Fn(f64) -> f64, t: f64) -> Sample {
         (x - ax) / scene.geometry.rod,
         (-e - ay) / scene.geometry.rod,
     );
-    // The rod pulls the crank pin along u with the tension T and the slider back: J alpha = T (a × u), m x'' = F − T u_x.
+    // The rod pulls the crank pin along u with tension T, and the slider back: J alpha = T (a × u), m x'' = F − T u_x.
     let tension = INERTIA * alpha / (ax * uy - ay * ux);
     let (px, py) = (x - ax, -e - ay);
     Sample {
@@ -74,16 +74,16 @@ fn sample(scene: &Scene, phi: &dyn Fn(f64) -> f64, t: f64) -> Sample {
     }
 }
 
-/// What became of a measurement.
+/// Outcome of an inversion.
 #[derive(Debug, PartialEq)]
 enum Outcome {
     Refused(String),
-    /// Given with a warning that the motion is not explained, or another than the scene's.
+    /// Result with a warning that the motion is unexplained or contradicts the scene.
     Warned,
     Given(Given),
 }
 
-/// Rows with a force, of them inside the band, and all rows; the first two where cos φ is below 0.3.
+/// Counts of rows with a force, of those inside the band, and of all rows; the first two also for cos φ below 0.3.
 #[derive(Debug, Default, PartialEq)]
 struct Given {
     rows: usize,
@@ -156,7 +156,7 @@ fn invert(
 
 const ALL: [Measured; 3] = [Measured::Theta, Measured::X, Measured::Gamma];
 
-/// The rod swings about `middle` by `swing`, both in rad; on the left branch the same mirrored.
+/// Runs a rod that swings about `middle` by `swing`, both in rad, and its mirror image on the left branch.
 fn runs(middle: f64, swing: f64, noise: f64, draws: u32) -> Vec<(Measured, f64, Outcome)> {
     let times: Vec<f64> = (0..400).map(|i| 0.7 * f64::from(i) / 399.0).collect();
     let mut random = Random(88_172_645_463_325_252);
@@ -182,7 +182,7 @@ fn runs(middle: f64, swing: f64, noise: f64, draws: u32) -> Vec<(Measured, f64, 
     outcomes
 }
 
-/// The formulas of the tests against those of the mechanism.
+/// The formulas of this test agree with those of the mechanism.
 #[test]
 fn the_reference_lies_on_the_branch() {
     for (branch, phi) in [(Branch::Right, 1.2), (Branch::Left, PI - 1.2)] {
@@ -214,8 +214,8 @@ fn motions_that_pass_a_limit_are_refused() {
     }
 }
 
-/// Turning back at distances from the limit that the noise may or may not cover: the band covers the force, near the
-/// limit as well.
+/// Reversals at distances from the limit that the noise may or may not cover: the band covers the force, also near the
+/// limit.
 #[test]
 fn motions_that_turn_back_before_a_limit_are_inside_their_bands() {
     for noise in [1e-6, 1e-5, 1e-4] {
@@ -252,7 +252,7 @@ fn motions_that_turn_back_before_a_limit_are_inside_their_bands() {
     }
 }
 
-/// Forward runs under a known force, some of them past a limit: what is given is inside its band.
+/// Forward runs under a known force, some of them past a limit: every given force is inside its band.
 #[test]
 fn forward_runs_of_rockers_give_back_their_force_or_are_refused() {
     let mut random = Random(88_172_645_463_325_252);
@@ -280,7 +280,7 @@ fn forward_runs_of_rockers_give_back_their_force_or_are_refused() {
         let limit = run.summary.events.iter().any(|e| e.kind == "limit");
         let linkage = Linkage::new(&free.geometry);
         let times: Vec<f64> = (0..300).map(|i| 0.35 * f64::from(i) / 299.0).collect();
-        // Beyond a limit only the crank angle is known here.
+        // Beyond a limit only the crank angle is available here.
         let measured = if limit { Measured::Theta } else { measured };
         let samples: Vec<Sample> = times
             .iter()

@@ -1,4 +1,5 @@
-//! Records so long that stretches of them stand for all: what varies more slowly than a stretch lasts is found all the same.
+//! Records so long that their noise is estimated from segments: variations slower than a segment are found
+//! nevertheless.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +8,8 @@ use slider_crank::scene::{Crank, Measured, Measurement, Scene};
 
 use super::noise::Random;
 
-/// A flywheel whose speed rises and falls by 0.1 of 60 rad/s over 100 s: its torque is I θ̈, and the noise of the samples is known.
+/// Flywheel whose speed of 60 rad/s varies by ±0.1 rad/s with a period of 100 s: its torque is I θ̈, and the sample
+/// noise is known.
 #[test]
 fn a_slow_wave_of_the_speed_is_not_taken_for_noise() {
     const INERTIA: f64 = 0.02;

@@ -1,15 +1,15 @@
-//! Rows of plain numbers are read in pieces side by side: the samples and the messages must be those of the whole text.
+//! Rows of plain numbers are read in parallel pieces: samples and messages must equal those of reading the whole text.
 
 use std::path::Path;
 
 use slider_crank::scene::{Measurement, Problems, Reading};
 
-/// How a file is written.
+/// Style of a file.
 #[derive(Clone, Copy, Debug)]
 struct Style {
     delimiter: &'static str,
     end: &'static str,
-    /// What stands between rows now and then.
+    /// Text between some of the rows.
     between: &'static str,
     pad: &'static str,
     more: &'static str,
@@ -23,7 +23,7 @@ const PLAIN: Style = Style {
     more: "",
 };
 
-/// More than some pieces of text.
+/// Number of rows, enough for several pieces of text.
 const ROWS: usize = 60_000;
 
 fn numbers(row: usize) -> [String; 2] {
@@ -91,7 +91,7 @@ fn samples_are_those_of_the_whole_text() {
     ];
     for style in styles {
         let plain = read(text(&style, |_, value| value.to_owned())).expect("numbers");
-        // A quote makes it a file that is read as a whole.
+        // A quote makes the reader take the file as a whole.
         let quoted = |row, value: &str| match row {
             40_000 => format!("\"{value}\""),
             _ => value.to_owned(),
@@ -129,7 +129,7 @@ fn a_wrong_row_among_many_is_found() {
     }
 }
 
-/// Five digits of numbers from 0.1 to 1000: fewer decimals the larger they are, and none where they would be zeros.
+/// Five significant digits from 0.1 to 1000: larger numbers have fewer decimals, and trailing zeros are omitted.
 #[test]
 fn digits_are_those_of_values_of_each_size() {
     let digits = |row: usize| {
@@ -142,11 +142,11 @@ fn digits_are_those_of_values_of_each_size() {
         }
     };
     let found = read(text(&PLAIN, |row, _| digits(row))).expect("numbers");
-    // A quarter of them each to 1e-5, 1e-4, 1e-3 and 1e-2.
+    // A quarter of the rows each have the resolution 1e-5, 1e-4, 1e-3 and 1e-2.
     let squares: f64 = (2..6).map(|k| 100f64.powi(-k)).sum();
     let expected = (squares / 4.0).sqrt();
     assert!((found.resolution() / expected - 1.0).abs() < 1e-3);
-    // All to as many decimals, but for zeros at the end.
+    // Equal numbers of decimals, except for trailing zeros.
     let plain = |row: usize| (2.0 + 1e-4 * row as f64).to_string();
     let found = read(text(&PLAIN, |row, _| {
         plain(row)[..6.min(plain(row).len())].to_owned()

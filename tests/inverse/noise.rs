@@ -1,12 +1,12 @@
-//! Noise on measurements, the same in every run.
+//! Reproducible noise for measurements.
 
 use std::f64::consts::TAU;
 
-/// Evenly spread and normal numbers (xorshift, Box and Muller).
+/// Generator of uniform and normal numbers (xorshift, Box-Muller).
 pub struct Random(pub u64);
 
 impl Random {
-    /// From 0 to below 1.
+    /// Returns a uniform number from 0 to below 1.
     pub fn even(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
@@ -14,7 +14,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Of mean 0 and variance 1.
+    /// Returns a normal number of mean 0 and variance 1.
     pub fn normal(&mut self) -> f64 {
         (-2.0 * (1.0 - self.even()).ln()).sqrt() * (TAU * self.even()).cos()
     }

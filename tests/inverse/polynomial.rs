@@ -1,8 +1,8 @@
-//! Least-squares polynomials against certified values and exactly known answers.
+//! Least-squares polynomials compared with certified values and exactly known answers.
 
 use slider_crank::numeric::polynomial_fit::{Equations, PolynomialFit, TooFewArguments};
 
-/// Correct digits.
+/// Returns the number of correct digits.
 fn digits(found: f64, exact: f64) -> f64 {
     if found == exact {
         return 17.0;
@@ -19,7 +19,7 @@ fn equations<'a>(t: &'a [f64], target: &'a [f64], floor: f64) -> Equations<'a> {
     }
 }
 
-/// Rows of numbers below a header.
+/// Returns the rows of numbers below a header.
 fn table(text: &str) -> Vec<Vec<f64>> {
     let row = |line: &str| line.split(',').map(|v| v.trim().parse().unwrap()).collect();
     text.lines()
@@ -29,8 +29,8 @@ fn table(text: &str) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// The polynomial problems of the Statistical Reference Datasets of NIST (public domain), data and certified values, with
-/// the digits that the data, rounded to floats, hold.
+/// Polynomial problems of the Statistical Reference Datasets of NIST (public domain), with data, certified values, and
+/// the digits that the data, rounded to floats, determine.
 #[test]
 fn reference_datasets() {
     macro_rules! set {
@@ -74,7 +74,7 @@ fn reference_datasets() {
     }
 }
 
-/// The record of Duarte et al. as they print its polynomial.
+/// Record of Duarte et al. from their printed polynomial.
 #[test]
 fn printed_record() {
     let printed = [0.0649, 0.522, 2.166, -2.129, 0.472];
@@ -95,7 +95,7 @@ fn printed_record() {
     }
 }
 
-/// Noise of unit variance from a linear congruence (Knuth's MMIX) and the sum of twelve.
+/// Returns noise of unit variance as sums of twelve numbers of a linear congruential generator (Knuth's MMIX).
 fn noise(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed;
     let mut uniform = || {
@@ -109,8 +109,8 @@ fn noise(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// With 0.8 degrees of noise the chosen degree is mostly that of the motion, and the bands of the polynomial and of both its
-/// derivatives hold.
+/// With 0.8 degrees of noise the chosen degree is mostly that of the motion, and the bands cover the polynomial and its
+/// first two derivatives.
 #[test]
 fn noisy_record() {
     const RECORDS: usize = 600;
@@ -156,7 +156,7 @@ fn noisy_record() {
     }
 }
 
-/// A polynomial of degree 10 whose powers are ill-conditioned (10^14): (t + 5)^10, its coefficients and both derivatives.
+/// Polynomial of degree 10 with ill-conditioned powers (10^14): (t + 5)^10, its coefficients and both derivatives.
 #[test]
 fn ten_binomial_coefficients_and_derivatives() {
     let t: Vec<f64> = (0..23).map(|i| -8.5 + 0.25 * f64::from(i)).collect();
@@ -186,7 +186,7 @@ fn ten_binomial_coefficients_and_derivatives() {
     }
 }
 
-/// Weights and targets of a curved measurement, and arguments that are too few.
+/// Weights and targets of a nonlinear measurement, and too few arguments.
 #[test]
 fn weights_and_refusals() {
     let t: Vec<f64> = (0..9).map(f64::from).collect();

@@ -1,6 +1,6 @@
-//! The inverse with its default options on simulated records of many kinds of motion and sensor: how close it comes to the
-//! force that acted, beside a smoother without mechanics, and how often its band covers that force. The records come from
-//! equations of this file, integrated by Runge and Kutta's method.
+//! Inverse with default options on simulated records of many kinds of motion and sensor: the error of the force
+//! relative to a smoother without mechanics, and the coverage of the band. The records come from independent equations,
+//! integrated by the Runge-Kutta method.
 
 use std::f64::consts::TAU;
 
@@ -13,9 +13,9 @@ use super::white_snap::white_snap;
 const CRANK: f64 = 0.05;
 const ROD: f64 = 0.15;
 const OFFSET: f64 = 0.008;
-/// kg m²
+/// Crank inertia, kg m².
 const INERTIA: f64 = 0.02;
-/// kg
+/// Slider mass, kg.
 const MASS: f64 = 1.5;
 
 fn scene(motion: &Motion, stretch: f64) -> Scene {
@@ -29,7 +29,7 @@ fn scene(motion: &Motion, stretch: f64) -> Scene {
     scene.start(motion.start[0], motion.start[1])
 }
 
-/// x and its two derivatives with respect to the crank angle.
+/// Returns x and its two derivatives with respect to the crank angle.
 fn position(theta: f64) -> [f64; 3] {
     let (sin, cos) = theta.sin_cos();
     let height = OFFSET + CRANK * sin;
@@ -43,13 +43,13 @@ fn position(theta: f64) -> [f64; 3] {
     ]
 }
 
-/// Torque that the motion needs: M θ̈ + ½ M′ ω².
+/// Returns the torque that the motion needs: M θ̈ + ½ M′ ω².
 fn needed([theta, omega, alpha]: [f64; 3]) -> f64 {
     let [_, x1, x2] = position(theta);
     (INERTIA + MASS * x1 * x1) * alpha + MASS * x1 * x2 * omega * omega
 }
 
-/// A motion: start, end, rows, and the torque that acts.
+/// Motion: start, end, rows, and the applied torque.
 struct Motion {
     name: &'static str,
     start: [f64; 2],
@@ -107,7 +107,7 @@ const STOP_AND_GO: Motion = Motion {
     torque: |t, theta, omega| needed([theta, omega, moved(t)]),
 };
 
-/// θ̈ of moves by a cycloidal law, with stays at rest between them.
+/// Returns θ̈ of cycloidal moves with stays at rest between them.
 fn moved(t: f64) -> f64 {
     let moves = [(0.2, 0.5, 2.4), (1.0, 0.3, -1.1), (1.6, 0.9, 7.0)];
     let of = |(begin, lasts, way): &(f64, f64, f64)| {
@@ -118,14 +118,14 @@ fn moved(t: f64) -> f64 {
     moves.iter().map(of).sum()
 }
 
-/// Times and crank angles of a motion with the torque that acts.
+/// Times and crank angles of a motion, with the applied torque.
 struct Truth {
     t: Vec<f64>,
     theta: Vec<f64>,
     torque: Vec<f64>,
 }
 
-/// Steps of the integration from sample to sample.
+/// Integration steps from sample to sample.
 const STEPS: usize = 20;
 
 impl Motion {
@@ -166,24 +166,24 @@ impl Motion {
     }
 }
 
-/// How a motion is measured.
+/// Kind of measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sensor {
-    /// θ with noise, rad.
+    /// θ with noise of this standard deviation, rad.
     Angle(f64),
-    /// With a hundredth of outliers of 0.2 rad.
+    /// θ with noise, and outliers of 0.2 rad in a hundredth of the rows.
     Outliers(f64),
-    /// Without a fiftieth of the rows in one piece.
+    /// θ with noise, and a gap of a fiftieth of the rows.
     Gap(f64),
-    /// Correlation 0.9 of each error with the next.
+    /// θ with noise of correlation 0.9 from sample to sample.
     Correlated(f64),
-    /// Steps in a turn.
+    /// Encoder with this number of steps in a turn.
     Encoder(f64),
-    /// x with noise in cranks; the lengths of the scene are stretched.
+    /// x with noise in crank lengths; the lengths of the scene are stretched.
     AngleModel(f64, f64),
 }
 
-/// A record: what is measured, values at times, the rows of the truth, and whether each row is sound.
+/// Record: column, values at times, the corresponding rows of the truth, and whether each row is sound.
 struct Record {
     rows: Vec<usize>,
     t: Vec<f64>,
@@ -225,10 +225,10 @@ fn measure(truth: &Truth, sensor: Sensor, random: &mut Random) -> Record {
     }
 }
 
-/// Least lever arm, in cranks, of rows that are judged.
+/// Least lever arm of the rows under test, in crank lengths.
 const ARM: f64 = 0.3;
 
-/// Root mean square error of the force of some rows, and the share of them that the band covers.
+/// Returns the root mean square error of the force of some rows, and the fraction of them that the band covers.
 fn judge(truth: &Truth, record: &Record, found: &Inverse) -> [f64; 2] {
     let (mut squares, mut covered, mut count) = (0.0, 0, 0);
     for (row, out) in record.rows.iter().zip(&found.rows) {
@@ -250,7 +250,7 @@ fn judge(truth: &Truth, record: &Record, found: &Inverse) -> [f64; 2] {
     ]
 }
 
-/// The error of the force by the smoother without mechanics, which leaves out what is not sound.
+/// Returns the error of the force by the smoother without mechanics, which omits the unsound rows.
 fn plain(truth: &Truth, record: &Record, sound: &[bool]) -> f64 {
     let states = white_snap(&record.t, &record.values, sound);
     let errors = record
@@ -297,8 +297,8 @@ fn crank_angles_of_many_kinds() {
             let record = measure(&truth, sensor, &mut random);
             let found = found(motion, &record, 1.0);
             let [error, covered] = judge(&truth, &record, &found);
-            // The mean is over comparisons with one that is told the outliers; each record is compared with one that knows
-            // as little as the inverse.
+            // For the mean, the reference smoother is told the outliers; for each record, it knows as little as the
+            // inverse.
             let ratio = error / plain(&truth, &record, &record.sound);
             let alike = error / plain(&truth, &record, &vec![true; record.t.len()]);
             report += &format!(
@@ -326,7 +326,7 @@ fn crank_angles_of_many_kinds() {
     assert!((0.92..0.995).contains(&mean(&shares)), "{report}");
 }
 
-/// Moves with stays between them: the intensity of the noise of the process is not the same everywhere.
+/// Moves with stays between them: the noise intensity of the process varies along the record.
 #[test]
 fn moves_and_stays_have_intensities_of_their_own() {
     let sensors = [
@@ -351,7 +351,7 @@ fn moves_and_stays_have_intensities_of_their_own() {
     }
 }
 
-/// A polynomial of many turns follows no such motion, and says so.
+/// A polynomial does not follow a motion of many turns, and the result says so.
 #[test]
 fn polynomials_that_do_not_follow_the_motion_say_so() {
     let mut random = Random(0x5eed_0123_4567_89ab);
@@ -375,7 +375,7 @@ fn polynomials_that_do_not_follow_the_motion_say_so() {
     }
 }
 
-/// Positions of the slider, in a scene whose crank is 0.3 % off too: the turns are right and the band holds, or a warning
+/// Slider positions, also with a scene whose crank is 0.3 % off: the turns are right and the band holds, or a warning
 /// names the lengths.
 #[test]
 fn slider_positions() {
@@ -408,8 +408,8 @@ fn slider_positions() {
     assert!(failures.is_empty(), "{failures}");
 }
 
-/// A crank angle and a slider position, each of noise, tell more together than either alone, and the noise of the second is found:
-/// its standard deviation within four of its standard errors σ/√(2n).
+/// Crank angle and slider position, each noisy, together give more than either alone. The noise of the second sensor is
+/// found: its standard deviation within four standard errors σ/√(2n).
 #[test]
 fn two_sensors_tell_more_than_one() {
     let mut random = Random(0x2b99_1204_77aa_1c0d);
@@ -440,7 +440,7 @@ fn two_sensors_tell_more_than_one() {
     assert!(logs.iter().sum::<f64>() < -0.5, "{report}");
 }
 
-/// Of a torque that acts, a known part as a column leaves the force of the rest.
+/// If part of the applied torque is known as a column, the force of the remainder is found.
 #[test]
 fn a_known_torque_leaves_the_force_of_the_rest() {
     let mut random = Random(0x77aa_1c0d_2b99_1204);
@@ -457,13 +457,13 @@ fn a_known_torque_leaves_the_force_of_the_rest() {
             *torque -= known;
         }
         let [error, covered] = judge(&truth, &record, &found);
-        // What is left out would be a force of 3 N m over a lever arm of at most 53 mm.
+        // The omitted part would be a force of 3 N m over a lever arm of at most 53 mm.
         assert!(error < 20.0, "{}: {error} N", motion.name);
         assert!(covered > 0.85, "{}: {covered}", motion.name);
     }
 }
 
-/// A pressure that repeats every turn under a slow loss.
+/// Pressure that repeats every turn, with a slow loss.
 const ENGINE: Motion = Motion {
     name: "engine",
     start: [1.0, 80.0],
@@ -475,8 +475,8 @@ const ENGINE: Motion = Motion {
     },
 };
 
-/// Turns that repeat help each other: over the same rows a record of thirteen turns tells the force better than one of less than
-/// two does. The band covers.
+/// Repeating turns support each other: over the same rows, a record of thirteen turns gives a better force than one of
+/// less than two turns. The band covers.
 #[test]
 fn turns_that_repeat_help_each_other() {
     let mut random = Random(0x1c0d_2b99_1204_77aa);
@@ -504,15 +504,15 @@ fn turns_that_repeat_help_each_other() {
     }
 }
 
-/// The mean cycle of an engine is that of the force that acted: its band covers the mean of the true forces at nine of ten
-/// degrees, and the scatter from cycle to cycle of a torque of which every turn has its own part is that part's.
+/// Mean cycle of an engine: its band covers the mean of the true forces at nine of ten degrees. For a torque with an
+/// individual part in every turn, the scatter from cycle to cycle is that of this part.
 #[test]
 fn the_mean_cycle_covers_the_mean_of_the_cycles() {
     let mut random = Random(0x99aa_1c0d_2b77_1204);
     let varied = Motion {
         torque: |t, theta, omega| {
             let turn = (theta / TAU).floor();
-            // Turns differ by ±20 %, in no order.
+            // The turns differ by up to ±20 %, irregularly.
             let size = 1.0 + 0.2 * (37.0 * turn).sin();
             size * (ENGINE.torque)(t, theta, 0.0) - 0.025 * omega
         },
@@ -557,7 +557,7 @@ fn the_mean_cycle_covers_the_mean_of_the_cycles() {
     }
 }
 
-/// A record of a hundred turns whose noise is known by stretches of it has a force at every row, and its band covers.
+/// A record of a hundred turns, whose noise is estimated from segments, has a force at every row, and its band covers.
 #[test]
 fn long_records_of_what_repeats_have_a_force() {
     let mut random = Random(0x2b77_1204_99aa_1c0d);

@@ -5,7 +5,7 @@ use std::path::Path;
 use slider_crank::inverse::{Inverse, InverseOptions, inverse, inverse_of_uncertain};
 use slider_crank::scene::{Draft, Measured, Measurement};
 
-/// A press whose rod and slider are known to a standard error.
+/// Returns a press with standard errors of the rod length and the slider mass.
 fn scene(rod: &str, mass: &str) -> Draft {
     let text = format!(
         "[geometry]\ncrank = \"50 mm\"\nrod = \"{rod}\"\noffset = \"8 mm\"\n[slider]\nmass = \"{mass}\"\n\
@@ -15,7 +15,7 @@ fn scene(rod: &str, mass: &str) -> Draft {
     Draft::new(Path::new("press.toml"), text)
 }
 
-/// Crank angles of θ = 0.3 + 10 t + 0.2 sin 6t with errors of 1e-4 rad that a sine without common period makes.
+/// Samples θ = 0.3 + 10 t + 0.2 sin 6t with errors of 1e-4 rad from an aperiodic sine.
 fn motion() -> Measurement {
     let times: Vec<f64> = (0..400).map(|i| 0.004 * f64::from(i)).collect();
     let angle = |(i, t): (usize, &f64)| {
@@ -30,8 +30,8 @@ fn forces(found: &Inverse) -> Vec<Option<f64>> {
     found.rows.iter().map(|row| row.slider_force).collect()
 }
 
-/// Half the difference of the forces that the whole computation gives with the value a standard error higher and lower is the
-/// error that the budget has, and what the variance of each row grows by.
+/// Half the difference of the forces with a value one standard error higher and lower equals the error in the budget,
+/// and accounts for the increase of the variance of each row.
 #[test]
 fn errors_of_the_scene_are_those_of_the_computation_with_other_values() {
     let options = InverseOptions::default();
@@ -79,7 +79,7 @@ fn errors_of_the_scene_are_those_of_the_computation_with_other_values() {
             "{key}: {part:?}, {expected}"
         );
     }
-    // The torque of the scene enters as it is, over the lever arm.
+    // The error of the torque in the scene enters directly, divided by the lever arm.
     for (row, variance) in found.rows.iter().zip(variances) {
         let alone = base
             .rows

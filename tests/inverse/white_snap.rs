@@ -1,10 +1,10 @@
-//! The smoother to compare with: a Kalman filter and smoother whose fourth derivative is white noise, which is the
-//! smoothing spline of degree 7 (Wahba, J. R. Statist. Soc. B 40 (1978) 364), its two variances by maximum likelihood.
+//! Smoother for comparison: a Kalman filter and smoother whose fourth derivative is white noise, that is the smoothing
+//! spline of degree 7 (Wahba, J. R. Statist. Soc. B 40 (1978) 364), with both variances by maximum likelihood.
 
 type State = [f64; 4];
 type Square = [[f64; 4]; 4];
 
-/// Angle, speed and acceleration at each time, from angles that are known (weight 1) or not (0).
+/// Returns angle, speed and acceleration at each time, from angles that are known (weight 1) or not (0).
 pub fn white_snap(t: &[f64], y: &[f64], known: &[bool]) -> Vec<[f64; 3]> {
     let step = (t[t.len() - 1] - t[0]) / (t.len() - 1) as f64;
     let scaled: Vec<f64> = t.iter().map(|time| (time - t[0]) / step).collect();
@@ -29,7 +29,7 @@ struct Record<'a> {
     known: &'a [bool],
 }
 
-/// A sample in the filter: prediction, its covariance, and the error of prediction with its variance.
+/// Sample in the filter: prediction with its covariance, and prediction error with its variance.
 struct Step {
     transition: Square,
     mean: State,
@@ -99,7 +99,7 @@ impl Record<'_> {
         steps
     }
 
-    /// −2 ln of the likelihood but for a constant, the variance of the noise at its likeliest.
+    /// Returns −2 ln of the likelihood up to a constant, with the variance of the noise at its likeliest value.
     fn cost(&self, density: f64) -> f64 {
         let steps = self.filtered(density);
         let errors: Vec<(f64, f64)> = steps.iter().skip(8).filter_map(|step| step.error).collect();
@@ -108,7 +108,7 @@ impl Record<'_> {
         logs + errors.len() as f64 * squares.ln()
     }
 
-    /// De Jong's smoother (J. Am. Statist. Assoc. 84 (1989) 1085).
+    /// Smooths by de Jong's method (J. Am. Statist. Assoc. 84 (1989) 1085).
     fn smoothed(&self, density: f64) -> Vec<State> {
         let steps = self.filtered(density);
         let mut adjoint = [0.0; 4];

@@ -1,5 +1,5 @@
-//! Sizing from a stroke, mass properties, equivalent masses, first-order motion, loop closure by iteration:
-//! against exact relations and against numbers computed in 40 digits outside this library.
+//! Sizing from a stroke, mass properties, equivalent masses, first-order motion, iterative loop closure: compared with
+//! exact relations and with numbers computed in 40 digits by other software.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,7 +12,7 @@ use slider_crank::scene::{Branch, Crank, Rod, Scene, Slider};
 proptest! {
     #![proptest_config(cases(3000))]
 
-    /// The stroke of a mechanism leads back to one with that stroke, ratio and offset.
+    /// Sizing from the stroke of a mechanism gives one with this stroke, ratio and offset.
     #[test]
     fn a_size_from_the_stroke_has_that_stroke(g in rotating_crank(1e-3)) {
         let stroke = Limits::new(&Linkage::new(&g), 0.0).stroke;
@@ -21,7 +21,7 @@ proptest! {
         close("ratio", rod / crank, ratio, ratio, 1e-15);
         let sized = Linkage::new(&geometry(crank, rod, g.offset, g.branch));
         prop_assert!(sized.margin() > 0.0);
-        // The stroke is steep where the crank hardly turns fully.
+        // The stroke is sensitive where the crank barely turns fully.
         let steep = (sized.r / sized.margin()).sqrt() * (1.0 + ratio);
         close("stroke", Limits::new(&sized, 0.0).stroke, stroke, stroke * steep, 1e-14);
         prop_assert!(crank >= g.crank * (1.0 - 1e-6), "the longer crank: {} {}", crank, g.crank);
@@ -32,7 +32,7 @@ proptest! {
         r in magnitude(0.01, 1.0), e in -1.0..1.0, theta in -7.0..7.0, left in any::<bool>(),
     ) {
         let branch = if left { Branch::Left } else { Branch::Right };
-        // The next order is of the size of 1/l², so ten times the rod leaves a hundredth or less.
+        // The next order is proportional to 1/l², so that ten times the rod leaves a hundredth or less.
         let rest = |l: f64| {
             let linkage = Linkage::new(&geometry(r, l, e * r, branch));
             let (pose, first) = (linkage.pose(theta), linkage.first_order(theta));
@@ -66,7 +66,8 @@ proptest! {
     }
 }
 
-/// Obaseki & Alfred (49): the stroke is twice the crank without offset, and 80 mm ask for 36 mm with 20 mm.
+/// Obaseki & Alfred (49): without offset the stroke is twice the crank; with 20 mm offset, a stroke of 80 mm needs 36
+/// mm.
 #[test]
 fn sizing_of_obaseki_and_alfred() {
     let (crank, rod) = size_from_stroke(0.08, 1.6, 0.0).unwrap();
@@ -149,7 +150,8 @@ fn mass_properties_of_gupta() {
         1e-12,
     );
     for (length, printed) in [(140.0, 0.76547), (310.0, 1.56107)] {
-        // Ever more corners approach a rectangle with two halves of a disc, whose centres lie 4r/(3 pi) further out.
+        // With more corners the shape approaches a rectangle with two half discs, whose centroids lie 4r/(3 pi) further
+        // out.
         let (l, r) = (length * mm, 15.0 * mm);
         let (bar, disc) = (2.0 * r * l, PI * r * r);
         let centre = 4.0 * r / (3.0 * PI);
@@ -197,7 +199,7 @@ fn equivalent_masses_of_obaseki_and_alfred() {
     }
 }
 
-/// Gupta's code: from 180 degrees 2 to 4 steps for every one of 200 angles, always the right branch.
+/// Gupta's code: from 180 degrees, 2 to 4 iterations for each of 200 angles, always to the right branch.
 #[test]
 fn newton_raphson_of_gupta() {
     let linkage = Linkage::new(&geometry(0.14, 0.31, 0.06, Branch::Right));

@@ -1,4 +1,5 @@
-//! Diagrams of a cycle against closed forms: with a rod a million cranks long x = r cos θ + l, and all is harmonic.
+//! Diagrams of a cycle compared with closed forms: with a rod a million cranks long x = r cos θ + l, and all is
+//! harmonic.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
@@ -9,7 +10,7 @@ use slider_crank::scene::Scene;
 const CRANK: f64 = 0.05;
 const SPEED: f64 = 40.0;
 
-/// Harmonic to this part.
+/// Relative deviation from the harmonic limit.
 const CLOSE: f64 = 1e-5;
 
 fn diagrams(bodies: &str, balance: f64) -> Diagrams {
@@ -69,7 +70,7 @@ fn half_of_a_reciprocating_mass_leaves_half_of_its_force_turning_back() {
     }
 }
 
-/// T = -m r² ω² sin θ cos θ: four areas a turn of m r² ω² / 2 each, nothing but the second order.
+/// T = -m r² ω² sin θ cos θ: four areas per turn of m r² ω² / 2 each, and only the second order.
 #[test]
 fn the_torque_of_a_reciprocating_mass_is_a_wave_of_second_order() {
     let found = diagrams("[slider]\nmass = \"3 kg\"", 0.5);
@@ -101,7 +102,7 @@ fn the_torque_of_a_reciprocating_mass_is_a_wave_of_second_order() {
     }
 }
 
-/// p = P (1 + sin θ): its work is P A r π over a swept volume of 2 A r.
+/// p = P (1 + sin θ): the work is P A r π over a swept volume of 2 A r.
 #[test]
 fn a_pressure_in_quadrature_has_its_mean_effective_pressure() {
     let folder = tempfile::tempdir().expect("a folder");

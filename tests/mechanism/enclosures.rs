@@ -1,11 +1,11 @@
-//! Ranges of positions hold every position in them, on each kind of configuration curve.
+//! Enclosures of positions contain every position in their interval, on each kind of configuration curve.
 
 use slider_crank::mechanism::{Class, Curve, Limits, Linkage};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::numeric::enclosure::{Interval, Reach};
 use slider_crank::scene::{Branch, Geometry};
 
-/// Crank, rod, offset (m) and start (rad): each kind of curve.
+/// Crank, rod, offset (m) and start angle (rad) for each kind of curve.
 const CURVES: [([f64; 3], f64); 6] = [
     ([0.05, 0.15, 0.01], 0.3),
     ([0.15, 0.05, 0.01], 0.2),

@@ -1,4 +1,4 @@
-//! Crank angles read back from what is measured in their stead.
+//! Inverse position: crank angles from other measured quantities.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,17 +7,17 @@ use proptest::prelude::*;
 use slider_crank::mechanism::{InversePosition, Linkage};
 use slider_crank::scene::Geometry;
 
-/// Reading an angle at a dead centre costs half the digits.
+/// Accuracy of the angle, rad: half the digits are lost at a dead centre.
 const ANGLE: f64 = 1e-6;
 
-/// As much of the lengths, or rad, at the limits.
+/// Accuracy of the measured value, relative to the lengths or in rad: half the digits are lost at the limits.
 const VALUE: f64 = 1e-7;
 
 fn turned_back(angle: f64) -> f64 {
     angle - (angle / TAU).round() * TAU
 }
 
-/// The angle is among those found, and all of them show the same.
+/// Checks that the angle is among the solutions, and that all solutions give the measured value.
 fn check(found: &InversePosition, theta: f64, off: impl Fn(f64) -> Option<f64>) {
     let angles = found.angles();
     let nearest = angles

@@ -1,4 +1,4 @@
-//! Forces at constant speed against Newton's and Euler's equations of the single bodies.
+//! Forces at constant speed compared with the Newton-Euler equations of the single bodies.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use slider_crank::scene::{Interpolation, Load, Scene, Slider, Table, Variable, V
 proptest! {
     #![proptest_config(cases(2000))]
 
-    /// The torque of the answer keeps the speed, and every force is that of the bodies' equations.
+    /// The computed torque keeps the speed constant, and every force agrees with the equations of the bodies.
     #[test]
     fn each_force_is_that_of_newton_and_euler(case in case(rotating_crank(0.01)), force in -50.0..50.0) {
         prop_assume!(case.omega.abs() > 0.1);
@@ -32,14 +32,14 @@ proptest! {
         let inertia = parts.all.iter().map(|part| part.inertia().value()).sum::<f64>();
         close("acceleration", alpha * inertia, 0.0, size + m * alpha.abs(), 1e-13);
         let newton = parts.force_size(case.omega, 0.0, linkage.l) + force.abs() / pose.cos_phi;
-        // The rod's axis from crank pin to wrist pin, and the crank's.
+        // Axis of the rod from crank pin to wrist pin, and below that of the crank.
         let [ax, ay] = [linkage.s * pose.cos_phi, -pose.sin_phi];
         let [px, py] = want.wrist_pin;
         close("rod axial", row.rod_axial, -(px * ax + py * ay), newton, 1e-12);
         let [cx, cy] = want.crank_pin;
         close("tangential", row.crank_tangential, cy * pose.cos - cx * pose.sin, newton, 1e-12);
         close("radial", row.crank_radial, cx * pose.cos + cy * pose.sin, newton, 1e-12);
-        // What d'Alembert's forces add up to is the shaking force.
+        // The d'Alembert forces sum to the shaking force.
         let sum = [0, 1].map(|i| row.inertia.crank[i] + row.inertia.rod[i] + if i == 0 { row.inertia.slider } else { 0.0 });
         close("shaking, x", sum[0], want.shaking[0], newton, 1e-12);
         close("shaking, y", sum[1], want.shaking[1], newton, 1e-12);
@@ -71,7 +71,8 @@ fn forces_need_a_speed() {
     assert!(said.contains("speed"), "{said}");
 }
 
-/// A crank alone is driven by what the load takes: from 0 to -2π N m along the rows of a turn, no more in another one.
+/// A crank alone is driven by the torque that its load takes: from 0 to -2π N m over the first turn, which alone
+/// counts.
 #[test]
 fn the_largest_torques_are_those_of_the_rows() {
     let load = Load::function(Variables::THETA, |now| now.theta);
@@ -87,7 +88,8 @@ fn the_largest_torques_are_those_of_the_rows() {
     close("least", least[0].min(least[1]), -TAU, TAU, 1e-15);
 }
 
-/// A light crank takes what a table over two turns gives: from -200 N m at 23.2 deg to 300 N m at 500 deg.
+/// The driving torque of a light crank is that of a table over two turns: from -200 N m at 23.2 deg to 300 N m at 500
+/// deg.
 #[test]
 fn the_largest_torques_are_those_of_all_turns_of_the_cycle() {
     let rows = [
@@ -113,7 +115,7 @@ fn the_largest_torques_are_those_of_all_turns_of_the_cycle() {
         .constant_speed(0.0, 10.0);
     let found = forces(&scene).unwrap();
     assert_eq!(found.cycle_turns, 2);
-    // Of 500 deg: 140 deg in the second turn, inward at this sense of rotation.
+    // 500 deg is 140 deg in the second turn, on the inward stroke in this sense of rotation.
     let inward = found.inward.unwrap();
     close("largest", inward.max.value, 300.0, 300.0, 1e-12);
     close(

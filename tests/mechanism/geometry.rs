@@ -1,4 +1,4 @@
-//! Closed-form geometry against Taylor series of the loop closure, also near the limits.
+//! Closed-form geometry compared with Taylor series of the loop closure, also near the limits.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use slider_crank::mechanism::{Linkage, Path};
 use slider_crank::scene::{Branch, Geometry};
 
-/// Everything in a pose, within `tolerance` of the sizes of the terms it is made of.
+/// Checks everything in a pose to `tolerance` times the sizes of its terms.
 fn check_pose(g: &Geometry, theta: f64, tolerance: f64) {
     let linkage = Linkage::new(g);
     let pose = linkage.pose(theta);
@@ -133,7 +133,8 @@ fn at_a_margin_of_2_to_the_minus_40_no_digit_of_cos_phi_is_lost() {
             for distance in [0.0, 1e-15, 1e-12, 1e-9, 3e-7, 1e-6, 1e-5, 1e-3, 0.1] {
                 for theta in [quarter - distance, quarter + distance] {
                     check_pose(&g, theta, 5e-15);
-                    // l² cos²φ = (l − u)(l + u), l − u = margin + 2 r sin²(d/2), with d from the angle's own digits.
+                    // l² cos²φ = (l − u)(l + u), l − u = margin + 2 r sin²(d/2), with d computed without cancellation
+                    // from the angle.
                     let d = (FRAC_PI_2 - theta.abs()) + 6.123233995736766e-17;
                     let minus = margin + 2.0 * (d / 2.0).sin().powi(2);
                     let w = (minus * (2.0 * g.rod - minus)).sqrt();
@@ -146,7 +147,7 @@ fn at_a_margin_of_2_to_the_minus_40_no_digit_of_cos_phi_is_lost() {
     }
 }
 
-/// l cos φ against its square in 31 digits, for rods and offsets that are much longer than the crank.
+/// Computes l cos φ from its square in 31 digits, for rods and offsets much longer than the crank.
 #[test]
 fn a_large_offset_takes_no_digits_of_the_rods_height() {
     for (ratio, margin) in [(1e3, 1e-3), (1e3, 0.5), (1e6, 1e-3), (1e6, 2.0), (1e9, 0.1)] {

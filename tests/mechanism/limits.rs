@@ -1,5 +1,5 @@
-//! What the lengths alone decide: class, dead centres, stroke, time ratio, reach, least transmission angle,
-//! extremes; each against its definition, and against numbers of the source papers.
+//! Properties of the lengths alone: class, dead centres, stroke, time ratio, reach, least transmission angle, extremes;
+//! each compared with its definition and with numbers of the source papers.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -20,7 +20,7 @@ proptest! {
         let number = if (l - r).abs() > e.abs() { 2 } else { 1 };
         prop_assert_eq!(limits.dead_centres.len(), number);
         prop_assert_eq!(limits.dead_centres.iter().filter(|d| d.outer).count(), 1);
-        // Where the inner dead centre is missing, the slider swings from one outer one to its mirror image.
+        // Without an inner dead centre the slider moves from one outer dead centre to its mirror image.
         let dd = Dd::from;
         let farthest = ((dd(l) + dd(r)) * (dd(l) + dd(r)) - dd(e) * dd(e)).sqrt();
         let nearest = if number == 2 {
@@ -157,8 +157,8 @@ proptest! {
     }
 }
 
-/// The value is that of the derivative of this order, and the next derivative vanishes to within its
-/// rounding and that of the angle.
+/// Checks that an extreme is a value of the derivative of this order, and that the next derivative vanishes up to its
+/// own rounding and that of the angle.
 fn check_extreme(g: &Geometry, order: usize, extreme: &Extreme) {
     assert!((0.0..TAU).contains(&extreme.theta));
     let exact = Exact::new(g, extreme.theta);
@@ -181,7 +181,7 @@ fn check_extreme(g: &Geometry, order: usize, extreme: &Extreme) {
     );
 }
 
-/// A turn in steps of 0.3 degrees, and finer and finer towards ±90°.
+/// Returns a turn in steps of 0.3 degrees, refined towards ±90°.
 fn dense_turn() -> impl Iterator<Item = f64> {
     let near = (0..300).flat_map(|i| {
         let distance = 10f64.powf(-8.0 * f64::from(i) / 300.0);
@@ -289,7 +289,7 @@ fn lengths_typed_in_decimals_on_a_border_are_change_points() {
     assert_eq!(class(0.15 * (1.0 - 1e-13)), Class::DoubleRocker);
 }
 
-/// Where the rod lies along the guide, x' is ± r and extreme.
+/// Where the rod is parallel to the guide, x' is ± r and extreme.
 #[test]
 fn with_offset_equal_to_the_crank_the_speed_is_extreme_where_the_rod_lies_along_the_guide() {
     for branch in [Branch::Right, Branch::Left] {

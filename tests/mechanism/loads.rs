@@ -1,4 +1,4 @@
-//! Loads in motion: those in time keep the order of the method, those without strength leave no trace.
+//! Loads in motion: time-dependent ones preserve the order of the method, and ones of zero strength have no effect.
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{
@@ -11,7 +11,7 @@ const INERTIA: f64 = 0.02;
 const DAMPING: f64 = 0.05;
 const RATE: f64 = 13.0;
 
-/// A crank alone: I θ̈ = sin(RATE t) − DAMPING θ̇, from rest.
+/// Crank alone: I θ̈ = sin(RATE t) − DAMPING θ̇, from rest.
 fn shaken_crank() -> Scene {
     Scene::new(0.05, 0.2)
         .crank(Crank {
@@ -24,7 +24,7 @@ fn shaken_crank() -> Scene {
         .duration(3.0)
 }
 
-/// Its solution: θ̇ = A (k sin wt − w cos wt + w e^(−kt)), k = damping/inertia, A = 1/(I (k² + w²)).
+/// Returns the solution θ̇ = A (k sin wt − w cos wt + w e^(−kt)), k = damping/inertia, A = 1/(I (k² + w²)).
 fn shaken_solution(t: f64) -> (f64, f64) {
     let (k, w) = (DAMPING / INERTIA, RATE);
     let a = 1.0 / (INERTIA * (k * k + w * w));
@@ -74,7 +74,7 @@ fn loads_in_time_reach_the_order_of_the_method() {
 
 #[test]
 fn a_table_over_time_is_followed_through_its_corners() {
-    // Torque rises in a straight line to 1 N m at 0.5 s and falls back to zero at 1 s.
+    // The torque rises linearly to 1 N m at 0.5 s and falls back to zero at 1 s.
     let table = Table::new(
         Variable::T,
         &[0.0, 0.5, 1.0],

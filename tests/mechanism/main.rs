@@ -1,4 +1,4 @@
-//! The equation of motion and its parts against second derivations.
+//! Equation of motion and its parts, compared with independent derivations.
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,5 +1,4 @@
-//! The equation of motion, its loads, energies and joint forces against Newton's and Euler's equations
-//! of the single bodies.
+//! Equation of motion, loads, energies and joint forces, compared with the Newton-Euler equations of the single bodies.
 
 use crate::support::exact::Jet;
 use crate::support::newton::Parts;
@@ -67,7 +66,7 @@ proptest! {
         let size = run.joint_size(alpha);
         check_reactions(&got, &want, size, g.rod + g.crank, 1e-14);
 
-        // The ground and what acts from outside together change the momentum.
+        // The ground force and the external loads change the momentum.
         let weight = run.parts.weight();
         let moment = run.parts.weight_moment();
         let x = run.parts.exact.p[0].value();
@@ -94,7 +93,7 @@ proptest! {
         close("torque", load.torque, run.torque, size, 1e-14);
         close("driving torque of free motion", run.equation.driving_torque(t, theta, omega, forward), 0.0, size, 1e-14);
 
-        // Any other motion takes the driving torque that Newton's equations then turn into it.
+        // For any other motion, Newton's equations with the driving torque must give that motion.
         let driving = run.equation.driving_torque(t, theta, omega, alpha);
         let (turned, _) = run.parts.solve(omega, run.torque + driving, run.force);
         close("driven acceleration", turned, alpha, run.size(alpha) / run.expected_terms()[0], 1e-14);
@@ -134,7 +133,7 @@ proptest! {
     }
 }
 
-/// Derivative at zero by the central difference of sixth order.
+/// Returns the derivative at zero by a sixth-order central difference.
 fn slope(f: impl Fn(f64) -> f64, h: f64) -> f64 {
     let odd = |n: f64| f(n * h) - f(-n * h);
     (45.0 * odd(1.0) - 9.0 * odd(2.0) + odd(3.0)) / (60.0 * h)

@@ -1,4 +1,4 @@
-//! The simplified rods: two masses, spin only, no mass.
+//! Simplified rod models: two masses, spin only, massless.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -52,7 +52,7 @@ proptest! {
         let sizes = Sizes::new(&scene.geometry, &exact);
         let (i2, i3) = (crank.inertia, rod.inertia);
         let m4 = scene.slider.map_or(0.0, |slider| slider.mass);
-        // T = (I2 + I3 φ'² + m4 x'²) θ̇²/2, V = g (m2 r_O2c + m3 (L3 + r_B3c)) sin θ, as printed.
+        // As printed: T = (I2 + I3 φ'² + m4 x'²) θ̇²/2, V = g (m2 r_O2c + m3 (L3 + r_B3c)) sin θ.
         let (dphi, dx) = (exact.dphi, exact.p[0].derivative());
         let m = Jet::from(i2) + Jet::from(i3) * dphi * dphi + Jet::from(m4) * dx * dx;
         let lever = crank.mass * crank.cg + rod.mass * (scene.geometry.rod + rod.cg);

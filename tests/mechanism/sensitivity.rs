@@ -1,4 +1,4 @@
-//! Derivatives with respect to the lengths against central differences in arithmetic of 31 digits.
+//! Derivatives with respect to the lengths compared with central differences in arithmetic of 31 digits.
 
 use crate::support::exact::{Dd, Jet};
 use crate::support::newton::Parts;
@@ -10,7 +10,7 @@ use slider_crank::scene::{
     Branch, Crank, Geometry, Gravity, Load, Rod, RodModel, Scene, Slider, Variables,
 };
 
-/// The same lengths with one of them shifted.
+/// Returns the lengths with one of them shifted.
 fn shifted(g: &Geometry, length: Length, by: f64) -> Geometry {
     let mut g = *g;
     *value(&mut g, length) += by;
@@ -25,7 +25,8 @@ fn value(g: &mut Geometry, length: Length) -> &mut f64 {
     }
 }
 
-/// Central difference of what a geometry gives; the shift is what the rounded lengths really differ by.
+/// Returns the central difference of a function of the geometry; the step is the actual difference of the rounded
+/// lengths.
 fn difference(g: &Geometry, length: Length, f: impl Fn(&Geometry) -> Dd) -> f64 {
     let step = g.crank * 2f64.powi(-26);
     let (mut more, mut less) = (shifted(g, length, step), shifted(g, length, -step));
@@ -102,7 +103,7 @@ proptest! {
     }
 }
 
-/// The other rod models, where the shares of the masses change with the rod: against the equation itself.
+/// Other rod models, whose mass distribution depends on the rod length: compared with the equation itself.
 #[test]
 fn every_rod_model() {
     for model in [RodModel::Rigid, RodModel::TwoMass, RodModel::SpinOnly] {

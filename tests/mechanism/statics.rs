@@ -1,5 +1,5 @@
-//! Static equilibrium against Newton's equations of the single bodies, Ng's numbers, and the geometry of
-//! the positions that have a name.
+//! Static equilibrium compared with Newton's equations of the single bodies, with Ng's numbers, and with the geometry
+//! of the named positions.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -17,8 +17,8 @@ use slider_crank::statics::{StaticAnalysis, StaticsOptions, statics};
 proptest! {
     #![proptest_config(cases(3000))]
 
-    /// With the slider force of the answer and no friction, nothing accelerates; at the edges of the band
-    /// the rest is what friction can hold.
+    /// With the computed slider force and without friction, nothing accelerates; at the edges of the band the remainder
+    /// is the limiting friction.
     #[test]
     fn the_slider_force_holds_every_body(
         case in case(rotating_crank(1e-6)), mu in 0.0..3.0, torque in -50.0..50.0,
@@ -31,7 +31,7 @@ proptest! {
         let (band, parts) = (balance.band.unwrap(), Parts::new(&scene, case.theta));
         let (alpha, forces) = parts.solve(0.0, torque, band.value + 7.0);
         let [_, _, dv] = parts.sizes();
-        // x' is right to a rounding of r/cos phi, the size of its terms.
+        // x' is accurate to the rounding of r/cos phi, the size of its terms.
         let lever = linkage.r / pose.cos_phi;
         let size = dv + torque.abs() + (band.value.abs() + 7.0) * lever;
         close("acceleration", alpha * inertia_of(&parts), 0.0, size, 1e-13);
@@ -42,8 +42,8 @@ proptest! {
         close("greatest", band.max.unwrap(), band.value + friction, thrust_size, 1e-11);
     }
 
-    /// At an edge of the torque band the slider force and all the friction that the guide force of that very
-    /// state allows hold every body.
+    /// At an edge of the torque band, the slider force and the limiting friction for the guide force of that state hold
+    /// every body.
     #[test]
     fn the_crank_torque_holds_every_body(
         case in case(rotating_crank(1e-3)), mu in 0.0..1.5, force in -500.0..500.0,
@@ -66,7 +66,7 @@ proptest! {
         {
             prop_assert!(min <= band.value + 1e-12 * size && band.value <= max + 1e-12 * size);
             for torque in [min, max] {
-                // The force that reaches the rod, from the torque that acts.
+                // Force transmitted to the rod by the acting torque.
                 let reaches = (dv_of(&parts) - torque - 3.0) / pose.dx;
                 let (_, forces) = parts.solve(0.0, torque + 3.0, reaches);
                 let friction = mu * forces.guide.abs();
@@ -76,7 +76,7 @@ proptest! {
         }
     }
 
-    /// At the angles that are named dead centres no force is stated, on either side of them one is.
+    /// At the named dead centres no force is stated; on both sides of them one is.
     #[test]
     fn no_force_at_any_dead_centre(g in rotating_crank(1e-3), torque in 0.1..10.0) {
         let scene = Scene { geometry: g, ..Scene::new(1.0, 2.0) }.torque(Load::Constant(torque));
@@ -97,7 +97,7 @@ proptest! {
         for position in linkage.named_positions() {
             let pose = linkage.pose(position.theta_rad);
             prop_assert!((0.0..TAU).contains(&position.theta_rad));
-            // A rounding of the angle, magnified where the rod is nearly normal to the guide.
+            // Rounding of the angle, magnified where the rod is nearly normal to the guide.
             let steep = 1e-13 / pose.cos_phi.powi(2).max(1e-30);
             match position.kind {
                 "dead-centre" => prop_assert!(pose.dx.abs() < steep * (g.crank + g.rod), "{pose:?}"),
@@ -134,7 +134,7 @@ proptest! {
     }
 }
 
-/// V' of the bodies, from their heights as series.
+/// Returns V' of the bodies, from their heights as series.
 fn dv_of(parts: &Parts) -> f64 {
     let sum = parts
         .all
@@ -145,7 +145,7 @@ fn dv_of(parts: &Parts) -> f64 {
     sum.d(1)
 }
 
-/// M of the bodies.
+/// Returns M of the bodies.
 fn inertia_of(parts: &Parts) -> f64 {
     let sum = parts
         .all
@@ -167,7 +167,7 @@ fn ng() -> StaticAnalysis {
     statics(&scene, &StaticsOptions::default()).unwrap()
 }
 
-/// Least forces and their angles by 40-digit arithmetic; the scene's static coefficient counts.
+/// Least forces and their angles from 40-digit arithmetic; the static coefficient of the scene applies.
 #[test]
 fn least_forces_of_ng() {
     let result = ng();
@@ -208,7 +208,7 @@ fn least_forces_of_ng() {
     close("angle", row.crank_pin_angle, FRAC_PI_2, 1.0, 1e-14);
 }
 
-/// Ng (A3) and (11); beyond half a turn the interior angle comes back.
+/// Ng (A3) and (11); beyond half a turn the interior angle decreases again.
 #[test]
 fn velocity_ratio_and_angle_at_the_crank_pin() {
     let result = ng();
@@ -233,8 +233,8 @@ fn velocity_ratio_and_angle_at_the_crank_pin() {
     }
 }
 
-/// A slider of 1000 t without rod mass: N = W − R tan φ and |R − F| = μ N at the edges, so R = (F ± μ W)/(1 ± μ tan φ),
-/// τ = −R x'. However large the weight, the edges have all digits.
+/// Slider of 1000 t with a massless rod: N = W − R tan φ and |R − F| = μ N at the edges, so R = (F ± μ W)/(1 ± μ tan
+/// φ), τ = −R x'. The edges keep all digits however large the weight is.
 #[test]
 fn the_edges_under_a_large_weight_keep_their_digits() {
     let (mass, force, mu, theta) = (1e6, 3.0, 0.3_f64, 1.0_f64);
@@ -284,7 +284,7 @@ fn no_force_at_a_dead_centre_but_a_torque() {
     assert!(result.row(1e-6).balance.band.unwrap().value > 1e6);
 }
 
-/// A rocker: nothing is stated where the rod does not reach, and the blocked range is named.
+/// Rocker: nothing is stated where the rod does not reach, and the blocked range is named.
 #[test]
 fn blocked_ranges_have_no_values() {
     let scene = Scene {
@@ -342,7 +342,7 @@ fn what_cannot_be_is_refused() {
     assert!(statics(&scene, &StaticsOptions::default()).is_ok());
 }
 
-/// Where weight and torque hold each other no slider force is needed.
+/// Where weight and torque balance, no slider force is needed.
 #[test]
 fn the_least_force_may_be_none() {
     let options = StaticsOptions {
@@ -363,8 +363,8 @@ fn the_least_force_may_be_none() {
     }
 }
 
-/// Without weight the force is -torque/x': the least is where the rows of the turn say, though the torque is not the
-/// same a turn earlier.
+/// Without weight the force is -torque/x': the least force is that of the rows of the turn, although the torque was
+/// different a turn earlier.
 #[test]
 fn the_least_force_is_that_of_the_rows() {
     let falling = Load::function(Variables::THETA, |now| 5.0 - now.theta);
@@ -392,7 +392,7 @@ fn the_least_force_is_that_of_the_rows() {
     );
 }
 
-/// Outside its table a load has no value, and the equilibrium none.
+/// Outside its table a load has no value, and neither has the equilibrium.
 #[test]
 fn loads_without_a_value_leave_no_value() {
     let table = Table::new(

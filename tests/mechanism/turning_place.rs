@@ -1,5 +1,5 @@
-//! Where a crank turns back, against the closed form of a pendulum in 31 digits: next to the top its place hangs on the
-//! last digits of the energy, however exact the time.
+//! Turning point of a crank, compared with the closed form of a pendulum in 31 digits: near the top its angle depends
+//! on the last digits of the energy, however accurate the time is.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ const G: f64 = 9.80665;
 const MASS: f64 = 1.3;
 const INERTIA: f64 = 1.7e-3;
 
-/// From the height of the pivot upwards, so fast (rad/s), for so long (s).
+/// Runs a crank upwards from the height of the pivot, with a speed (rad/s), for a duration (s).
 fn run(cg: f64, speed: f64, duration: f64) -> Summary {
     let scene = Scene::new(0.05, 0.15)
         .crank(Crank {
@@ -31,7 +31,7 @@ fn run(cg: f64, speed: f64, duration: f64) -> Summary {
     simulate(&scene, &options).expect("a run").summary
 }
 
-/// sin θ = I ω₀²/(2 m g c) there; from the top, with the difference from one in 31 digits.
+/// Returns the turning point, where sin θ = I ω₀²/(2 m g c), from the top by the difference from one in 31 digits.
 fn turning_point(cg: f64, speed: f64) -> f64 {
     let dd = Dd::from;
     let twice = dd(2.0) * dd(MASS) * dd(G) * dd(cg);
@@ -57,7 +57,7 @@ fn the_place_of_a_turning_point_is_as_good_as_stated() {
         let error = (at.last.theta_rad - theta).abs();
         let stated = at.error_estimate.expect("an estimate").theta_rad;
         assert!(error <= 2.0 * stated, "{below:e}: {error:e} {stated:e}");
-        // Energies are rounded, and the force there is this part of that on the way.
+        // Energies are rounded, and near the top the force is small compared with that before.
         let rounding = f64::EPSILON * (4.0 + 8.0 / (FRAC_PI_2 - theta));
         assert!(stated <= rounding, "{below:e}: {stated:e} {rounding:e}");
         beyond_rounding += u32::from(error > 4.0 * f64::EPSILON);

@@ -1,5 +1,5 @@
-//! Straight-line calibration against numbers computed in 40 digits, and its inverse use against a line of
-//! known scatter.
+//! Straight-line calibration compared with numbers computed in 40 digits, and its inverse use with a line of known
+//! scatter.
 
 use std::path::Path;
 
@@ -39,7 +39,7 @@ fn the_line_of_ng() {
     }
 }
 
-/// Standard errors by the textbook formulas in another form: the covariance (XᵀX)⁻¹ s² written out.
+/// Standard errors by another textbook formula: the covariance (XᵀX)⁻¹ s² written out.
 #[test]
 fn standard_errors() {
     let fit = LineFit::new(&NG).unwrap();
@@ -73,7 +73,7 @@ fn standard_errors() {
     close("uncertainty", se.unwrap(), want, want, 1e-12);
 }
 
-/// Shifted far from the origin the line keeps its digits.
+/// A line far from the origin keeps its digits.
 #[test]
 fn far_from_the_origin() {
     let points: Vec<_> = (0..1000)

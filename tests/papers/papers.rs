@@ -1,5 +1,5 @@
-//! Numbers of the four source papers, recomputed to ten digits outside this library: Obaseki & Alfred 2020,
-//! Gupta, Ng, Duarte et al. 2018.
+//! Numbers of the four source papers, recomputed to ten digits by other software: Obaseki & Alfred 2020, Gupta, Ng,
+//! Duarte et al. 2018.
 
 use crate::support::{close, geometry};
 use slider_crank::mechanism::{Equation, Linkage, Pose, Reactor};
@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 const MM: f64 = 1e-3;
 const KG_MM2: f64 = 1e-6;
 
-/// Agreement to the digits given.
+/// Checks agreement to the digits given.
 #[track_caller]
 fn agrees(what: &str, got: f64, want: f64) {
     close(what, got, want, want.abs(), 1e-9);
@@ -19,7 +19,7 @@ fn pose(crank: f64, rod: f64, offset: f64, theta: f64) -> Pose {
     Linkage::new(&geometry(crank, rod, offset, Branch::Right)).pose(theta)
 }
 
-/// Obaseki & Alfred's engine at their speed, without gravity.
+/// Speed of the engine of Obaseki & Alfred, rad/s, without gravity.
 const SPEED: f64 = 251.0;
 
 fn obaseki(offset: f64) -> Scene {
@@ -28,7 +28,7 @@ fn obaseki(offset: f64) -> Scene {
         .constant_speed(0.0, SPEED)
 }
 
-/// Their masses lumped at the pins: 0.35 kg at the crank pin, 1.05 kg at the wrist pin.
+/// Returns their masses lumped at the pins: 0.35 kg at the crank pin, 1.05 kg at the wrist pin.
 fn lumped(offset: f64) -> Scene {
     let (at_crank_pin, r) = (0.35, 40.0 * MM);
     let crank = Crank {

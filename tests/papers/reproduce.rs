@@ -1,5 +1,5 @@
-//! The papers beside ours: every verdict the known one, and the numbers behind the verdicts against values
-//! computed in 40 digits outside this library.
+//! Verdicts of `reproduce` compared with the known ones, and the numbers behind them with values computed in 40 digits
+//! by other software.
 
 use crate::support::close;
 use slider_crank::reproduce::{Paper, Reproduction, Verdict, reproduce};
@@ -32,7 +32,7 @@ fn every_verdict_is_the_known_one() {
     }
 }
 
-/// Paper, a part of what is compared, place, ours, and the value under the condition.
+/// Paper, place, part of the description, our value, and the value under the condition.
 const KNOWN: &[(&str, &str, &str, f64, Option<f64>)] = &[
     (
         "obaseki-alfred",
@@ -227,7 +227,7 @@ fn ours_are_the_numbers_of_the_mechanics() {
     }
 }
 
-/// The same to twelve digits, where mechanics alone decides: by differentiation of the loop in 40 digits.
+/// Twelve digits where mechanics alone decides: by differentiation of the loop closure in 40 digits.
 #[test]
 fn ours_have_twelve_digits() {
     let result = all();
@@ -314,7 +314,7 @@ fn ours_have_twelve_digits() {
     }
 }
 
-/// Values of the formulas as they are printed.
+/// Values of the formulas as printed.
 #[test]
 fn printed_formulas_are_evaluated_as_printed() {
     let result = all();
@@ -350,8 +350,8 @@ fn printed_formulas_are_evaluated_as_printed() {
     }
 }
 
-/// F and F' of Ng's table 2 by (6) and (8) with the torque as described, and the reconstruction with 46 of 48
-/// numbers rounded and 2 cut off.
+/// F and F' of Ng's table 2 by (6) and (8) with the torque as described, and the reconstruction, with 46 of 48 numbers
+/// rounded and 2 truncated.
 #[test]
 fn table_2_of_ng() {
     let result = reproduce(&[Paper::Ng]).unwrap();
@@ -384,7 +384,7 @@ fn table_2_of_ng() {
     assert_eq!(cut, 2);
 }
 
-/// The figures of the papers that can be drawn, with data in each.
+/// Figures of the papers that can be drawn, with data in each.
 #[test]
 fn every_figure_has_data_and_names() {
     let result = all();
@@ -418,7 +418,7 @@ fn every_figure_has_data_and_names() {
     }
 }
 
-/// The turning points of Duarte's polynomial, where the crank's speed is zero.
+/// Turning points of Duarte's polynomial, where the crank speed is zero.
 #[test]
 fn the_motion_of_duarte_turns_where_its_polynomial_says() {
     let result = reproduce(&[Paper::Duarte]).unwrap();
@@ -437,7 +437,7 @@ fn the_motion_of_duarte_turns_where_its_polynomial_says() {
     close("second", turns[1], 2.361942489, 1.0, 1e-5);
     let most = angle.iter().map(|p| p.1).fold(f64::MIN, f64::max);
     close("largest angle", most, 1.118216410, 1.0, 1e-5);
-    // The force is by far the largest where the crank comes nearest to the dead centre.
+    // The force is by far the largest where the crank is closest to the dead centre.
     let force = series("figure-06");
     let peak = force
         .iter()
@@ -446,7 +446,7 @@ fn the_motion_of_duarte_turns_where_its_polynomial_says() {
     assert!((peak.0 - turns[1]).abs() < 0.02, "{peak:?}");
 }
 
-/// What the papers say of a clearance, of an energy and of a torque in words.
+/// Statements of the papers in words, on clearance, energy and torque.
 #[test]
 fn what_is_said_in_words_has_a_row() {
     let result = all();
@@ -460,11 +460,11 @@ fn what_is_said_in_words_has_a_row() {
     let clearance = rows("gupta", "2.3, figure 14");
     assert_eq!(clearance.len(), 5);
     for row in &clearance {
-        // 1 mm of a stroke of 289.8 mm, a little more where the pressed joint yields.
+        // 1 mm of a stroke of 289.8 mm, and slightly more where the loaded joint yields.
         let off = row.ours.unwrap();
         assert!(off > 0.02 && off < 0.8, "{row:?}");
     }
-    // M at 0.7 rad as (7) has it, and complete: worked out beside the program.
+    // M at 0.7 rad by (7), and complete: computed independently of the program.
     let [energy] = &rows("duarte", "(7)")[..] else {
         panic!("one row of (7)")
     };

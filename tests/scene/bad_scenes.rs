@@ -1,13 +1,13 @@
-//! Scenes that are wrong: each is refused, with the line, what is wrong and what would be right.
+//! Wrong scenes: each is refused with the line, the error and the remedy.
 //!
-//! Every file of `tests/bad` begins with what is expected of it, one line for each problem:
+//! Every file of `tests/bad` begins with its expected problems, one line for each:
 //!
 //! ```text
 //! # expect line 5 column 8: words of the message … more of them; help: words of the help
 //! # expect no line: ...
 //! ```
 //!
-//! The column and the help may be left out. A file has the problems it announces and no others.
+//! Column and help may be omitted. A file has exactly the problems it announces.
 
 use std::fs;
 use std::panic;
@@ -17,7 +17,7 @@ use proptest::prelude::*;
 use slider_crank::error::Error;
 use slider_crank::scene::{Problem, Problems, Scene};
 
-/// What a file announces about one problem.
+/// Expected problem, as announced in a file.
 struct Expectation {
     text: String,
     line: Option<usize>,
@@ -62,7 +62,7 @@ impl Expectation {
     }
 }
 
-/// Whether all fragments occur in the text, one after the other.
+/// Whether all fragments occur in the text in this order.
 fn in_order(text: &str, fragments: &[String]) -> bool {
     let mut rest = text;
     fragments
@@ -93,7 +93,7 @@ fn files() -> Vec<PathBuf> {
     files
 }
 
-/// What is not as announced in a file; empty if all is.
+/// Returns the differences of a file from its announcement; empty if there are none.
 fn disagreement(file: &Path) -> Vec<String> {
     let bytes = fs::read(file).expect("a file of tests/bad");
     let text = String::from_utf8_lossy(&bytes);
@@ -142,7 +142,7 @@ fn disagreement(file: &Path) -> Vec<String> {
     wrong
 }
 
-/// What the rendered text, plain and coloured, does not show.
+/// Returns the problems that the rendered text, plain or coloured, fails to show.
 fn unseen(file: &Path, problems: &Problems) -> Vec<String> {
     let plain = problems.render(false);
     let mut missing = Vec::new();
@@ -227,7 +227,7 @@ fn a_wrong_scene_is_the_users_to_change() {
     assert_eq!(error.exit_status(), 2);
 }
 
-/// A scene with every section.
+/// Scene with every section.
 const GOOD: &str = r#"title = "Prüfstand №1"
 
 [geometry]
@@ -304,7 +304,7 @@ output_every = "1 ms"
 tolerance = 1e-9
 "#;
 
-/// Texts that readers of numbers, units, formulas and TOML stumble over.
+/// Texts that are difficult for readers of numbers, units, formulas and TOML.
 const TOKENS: &[&str] = &[
     "\"",
     "'",
@@ -369,20 +369,20 @@ const TOKENS: &[&str] = &[
     "value = ",
 ];
 
-/// One change of a text.
+/// Mutation of a text.
 #[derive(Clone, Debug)]
 enum Mutation {
-    /// Puts a token at a place; the number is taken modulo the length.
+    /// Inserts a token at a place; the number is taken modulo the length.
     Insert(usize, &'static str),
-    /// Overwrites some bytes with others.
+    /// Overwrites some bytes.
     Bytes(usize, Vec<u8>),
-    /// Takes out bytes.
+    /// Removes bytes.
     Remove(usize, usize),
-    /// Takes out a line.
+    /// Removes a line.
     RemoveLine(usize),
-    /// Repeats a line at the place of another.
+    /// Copies a line to the place of another.
     CopyLine(usize, usize),
-    /// Ends the text early.
+    /// Truncates the text.
     Cut(usize),
 }
 
@@ -435,7 +435,7 @@ fn mutated(text: &str, mutations: &[Mutation]) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Reads a text and, if it is wrong, all that is said of it.
+/// Reads a text and, if it is wrong, renders all its problems.
 fn read_and_render(text: &str) {
     if let Err(problems) = Scene::parse(&folder().join("mutated.toml"), text) {
         assert!(!problems.list().is_empty());

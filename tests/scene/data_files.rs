@@ -1,4 +1,4 @@
-//! Data files as instruments write them: stamps of a clock that counts from long ago.
+//! Data files as instruments write them: time stamps of a clock that started long ago.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -8,17 +8,17 @@ use slider_crank::scene::{Measured, Measurement, Reading, Scene, Slider};
 
 const MICROSECONDS: i64 = 1_000_000;
 
-/// Uneven times from 0 on, in microseconds.
+/// Returns uneven times from 0 on, in microseconds.
 fn microseconds() -> Vec<i64> {
     (0..400).map(|i| 2500 * i + 37 * (i * i % 11)).collect()
 }
 
-/// θ(t), rad, t in s.
+/// Returns θ(t), rad, for t in s.
 fn theta(t: f64) -> f64 {
     0.4 + 16.0 * t + 0.3 * (5.0 * t).sin()
 }
 
-/// A file whose times are these, as decimals of a second; the motion begins at the first of them.
+/// Returns a file with these times as decimals of a second; the motion begins at the first one.
 fn file(stamps: &[i64]) -> String {
     let mut text = "t [s],theta [rad]\n".to_owned();
     for stamp in stamps {
@@ -48,7 +48,7 @@ fn time_stamps_of_a_clock_lose_nothing() {
     let near: Vec<i64> = microseconds();
     let far: Vec<i64> = near.iter().map(|t| t + 1_700_000_000_123_456).collect();
     let [near_text, far_text] = [file(&near), file(&far)];
-    // Blank lines and quotes are left to the slower reader.
+    // Blank lines and quotes are handled by the slower reader.
     let quoted = far_text.replacen("1700000000.123456", "\"1700000000.123456\"", 1);
     assert_ne!(quoted, far_text);
     for fit in FitKind::ALL {
@@ -101,7 +101,7 @@ fn time_stamps_finer_than_a_double_are_told_apart() {
     );
 }
 
-/// A delimiter inside quotes separates no cells.
+/// A delimiter inside quotes does not separate cells.
 #[test]
 fn a_cell_behind_quotes_is_found() {
     let text = "note,t [s],theta [rad]\n\"slow, at first\",0,0.1\n\"then, faster\",0.1,fast\n";
@@ -113,7 +113,7 @@ fn a_cell_behind_quotes_is_found() {
     );
 }
 
-/// A crank that stops, and one that rests before it starts, show equal extreme values too.
+/// A crank that stops, or rests before it starts, also repeats extreme values.
 #[test]
 fn a_rest_is_no_end_of_a_range() {
     let times: Vec<f64> = (0..300).map(|i| 0.01 * f64::from(i)).collect();
@@ -129,7 +129,7 @@ fn a_rest_is_no_end_of_a_range() {
     }
 }
 
-/// Rows of a file, the numbers with six decimals.
+/// Returns rows of a file with six decimals.
 fn plain_rows() -> Vec<String> {
     let angle = |t: f64| 0.3 + 2.0 * t + t * t;
     let row = |i: i32| (0.01 * f64::from(i), angle(0.01 * f64::from(i)));
@@ -138,7 +138,7 @@ fn plain_rows() -> Vec<String> {
         .collect()
 }
 
-/// Samples without motion are taken, and said to be such.
+/// Samples without motion are accepted with a note.
 #[test]
 fn samples_that_are_all_equal_are_noted() {
     let times: Vec<f64> = (0..40).map(f64::from).collect();
@@ -159,7 +159,7 @@ fn samples_that_are_all_equal_are_noted() {
     }
 }
 
-/// Times whose unit is wrong leave no speed that is a number.
+/// Times in a wrong unit make the speeds overflow.
 #[test]
 fn times_too_close_to_each_other_are_refused() {
     let rows = (1..=40).map(|i| format!("{i}e-310,0.{i:02}\n"));
@@ -171,7 +171,7 @@ fn times_too_close_to_each_other_are_refused() {
     }
 }
 
-/// Numbers with decimal commas between commas are said to need other separators.
+/// Decimal commas in a comma-separated file are reported with advice to use other separators.
 #[test]
 fn decimal_commas_between_commas_are_seen() {
     let rows = plain_rows().join("\n").replace('.', ",");
@@ -190,7 +190,7 @@ fn decimal_commas_between_commas_are_seen() {
     }
 }
 
-/// Blanks about a number are no part of it, those of a word processor neither.
+/// Blanks around a number are ignored, including non-breaking ones.
 #[test]
 fn blanks_that_do_not_break_lines_are_blanks() {
     let text = format!("t [s],theta [rad]\n{}\n", plain_rows().join("\n"));
@@ -200,7 +200,7 @@ fn blanks_that_do_not_break_lines_are_blanks() {
     assert_eq!(found.resolution(), expected.resolution());
 }
 
-/// Of very many wrong times the first are listed and the others counted, in the time of reading.
+/// With very many wrong times, the first are listed and the others counted, in no more time than reading.
 #[test]
 fn very_many_wrong_times_are_counted() {
     let rows = (0..200_000).map(|i| format!("{},{i}\n", i / 2));

@@ -1,4 +1,4 @@
-//! Formulas: their reading, enclosures of their values, and after how many turns they are the same again.
+//! Formulas: parsing, enclosures of their values, and their periods over the crank angle.
 
 use std::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ fn the_usual_mathematical_reading() {
     }
 }
 
-/// What has no value anywhere inside has none as a whole.
+/// A formula has no value if any part of it has none.
 #[test]
 fn outside_a_domain_there_is_no_value() {
     for text in [
@@ -121,7 +121,7 @@ fn now(t: f64) -> Instant {
     }
 }
 
-/// A sequence without pattern in [0, 1): fractional parts of multiples of the golden ratio.
+/// Returns a quasi-random sequence in [0, 1): fractional parts of multiples of the golden ratio.
 fn spread(i: u32) -> f64 {
     (f64::from(i) * 0.618_033_988_749_894_9).fract()
 }
@@ -149,7 +149,7 @@ fn values_lie_in_their_enclosure() {
     }
 }
 
-/// Points of the ellipse, each as a rectangle of no size, lie in the rectangle of the whole.
+/// Values at points of the ellipse, enclosed as degenerate rectangles, lie in the enclosure of the whole.
 #[test]
 fn values_in_the_plane_lie_in_their_enclosure() {
     let mut seen = 0;
@@ -186,7 +186,7 @@ fn values_in_the_plane_lie_in_their_enclosure() {
     assert!(seen > 20_000, "{seen}");
 }
 
-/// Against mpmath at 1/2 + i/4.
+/// Reference: mpmath at 1/2 + i/4.
 #[test]
 fn values_in_the_plane_are_those_of_another_program() {
     let point = Rectangle {

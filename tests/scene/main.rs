@@ -1,4 +1,4 @@
-//! Scene files: what is read, what is refused, and with which words.
+//! Scene files: accepted content, refusals, and their messages.
 
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,5 +1,5 @@
-//! Data files as instruments, spreadsheets and scripts write them: read as what they are, or refused with the option that says
-//! what the columns are; never read wrongly in silence.
+//! Data files as instruments, spreadsheets and scripts write them: read correctly, or refused with the option that
+//! describes the columns; never misread silently.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -8,12 +8,12 @@ use slider_crank::scene::{Measured, Measurement, Reading, load_table};
 
 const TURN: f64 = 2.0 * PI;
 
-/// Times and values of the rows, the same in all files: s, rad.
+/// Returns time and value of a row, the same in all files: s, rad.
 fn sample(row: usize) -> [f64; 2] {
     [0.25 * row as f64, 0.5 + 0.125 * row as f64]
 }
 
-/// Rows of a file, of time and motion in units of these sizes.
+/// Returns rows of a file, with time and motion in units of these sizes.
 fn rows(separator: &str, [time, motion]: [f64; 2]) -> String {
     let row = |row| {
         let [t, value] = sample(row);
@@ -135,7 +135,7 @@ fn comments_separators_and_units_below_the_header() {
         format!("t,theta\ns,rad\n{body}"),
         format!("t,theta\n[s],(rad)\n{body}"),
         format!("time;theta\n[s];[rad]\n{}", rows(";", [1.0, 1.0])),
-        // numpy.savetxt, and a spreadsheet that leaves empty columns and rows.
+        // Output of numpy.savetxt, and a spreadsheet with empty columns and rows.
         format!("# t [s],theta [rad]\n{body}"),
         format!("t [s],theta [rad],,\n{},,,\n", body.replace('\n', ",,\n")),
         format!(
@@ -216,7 +216,7 @@ fn columns_that_are_named() {
     );
     is_read(text.as_bytes(), &named("1[s]", "2[rad]"), Measured::Theta);
     is_read(text.as_bytes(), &named("1[s]", "2[m]"), Measured::X);
-    // Without any header, and the other way round.
+    // Without any header, and with the columns exchanged.
     is_read(
         rows(",", [1.0, 1.0]).as_bytes(),
         &named("1[s]", "2[rad]"),
@@ -232,10 +232,10 @@ fn columns_that_are_named() {
         ..named("1[s]", "2[rad]")
     };
     is_read(text.as_bytes(), &gamma, Measured::Gamma);
-    // A unit of the option counts more than that of the header.
+    // A unit in the option overrides the one in the header.
     let text = format!("t [s],theta [rad]\n{}", rows(",", [1e-3, 1.0]));
     is_read(text.as_bytes(), &named("t[ms]", ""), Measured::Theta);
-    // Which of several.
+    // Selection among several columns.
     let rows: String = (0..8)
         .map(sample)
         .map(|[t, value]| format!("{t},7,{value},3\n"))
@@ -310,7 +310,7 @@ fn counts_of_an_encoder_and_the_zero_of_a_ruler() {
     assert!(error.contains("--x-zero belongs to x"), "{error}");
 }
 
-/// What nothing names is refused, with the options that say it.
+/// Files with unidentifiable columns are refused, with the options that identify them.
 #[test]
 fn headers_that_say_nothing_are_refused() {
     for (header, reading, parts) in [
@@ -385,7 +385,7 @@ fn headers_that_say_nothing_are_refused() {
     );
 }
 
-/// A place in a text is that of the row and the column, whatever stands above it.
+/// A reported place is the row and column in the file, whatever lines precede it.
 #[test]
 fn places_are_those_of_the_file() {
     let text = format!(
@@ -412,7 +412,7 @@ fn places_are_those_of_the_file() {
     );
 }
 
-/// Tables of loads have the line ends, marks, comments and separators of data files.
+/// Tables of loads may have the line ends, marks, comments and separators of data files.
 #[test]
 fn tables_of_loads_are_files_of_data() {
     let folder = tempfile::tempdir().expect("a folder");

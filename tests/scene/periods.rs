@@ -1,8 +1,8 @@
-//! After how many turns tables and formulas are the same again.
+//! Periods of tables and formulas over the crank angle.
 
 use slider_crank::scene::{Expression, Interpolation, Period, Repeats, Table, Variable, WhyNot};
 
-/// What a table over the crank angle with this period (rad) says.
+/// Returns the repetition of a table over the crank angle with this period (rad).
 fn of_table(period: f64) -> Repeats {
     let arguments = [0.0, 0.5 * period];
     let table = Table::new(
@@ -23,7 +23,7 @@ fn after(turns: u32, parts: u32) -> Repeats {
     Repeats::After(Period::fraction(turns, parts).expect("a period"))
 }
 
-/// Of degrees the fraction is what stands there.
+/// A period in degrees is the exact fraction as written.
 #[test]
 fn degrees_are_exact() {
     for (degrees, turns, parts) in [
@@ -45,7 +45,8 @@ fn degrees_are_exact() {
     }
 }
 
-/// Radians are rounded: five digits of a turn are a turn, a number that happens to be near a fraction is not it.
+/// A period in radians is rounded: 2π to five digits is a turn, but a number near a fraction by chance is not that
+/// fraction.
 #[test]
 #[expect(clippy::approx_constant, reason = "turns as calculators show them")]
 fn radians_are_fractions_as_far_as_their_digits_tell() {
@@ -66,7 +67,7 @@ fn radians_are_fractions_as_far_as_their_digits_tell() {
         let found = of_table(angle);
         assert_eq!(found, Repeats::Never(WhyNot::Incommensurable), "{angle}");
     }
-    // A formula means the number that stands in it.
+    // A formula means exactly the number written in it.
     let found = of_formula("mod(theta, 6.283185307)");
     assert_eq!(found, Repeats::Never(WhyNot::Incommensurable));
 }

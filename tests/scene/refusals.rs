@@ -1,5 +1,5 @@
-//! `check` refuses what `simulate` refuses, and nothing else, in the same words: over the files of the repository, and
-//! over scenes made of them by leaving parts out and putting others in.
+//! `check` refuses exactly what `simulate` refuses, in the same words: for the files of the repository, and for scenes
+//! derived from them by omitting and inserting parts.
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
@@ -17,7 +17,7 @@ use crate::support::random::cases;
 
 const FOLDERS: [&str; 3] = ["data", "data/hard", "tests/bad"];
 
-/// What a mutation may put in place of a line, or beside it; a table of its own last, as lines after it belong to it.
+/// Lines that a mutation may insert or substitute; a new table is appended, because later lines would belong to it.
 const LINES: [&str; 22] = [
     "angle = \"0 deg\"",
     "angle = \"180 deg\"",
@@ -57,7 +57,7 @@ fn scenes(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// A short run of it that shows whether it begins.
+/// Returns the refusal of a short run of a scene, if it cannot start.
 fn refused(scene: &Scene) -> Option<Error> {
     let options = Options {
         estimate: false,
@@ -67,7 +67,7 @@ fn refused(scene: &Scene) -> Option<Error> {
     simulate(scene, &options).err()
 }
 
-/// A scene file whose lines are left out, replaced and added to; of sections the last of a name stays.
+/// Returns a scene file with lines omitted, replaced and added; of sections with one name the last stays.
 fn mutated(file: &Path, changes: &[(usize, usize, u8)]) -> Option<Draft> {
     let text = fs::read_to_string(file).ok()?;
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -87,7 +87,7 @@ fn mutated(file: &Path, changes: &[(usize, usize, u8)]) -> Option<Draft> {
                 lines.remove(at);
             }
             (_, Some(same)) if !new.starts_with("[[") => {
-                // A table that is there keeps its keys out of the way.
+                // An existing table is removed with its keys.
                 if new.contains('\n') {
                     let end = (same + 1..lines.len()).find(|i| lines[*i].starts_with('['));
                     lines.drain(same..end.unwrap_or(lines.len()));
@@ -160,7 +160,7 @@ fn check_says_what_simulate_says() {
     }
 }
 
-/// A scene of a file is refused with all reasons, each with its line.
+/// A scene from a file is refused with all reasons, each with its line.
 #[test]
 fn all_reasons_are_given_at_once_with_their_lines() {
     let text = "[geometry]\ncrank = \"34 mm\"\nrod = \"79 mm\"\n[slider]\nmass = \"1 kg\"\n[motion]\nangle = \"0 deg\"\nspeed = \"2 rad/s\"\n[[torque]]\nkind = \"expression\"\nvalue = \"sin(t)/t\"\n[[force]]\nkind = \"expression\"\nvalue = \"ln(t - 1)\"\n";
@@ -185,7 +185,7 @@ fn all_reasons_are_given_at_once_with_their_lines() {
     );
 }
 
-/// A rod that has neither translation nor inertia moves nothing; it was computed to be NaN.
+/// A rod with neither translation nor inertia moves nothing, and the acceleration would be NaN.
 #[test]
 fn a_mechanism_without_any_inertia_is_refused() {
     let text = "[geometry]\ncrank = \"34 mm\"\nrod = \"79 mm\"\n[rod]\nmodel = \"spin-only\"\nmass = \"1 kg\"\ncg = \"10 mm\"\ninertia = \"0 kg m^2\"\n[motion]\nspeed = \"13 rad/s\"\n[run]\nduration = \"1 s\"\n";
@@ -196,7 +196,7 @@ fn a_mechanism_without_any_inertia_is_refused() {
     assert!(error.contains("the mechanism has no inertia"), "{error}");
 }
 
-/// Values in messages have the digits that people type, without the noise of rounding.
+/// Values in messages have the digits that people type, without rounding noise.
 #[test]
 fn values_are_shown_without_noise() {
     for (mass, shown) in [
@@ -219,7 +219,7 @@ fn values_are_shown_without_noise() {
     }
 }
 
-/// A draft says what is wrong with a load as often as it is asked, also of scenes with other values.
+/// A draft reports the problem of a load every time, also for scenes with other values.
 #[test]
 fn what_is_wrong_with_a_load_is_said_again() {
     let text = "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\n[[torque]]\nkind = \"dry\"\nvalue = \"1 N m\"\nof = \"theta\"\n";

@@ -1,4 +1,4 @@
-//! Scenes that are right: every key, unit, load and table comes out as the SI value it means.
+//! Correct scenes: every key, unit, load and table gives the intended SI value.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ fn read(text: &str) -> Scene {
         .unwrap_or_else(|problems| panic!("{text}\n{problems}"))
 }
 
-/// A scene of the shortest geometry and more.
+/// Returns a scene of minimal geometry with additional text.
 fn with(more: &str) -> Scene {
     read(&format!("{GEOMETRY}{more}"))
 }
@@ -33,7 +33,7 @@ fn close(found: f64, expected: f64) {
     );
 }
 
-/// A value from an empirical formula or a chain of roundings.
+/// Checks a value from an empirical formula or a chain of roundings.
 #[track_caller]
 fn near(found: f64, expected: f64, relative: f64) {
     assert!(
@@ -167,8 +167,8 @@ fn gupta_has_the_moments_about_the_normal_of_the_plane() {
         (crank.mass, rod.mass, scene.slider.unwrap().mass),
         (0.764, 1.56, 1.95)
     );
-    // The three printed moments of AB are those of along² + across², along² + normal² and across² + normal²;
-    // the normal² of a depth of 20 mm follows.
+    // The three printed moments of AB are those of along² + across², along² + normal² and across² + normal²; hence the
+    // normal² of a depth of 20 mm.
     let normal = 0.764 * 20.0 * 20.0 / 12.0;
     let across = 1758.88 - 1729.192 + normal;
     near(across + normal, 80.607, 3e-4);
@@ -257,7 +257,7 @@ fn the_pressure_of_the_cycle_is_its_formula() {
         };
         work += single(&scene.forces[0], true, &instant) * x_dash * PI / 90.0;
     }
-    // The mean torque that the comment of the scene gives.
+    // The mean torque is given in the comment of the scene.
     near(work / (2.0 * PI), 46.8, 1e-3);
 }
 
@@ -291,14 +291,14 @@ fn the_pressure_of_the_four_strokes_is_its_formulas() {
             _ if degrees < 360.0 => 1.08 + (closed(130.0) - 1.08) * fall((degrees - 130.0) / 60.0),
             _ => 0.85 + (1.08 - 0.85) * fall((degrees - 360.0) / 40.0),
         };
-        // Five digits.
+        // The values have five digits.
         near(pressure.value(degrees.to_radians()) / 1e5, expected, 1e-4);
     }
 }
 
 // Sections and keys
 
-/// The scene of the documentation, every section and nearly every key.
+/// Scene of the documentation, with every section and nearly every key.
 const WHOLE: &str = r#"
 title = "Duarte 2018 Diesel engine, free spin"
 
@@ -659,7 +659,7 @@ fn a_start_may_be_at_the_limit_but_not_beyond() {
     }
 }
 
-/// What a mechanism can do may be asked before it has a start.
+/// The capabilities of a mechanism may be asked before it has a start.
 #[test]
 fn a_scene_without_motion_needs_no_position_at_zero() {
     let scene = read("[geometry]\ncrank = \"50 mm\"\nrod = \"40 mm\"\noffset = \"60 mm\"");
@@ -751,7 +751,7 @@ fn lengths_in_many_spellings() {
     }
 }
 
-/// A quantity as a scene reads it.
+/// Returns a quantity as a scene reads it.
 fn si(quantity: &str, text: &str) -> f64 {
     let key = match quantity {
         "mass" => "[slider]\nmass",
@@ -909,7 +909,7 @@ fn units_of_every_quantity_in_many_spellings() {
     }
 }
 
-/// Editors and web pages turn a hyphen into a minus sign, in exponents as well.
+/// Editors and web pages replace hyphens by minus signs, also in exponents.
 #[test]
 fn a_typographic_minus_is_a_minus_everywhere() {
     assert_eq!(
@@ -986,7 +986,7 @@ fn boxes_give_mass_and_inertia() {
     let crank = with(&format!("[crank]\n{steel}")).crank.unwrap();
     near(crank.mass, mass, 1e-15);
     near(crank.inertia, central, 1e-15);
-    // About O, also if the box does not turn about its middle.
+    // Inertia about O, also if the box does not turn about its middle.
     let crank = with(&format!(
         "[crank]\n{steel}cg = \"60 mm\"\ncg_lateral = \"-8 mm\""
     ))
@@ -1066,7 +1066,7 @@ fn the_least_inertia_of_a_point_mass_is_allowed() {
 
 // Tables
 
-/// A scene file and a table in a folder of their own.
+/// Temporary folder with a scene file and a table.
 struct Folder(TempDir);
 
 impl Folder {
@@ -1084,7 +1084,7 @@ impl Folder {
     }
 }
 
-/// The table of a torque over `of`.
+/// Returns the table of a torque over `of`.
 fn torque_table(table: &str, of: &str, more: &str) -> Table {
     let load = format!(
         "[[torque]]\nkind = \"table\"\nfile = \"measured/table.csv\"\nof = \"{of}\"\n{more}"
@@ -1197,7 +1197,7 @@ fn a_table_repeats_with_and_without_its_last_row() {
 
 #[test]
 fn tables_are_interpolated_by_pchip_unless_said_otherwise() {
-    // Between 1 and 2 by hand: slopes (w1 + w2)/(w1/1 + w2/3), w1 = w2 = 3, and 0 at the peak.
+    // Between 1 and 2, by hand: slopes (w1 + w2)/(w1/1 + w2/3) with w1 = w2 = 3, and 0 at the peak.
     let text = "x [m],torque [N m]\n0,0\n1,1\n2,4\n3,0\n";
     let (slope, middle) = (1.5, 1.5);
     let expected = 0.5 * (1.0 + 4.0) + slope / 8.0;
@@ -1314,7 +1314,7 @@ fn words(key: &Value) -> Vec<String> {
         .collect()
 }
 
-/// Sections and keys that a scene may have, as documented.
+/// Returns the sections and keys that a scene may have, as documented.
 fn documented() -> BTreeMap<&'static str, BTreeSet<&'static str>> {
     [
         ("geometry", "crank rod offset branch"),
@@ -1368,7 +1368,7 @@ fn the_schema_lists_every_key() {
     assert_eq!(schema["properties"]["title"]["type"], "string");
 }
 
-/// One `key = value` line for each spelling that the schema gives for a key.
+/// Returns one `key = value` line for each spelling of a key in the schema.
 fn lines(key: &str, value: &Value) -> Vec<String> {
     let mut texts = words(value);
     let examples = value["examples"]
@@ -1420,7 +1420,7 @@ fn the_reader_knows_every_key_and_value_of_the_schema() {
                 else {
                     continue;
                 };
-                // Others may be missing beside it, but the key and its value are right.
+                // Other keys may be missing, but this key and its value are right.
                 for problem in problems.list() {
                     assert!(
                         problem.what.contains("missing") || problem.what.contains("no `"),
@@ -1498,7 +1498,7 @@ fn the_schema_requires_the_keys_of_each_kind_of_load() {
                 .iter()
                 .filter_map(|p| p.field.rsplit('.').next())
                 .collect();
-            // A magnitude is a value or a table: the first of two ways is named.
+            // A magnitude is a value or a table: the schema names the first alternative.
             let ways = rule["then"]["anyOf"][0]["required"].as_array();
             let required: BTreeSet<&str> = rule["then"]["required"]
                 .as_array()

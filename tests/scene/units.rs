@@ -1,11 +1,11 @@
-//! Spellings of quantities: read as what they are, and as far as a regular expression can tell let through by the schema.
+//! Spellings of quantities: read correctly, and accepted by the schema as far as a regular expression can decide.
 
 use std::f64::consts::PI;
 
 use slider_crank::scene::schema;
 use slider_crank::scene::unit::{Quantity, Uncertain, parse, uncertain};
 
-/// Whether the schema lets a text stand for a key of this quantity.
+/// Whether the schema accepts a text for a key of this quantity.
 fn schema_lets(text: &str, quantity: Quantity) -> bool {
     let key = match quantity {
         Quantity::Length => "geometry/properties/crank",
@@ -23,7 +23,7 @@ fn schema_lets(text: &str, quantity: Quantity) -> bool {
         Quantity::Pressure => "force/items/properties/ambient",
         Quantity::Density => "crank/properties/density",
         Quantity::Velocity => "clearance/properties/friction_threshold",
-        // No key of a scene takes these.
+        // No key of a scene has these quantities.
         Quantity::Energy | Quantity::Power => return parse(text, quantity).is_ok(),
         Quantity::Number => return text.parse::<f64>().is_ok(),
     };
@@ -161,7 +161,7 @@ fn what_is_not_a_quantity_is_refused() {
         ("", Quantity::Length),
     ] {
         assert!(parse(text, quantity).is_err(), "{text}");
-        // A pattern knows neither how large a double is nor the dimension of a product.
+        // A pattern knows neither the range of a double nor the dimension of a product.
         let beyond = ["1e999 m", "3 1/s", "3 s^-1", "3 1/h", "1 N m", "1 kg/m s"];
         let lets = schema_lets(text, quantity) && !beyond.contains(&text);
         assert!(!lets, "{text}: the schema takes it");

@@ -1,4 +1,4 @@
-//! What must hold for the motion of a mechanism and of its images.
+//! Invariants of motion: a mechanism and its images must move alike.
 
 use proptest::prelude::*;
 use slider_crank::plan::Method;
@@ -13,10 +13,10 @@ pub fn branch(left: bool) -> Branch {
     if left { Branch::Left } else { Branch::Right }
 }
 
-/// As [`Setting::new`] takes them.
+/// Bodies as [`Setting::new`] takes them.
 pub type Bodies = [f64; 7];
 
-/// Any bodies.
+/// Strategy for arbitrary bodies.
 pub fn bodies() -> impl Strategy<Value = Bodies> {
     [
         0.1..3.0f64,
@@ -29,7 +29,7 @@ pub fn bodies() -> impl Strategy<Value = Bodies> {
     ]
 }
 
-/// Other units.
+/// Strategy for changes of units.
 pub fn scaling() -> impl Strategy<Value = Image> {
     (
         magnitude(1e-3, 1e3),
@@ -44,7 +44,7 @@ pub fn scaling() -> impl Strategy<Value = Image> {
         })
 }
 
-/// A run; one that jams in its guide says nothing.
+/// Runs a scene; a case that jams in its guide is rejected.
 fn run(scene: &Scene, method: Method, tolerance: f64) -> Result<Simulation, TestCaseError> {
     let options = Options {
         method,
@@ -58,25 +58,25 @@ fn run(scene: &Scene, method: Method, tolerance: f64) -> Result<Simulation, Test
     }
 }
 
-/// Whether the branch has changed.
+/// Whether the motion passes a limit, that is changes its branch.
 fn passes_limits(run: &Simulation) -> bool {
     run.summary.events.iter().any(|event| event.kind == "limit")
 }
 
-/// How the motions of a kind of scenes are computed and judged.
+/// Method and judgement of the motions of one kind of scenes.
 #[derive(Clone, Copy)]
 pub struct Kind {
     pub method: Method,
-    /// Only motions that pass a limit are counted.
+    /// Whether only motions that pass a limit count.
     pub limits: bool,
-    /// What an error may be beyond those that are stated, in tolerances: no less is asked for.
+    /// Allowed error beyond the stated ones, in tolerances.
     pub slack: f64,
 }
 
-/// No estimate may be too small by more than this factor.
+/// Largest accepted ratio of true to stated error.
 const STATED: f64 = 2.0;
 
-/// Both runs keep the balance of energy, and their ends lie no further apart than they state.
+/// Checks that both runs keep the energy balance and that their ends differ by no more than the stated errors.
 pub fn tolerances_agree(setting: &Setting, kind: Kind, finer: Method) -> Result<(), TestCaseError> {
     let scene = setting.scene(&Image::SAME);
     let run_of = |method, tolerance| run(&scene, method, tolerance);
@@ -92,7 +92,7 @@ pub fn tolerances_agree(setting: &Setting, kind: Kind, finer: Method) -> Result<
     ends_agree(&run, &finer, &Image::SAME, kind.slack * 1e-9)
 }
 
-/// The end of one run, seen in the image, is that of the other, to what both state.
+/// Checks that the end of one run, mapped into the image, equals the end of the other to the stated errors.
 fn ends_agree(
     here: &Simulation,
     there: &Simulation,
@@ -127,7 +127,7 @@ fn ends_agree(
     Ok(())
 }
 
-/// The image of the mechanism moves as the image of its motion, with the same events.
+/// Checks that the image of the mechanism performs the image of its motion, with the same events.
 pub fn image_moves_alike(
     setting: &Setting,
     image: &Image,
@@ -137,7 +137,7 @@ pub fn image_moves_alike(
     prop_assume!(!kind.limits || passes_limits(&here));
     let there = run(&setting.scene(image), kind.method, 1e-10)?;
     ends_agree(&here, &there, image, kind.slack * 1e-10)?;
-    // One at the very end may be found by one of the runs only.
+    // An event at the very end may be found by only one of the runs.
     let before = |run: &Simulation, time: f64| -> Vec<(&str, f64)> {
         let events = run
             .summary
@@ -157,7 +157,7 @@ pub fn image_moves_alike(
     Ok(())
 }
 
-/// Run back from its end, the motion arrives where it began, to what the errors stated for the end come to there.
+/// Checks that the motion, run back from its end, returns to its start, to the stated errors propagated to the start.
 pub fn runs_back(setting: &Setting, kind: Kind) -> Result<(), TestCaseError> {
     let scene = setting.scene(&Image::SAME).tolerance(1e-10);
     let there = run(&scene, kind.method, 1e-10)?;
@@ -174,7 +174,7 @@ pub fn runs_back(setting: &Setting, kind: Kind) -> Result<(), TestCaseError> {
     .unwrap();
     let (end, stated) = (rows.last().unwrap(), there.summary.error_estimate.unwrap());
     let leaning = (end.x - setting.lengths[0] * end.theta.cos()) / setting.lengths[1];
-    // Next to the limit the crank angle does not tell the place on the curve.
+    // Next to the limit the crank angle does not determine the position on the curve.
     prop_assume!(leaning.abs() > 0.2);
     let mut back = setting.scene(&Image {
         backwards: Some(setting.duration),

@@ -1,27 +1,27 @@
-//! Numbers of about 31 digits with sine and cosine, and Taylor series of them.
+//! Numbers of about 31 digits with sine and cosine, and their Taylor series.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::OnceLock;
 
 pub use slider_crank::numeric::double_double::DoubleDouble as Dd;
 
-/// A quarter turn in three parts.
+/// Quarter turn, π/2, as a sum of three floats.
 const QUARTER: [f64; 3] = [
     std::f64::consts::FRAC_PI_2,
     6.123233995736766e-17,
     -1.4973849048591698e-33,
 ];
 
-/// A turn, 2 pi.
+/// Returns a full turn, 2 π.
 pub fn turn() -> Dd {
     (Dd::from(QUARTER[0]) + QUARTER[1]) * 4.0
 }
 
-/// What only references need of a number.
+/// Sine and cosine for references.
 pub trait SinCos {
     fn abs(self) -> Dd;
 
-    /// Sine and cosine: the series around the nearest quarter turn.
+    /// Returns sine and cosine by the series around the nearest quarter turn.
     fn sin_cos(self) -> (Dd, Dd);
 }
 
@@ -50,10 +50,10 @@ impl SinCos for Dd {
     }
 }
 
-/// Terms of the series up to an eighth of a turn: (π/4)²⁸/28! is 4e-33.
+/// Number of series terms up to an eighth of a turn: (π/4)²⁸/28! is 4e-33.
 const TERMS: usize = 14;
 
-/// ±1/n! for odd and for even n.
+/// Returns ±1/n! for odd and for even n.
 fn inverse_factorials() -> &'static [[Dd; TERMS]; 2] {
     static FACTORS: OnceLock<[[Dd; TERMS]; 2]> = OnceLock::new();
     FACTORS.get_or_init(|| {
@@ -69,23 +69,23 @@ fn inverse_factorials() -> &'static [[Dd; TERMS]; 2] {
     })
 }
 
-/// Value and the first three derivatives with respect to the crank angle.
+/// Value and first three derivatives with respect to the crank angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Jet([Dd; 4]);
 
 impl Jet {
-    /// Sine and cosine of the crank angle itself.
+    /// Returns sine and cosine of the crank angle itself.
     pub fn sin_cos(angle: f64) -> (Jet, Jet) {
         let (sin, cos) = Dd::from(angle).sin_cos();
         (Jet([sin, cos, -sin, -cos]), Jet([cos, -sin, -cos, sin]))
     }
 
-    /// The derivative of this order, rounded.
+    /// Returns the derivative of this order, rounded.
     pub fn d(&self, order: usize) -> f64 {
         self.0[order].value()
     }
 
-    /// The derivative of this order.
+    /// Returns the derivative of this order.
     pub fn exactly(&self, order: usize) -> Dd {
         self.0[order]
     }
@@ -94,13 +94,13 @@ impl Jet {
         self.d(0)
     }
 
-    /// The series of the derivative; its own third derivative is not known and set to NaN.
+    /// Returns the series of the derivative, whose own third derivative is unknown and set to NaN.
     pub fn derivative(self) -> Jet {
         let [_, d1, d2, d3] = self.0;
         Jet([d1, d2, d3, Dd::from(f64::NAN)])
     }
 
-    /// From y y = a: 2 y y' = a', 2 (y y'' + y'²) = a'', 2 (y y''' + 3 y' y'') = a'''.
+    /// Square root by y y = a: 2 y y' = a', 2 (y y'' + y'²) = a'', 2 (y y''' + 3 y' y'') = a'''.
     pub fn sqrt(self) -> Jet {
         let [a0, a1, a2, a3] = self.0;
         let (half, three) = (Dd::from(0.5), Dd::from(3.0));
@@ -147,7 +147,7 @@ impl Sub for Jet {
 
 impl Mul for Jet {
     type Output = Jet;
-    /// Leibniz's rule.
+    /// Product by Leibniz's rule.
     fn mul(self, other: Jet) -> Jet {
         const BINOMIAL: [[f64; 4]; 4] = [
             [1.0, 0.0, 0.0, 0.0],
@@ -165,7 +165,7 @@ impl Mul for Jet {
 
 impl Div for Jet {
     type Output = Jet;
-    /// From q b = a by Leibniz's rule, one order after the other.
+    /// Quotient by q b = a and Leibniz's rule, one order after the other.
     fn div(self, other: Jet) -> Jet {
         let mut quotient = Jet([Dd::ZERO; 4]);
         for n in 0..4 {

@@ -1,4 +1,4 @@
-//! A mechanism with its loads, and its images: mirrored, turned half round, in other units, in reversed time.
+//! A mechanism with its loads, and its images: mirrored, rotated by half a turn, in other units, in reversed time.
 
 use std::f64::consts::PI;
 
@@ -7,18 +7,18 @@ use slider_crank::scene::{
     Variable,
 };
 
-/// What is done to a mechanism; its motion must change in the same way.
+/// Transformation of a mechanism, under which its motion must transform likewise.
 #[derive(Clone, Copy, Debug)]
 pub struct Image {
-    /// About the x axis.
+    /// Reflection at the x axis.
     pub mirrored: bool,
-    /// By half a turn about the crank pivot.
+    /// Rotation by half a turn about the crank pivot.
     pub turned: bool,
-    /// Factors of the units.
+    /// Factors of the units of length, mass and time.
     pub length: f64,
     pub mass: f64,
     pub time: f64,
-    /// Loads at t become those at this time less t.
+    /// End time of a reversal, at which loads at t become those at this time minus t; none without reversal.
     pub backwards: Option<f64>,
 }
 
@@ -57,7 +57,7 @@ impl Image {
         self.mass * self.length * self.length
     }
 
-    /// Crank angle and speed in the image.
+    /// Returns crank angle and speed in the image.
     pub fn state(&self, theta: f64, omega: f64) -> (f64, f64) {
         (
             self.sense() * theta + self.turn(),
@@ -74,7 +74,7 @@ impl Image {
     }
 }
 
-/// A load; formulas are of T, THETA and OMEGA.
+/// Load; formulas depend on T, THETA and OMEGA.
 #[derive(Clone, Debug)]
 pub enum Act {
     Formula(String),
@@ -140,7 +140,7 @@ impl Act {
     }
 }
 
-/// A mechanism of crank, rod and offset, its bodies, loads and start.
+/// Mechanism with lengths, bodies, loads and start.
 #[derive(Clone, Debug)]
 pub struct Setting {
     pub lengths: [f64; 3],
@@ -156,9 +156,9 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// At rest, without loads. `bodies`: inertia of the crank in kg by its length squared; mass of the rod, place of
-    /// its centre of gravity along and beside it in rod lengths, its gyration in rod lengths squared; mass of the
-    /// slider; direction of gravity.
+    /// Creates a mechanism at rest without loads. `bodies`: crank inertia in kg by its length squared; mass of the rod,
+    /// position of its centre of gravity along and beside it in rod lengths, its gyration in rod lengths squared; mass
+    /// of the slider; direction of gravity.
     pub fn new(lengths: [f64; 3], branch: Branch, bodies: [f64; 7]) -> Setting {
         Setting {
             lengths,

@@ -1,9 +1,10 @@
-//! What instruments show of a mechanism.
+//! Readings of instruments on a mechanism.
 
 use slider_crank::mechanism::Linkage;
 use slider_crank::scene::{Measured, Scene};
 
-/// What is measured at a crank angle, rad; the angle at the crank pin from the directions to pivot and wrist pin.
+/// Returns the reading at a crank angle, rad; gamma is the angle between the directions from crank pin to pivot and to
+/// wrist pin.
 pub fn shown(scene: &Scene, measured: Measured, theta: f64) -> f64 {
     let pose = Linkage::new(&scene.geometry).pose(theta);
     let (r, e) = (scene.geometry.crank, scene.geometry.offset);

@@ -1,8 +1,8 @@
-//! Stated errors of scenes against true ones.
+//! Stated errors of scenes compared with true errors.
 //!
-//! The truth is the reference of the comparison of methods: collocation in double-double arithmetic of equations
-//! written apart from those of the engines. Where that is not sharp (loads that are not smooth where the crank
-//! turns back), it is another method at a tight tolerance.
+//! The truth is the reference of the comparison of methods: collocation in double-double arithmetic of independently
+//! written equations. Where this reference is not sharp (non-smooth loads where the crank turns back), the truth is
+//! another method at a tight tolerance.
 
 use std::f64::consts::TAU;
 use std::thread;
@@ -13,7 +13,7 @@ use slider_crank::precision::{PrecisionOptions, PrecisionRow};
 use slider_crank::scene::{Extent, Scene};
 use slider_crank::simulate::{Options, simulate};
 
-/// An error of angle or speed, as it is and as it was stated.
+/// True and stated error of angle or speed.
 #[derive(Clone, Debug)]
 #[allow(dead_code, reason = "shown by failures")]
 pub struct Judged {
@@ -23,7 +23,7 @@ pub struct Judged {
     pub what: &'static str,
     /// Distance from the truth.
     pub distance: f64,
-    /// Error of what is taken for the truth.
+    /// Error of the truth itself.
     pub unsure: f64,
     pub stated: f64,
     pub floor: f64,
@@ -35,21 +35,21 @@ impl Judged {
         100.0 * self.unsure <= self.distance || self.distance + self.unsure <= 8.0 * self.floor
     }
 
-    /// True error over stated error.
+    /// Returns the true error over the stated error.
     pub fn below(&self) -> f64 {
         (self.distance - self.unsure).max(0.0) / self.stated
     }
 
-    /// Stated error over true error, or over the floor.
+    /// Returns the stated error over the true error, or over the floor.
     pub fn above(&self) -> f64 {
         self.stated / (self.distance + self.unsure).max(self.floor)
     }
 }
 
-/// Relative changes of a scene's numbers from which slopes are taken.
+/// Relative change of a scene's numbers for finite-difference slopes.
 const CHANGE: f64 = 1e-10;
 
-/// Angle and speed at the end.
+/// Returns angle and speed at the end.
 fn end(scene: &Scene, tolerance: f64, method: Method) -> [f64; 2] {
     let options = Options {
         method,
@@ -62,9 +62,9 @@ fn end(scene: &Scene, tolerance: f64, method: Method) -> [f64; 2] {
     [last.theta_rad, last.omega_rad_per_s]
 }
 
-/// Smaller errors are not judged from above, for the motion itself is not known better: what half a unit in the last
-/// place of the scene's own lengths, start and duration, which are decimals rounded to floats, changes at the end, and
-/// half a unit of the result. An error below it is so by chance.
+/// Floors of angle and speed below which an error counts as accidental. They are the resolution of the motion itself:
+/// the effect at the end of half a unit in the last place of the scene's lengths, start and duration, which are
+/// decimals rounded to floats, plus half a unit of the result.
 fn floors(scene: &Scene) -> [f64; 2] {
     const UNITS: f64 = 0.5;
     let base = end(scene, TIGHT, Method::Auto);
@@ -89,11 +89,11 @@ fn floors(scene: &Scene) -> [f64; 2] {
     [0, 1].map(|k| UNITS * f64::EPSILON * (sum(k) + base[k].abs()))
 }
 
-/// The tolerance of runs that others are measured against.
+/// Tolerance of the reference runs.
 const TIGHT: f64 = 1e-13;
 
-/// Distance from a run by a method that has nothing in common with the one under test, and how far the two such
-/// methods are from each other.
+/// Returns the distance from a run by a method unrelated to the one under test, and twice the distance between the two
+/// such methods.
 fn by_another(scene: &Scene, row: &PrecisionRow) -> [(f64, f64); 2] {
     let method: Method = row.method.parse().unwrap();
     let ends = [Method::Time, Method::Dop853].map(|other| end(scene, TIGHT, other));
@@ -126,7 +126,7 @@ fn judge(index: usize, scene: &Scene, tolerances: &[f64]) -> Vec<Judged> {
     let mut judged = Vec::new();
     for row in result.rows {
         if let Some(why) = &row.failure {
-            // Only the angle may not serve as independent variable.
+            // Only methods over the angle may be inapplicable.
             let over_angle = ["angle", "energy"].contains(&row.method.as_str());
             let at_rest = ["near to rest", "starts at rest"]
                 .iter()
@@ -136,10 +136,10 @@ fn judge(index: usize, scene: &Scene, tolerances: &[f64]) -> Vec<Judged> {
         }
         let errors = [row.error_theta_rad, row.error_omega_rad_per_s].map(Option::unwrap);
         let stated = [row.estimate_theta_rad, row.estimate_omega_rad_per_s];
-        // An estimate that is missing is below every error.
+        // A missing estimate is below every error.
         let stated = stated.map(|stated| stated.unwrap_or(0.0));
         let both = [0, 1].map(|k| {
-            // An error that is a bound is a distance with the reference's own error added.
+            // An error stated as a bound is a distance plus the error of the reference.
             let without = errors[k] - unsure[k];
             let bound = row.error_is_bound && 100.0 * unsure[k] > without;
             Judged {
@@ -165,7 +165,7 @@ fn judge(index: usize, scene: &Scene, tolerances: &[f64]) -> Vec<Judged> {
     judged
 }
 
-/// All estimates of the scenes, on all processors.
+/// Judges all estimates of the scenes, on all processors.
 pub fn estimates(cases: &[(Scene, [f64; 2])]) -> Vec<Judged> {
     let threads = thread::available_parallelism().map_or(2, usize::from);
     let every = |k: usize| {

@@ -1,11 +1,12 @@
-//! Machines that several tests use.
+//! Machines used by several tests.
 
 use slider_crank::scene::{Crank, Friction, Gravity, InertiaAbout, Rod, Scene, Slider};
 
 use super::alike::branch;
 
-/// A mechanism of lengths r, l, e (m), left or right, with the masses (kg) of crank, rod and slider. The crank's is a
-/// flywheel's, at the crank pin; the rod's centre of gravity is at 0.4 of its length, `aside` of its length to the left.
+/// Mechanism with lengths r, l, e (m), left or right, with the masses (kg) of crank, rod and slider. The crank's
+/// inertia is that of a flywheel with its mass at the crank pin; the rod's centre of gravity is at 0.4 of its length,
+/// and `aside` of its length to the left.
 pub fn machine(
     [r, l, e]: [f64; 3],
     left: bool,
@@ -30,7 +31,7 @@ pub fn machine(
         .slider(Slider { mass: slider })
 }
 
-/// A crank of this mass (kg) and length (m) with its centre of gravity beside the pivot.
+/// Crank of this mass (kg) and length (m) with its centre of gravity beside the pivot.
 pub fn weighted_crank(mass: f64, r: f64) -> Crank {
     Crank {
         mass,
@@ -40,7 +41,7 @@ pub fn weighted_crank(mass: f64, r: f64) -> Crank {
     }
 }
 
-/// A flywheel pushes a slider (kg) by a light rod that leans far: with a coefficient of friction of 1.5 it jams.
+/// Flywheel that pushes a slider (kg) by a light, steeply inclined rod: it jams with a coefficient of friction of 1.5.
 pub fn leaning(slider: f64) -> Scene {
     Scene::new(0.1, 0.12)
         .crank(Crank {
@@ -57,7 +58,7 @@ pub fn leaning(slider: f64) -> Scene {
         .duration(1.0)
 }
 
-/// The scene with friction at its guide.
+/// Returns the scene with friction at its guide.
 pub fn rubbing(scene: Scene, coefficient: f64, static_coefficient: f64) -> Scene {
     Scene {
         friction: Some(Friction {
@@ -68,7 +69,7 @@ pub fn rubbing(scene: Scene, coefficient: f64, static_coefficient: f64) -> Scene
     }
 }
 
-/// A small engine under its weight, with this offset (m).
+/// Small engine under gravity, with this offset (m).
 pub fn engine(offset: f64) -> Scene {
     Scene::new(0.05, 0.16)
         .offset(offset)

@@ -1,7 +1,7 @@
-//! Reference arithmetic and random mechanisms, independent of the library: truncated Taylor series in
-//! numbers of about 31 digits, and the loop closure written from first principles.
+//! Reference arithmetic and random mechanisms, independent of the library: truncated Taylor series in numbers of about
+//! 31 digits, and the loop closure from first principles.
 
-// Each test file uses a part of this.
+// Each test file uses only a part of this module.
 #![allow(dead_code)]
 
 pub mod alike;
@@ -22,7 +22,7 @@ pub mod seed;
 use exact::{Dd, Jet};
 use slider_crank::scene::{Branch, Geometry, InertiaAbout, Rod};
 
-/// The lengths of a mechanism.
+/// Returns the lengths of a mechanism as a geometry.
 pub fn geometry(crank: f64, rod: f64, offset: f64, branch: Branch) -> Geometry {
     Geometry {
         crank,
@@ -32,10 +32,10 @@ pub fn geometry(crank: f64, rod: f64, offset: f64, branch: Branch) -> Geometry {
     }
 }
 
-/// A point of the plane along a motion.
+/// Point of the plane along a motion.
 pub type Point = [Jet; 2];
 
-/// The mechanism at a crank angle, every quantity as a series in the angle.
+/// Mechanism at a crank angle, every quantity as a series in the angle.
 pub struct Exact {
     /// Crank pin.
     pub a: Point,
@@ -52,7 +52,7 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// The crank pin on its circle; the wrist pin on y = −e at distance l, on the side of the branch.
+    /// Places the crank pin on its circle, and the wrist pin on y = −e at distance l, on the side of the branch.
     pub fn new(g: &Geometry, theta: f64) -> Exact {
         let (sin, cos) = Jet::sin_cos(theta);
         let (r, l, e) = (Jet::from(g.crank), Jet::from(g.rod), Jet::from(g.offset));
@@ -72,18 +72,18 @@ impl Exact {
         }
     }
 
-    /// A point fixed to the crank: along O→A, and to the left of it.
+    /// Returns a point fixed to the crank: along O→A, and to the left of it.
     pub fn on_crank(&self, along: f64, left: f64) -> Point {
         frame(&self.crank_axis, along, left)
     }
 
-    /// A point fixed to the rod: along A→P, and to the left of it.
+    /// Returns a point fixed to the rod: along A→P, and to the left of it.
     pub fn on_rod(&self, along: f64, left: f64) -> Point {
         let from_a = frame(&self.axis, along, left);
         [self.a[0] + from_a[0], self.a[1] + from_a[1]]
     }
 
-    /// ψ' of the rod, from its direction.
+    /// Returns ψ' of the rod, from its direction.
     pub fn dpsi(&self) -> Jet {
         let [x, y] = self.axis;
         x * y.derivative() - y * x.derivative()
@@ -98,7 +98,7 @@ fn frame(axis: &Point, along: f64, left: f64) -> Point {
     ]
 }
 
-/// The rod's moment of inertia about its centre of gravity.
+/// Returns the rod's moment of inertia about its centre of gravity.
 pub fn central_inertia(rod: &Rod) -> Dd {
     let about_cg = Dd::from(rod.inertia);
     match rod.inertia_about {
@@ -114,7 +114,7 @@ pub fn central_inertia(rod: &Rod) -> Dd {
     }
 }
 
-/// The sizes of the terms that make up each derivative: what rounding is measured against.
+/// Sizes of the terms of each derivative, as the scale of rounding.
 pub struct Sizes {
     pub dphi: f64,
     pub d2phi: f64,
@@ -144,7 +144,7 @@ impl Sizes {
     }
 }
 
-/// How much W = l cos φ magnifies a rounding of e + r sin θ.
+/// Returns the factor by which W = l cos φ magnifies a rounding of e + r sin θ.
 pub fn condition(g: &Geometry, theta: f64) -> f64 {
     let w = g.rod * Exact::new(g, theta).cos_phi.value();
     1.0 + (g.crank + g.offset.abs()) * g.rod / (w * w)

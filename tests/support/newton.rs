@@ -1,4 +1,4 @@
-//! Newton's and Euler's equations of crank, rod and slider with every joint force unknown.
+//! Newton-Euler equations of crank, rod and slider with every joint force unknown.
 
 use slider_crank::mechanism::Reactions;
 use slider_crank::scene::Scene;
@@ -8,7 +8,7 @@ use super::{Exact, Point, Sizes, central_inertia};
 
 type Vector = [Dd; 2];
 
-/// A rigid body: mass, path of the centre of gravity, and the moment of inertia that turns with ψ.
+/// Rigid body: mass, path of the centre of gravity, and the moment of inertia that rotates with ψ.
 pub struct Part {
     mass: f64,
     cg: Point,
@@ -39,7 +39,7 @@ impl Part {
         -Jet::from(self.mass) * (gx * self.cg[0] + gy * self.cg[1])
     }
 
-    /// Sizes of the terms of M, of ½ M' and of V'.
+    /// Returns the sizes of the terms of M, of ½ M' and of V'.
     fn sizes(&self, gravity: f64) -> [f64; 3] {
         let Size {
             dp,
@@ -55,7 +55,7 @@ impl Part {
         ]
     }
 
-    /// Size of the forces and of the couple, divided by `length`, that move it.
+    /// Returns the size of the forces, and of the couple divided by `length`, that accelerate the body.
     fn force(&self, gravity: f64, omega: f64, alpha: f64, length: f64) -> f64 {
         let rate = |first: f64, second: f64| first * alpha.abs() + second * omega * omega;
         let Size {
@@ -72,7 +72,7 @@ impl Part {
         [self.cg[0].exactly(0), self.cg[1].exactly(0)]
     }
 
-    /// Acceleration and angular acceleration: the factor of θ̈ and the rest, that of θ̇².
+    /// Returns acceleration and angular acceleration: the factor of θ̈, and the remainder, proportional to θ̇².
     fn motion(&self, omega: Dd) -> ([Vector; 2], [Dd; 2]) {
         let squared = omega * omega;
         let order = |n: usize| [self.cg[0].exactly(n), self.cg[1].exactly(n)];
@@ -83,7 +83,7 @@ impl Part {
     }
 }
 
-/// Crank, rod and slider of a scene; what is absent has no mass.
+/// Crank, rod and slider of a scene; absent bodies have no mass.
 pub struct Parts {
     pub all: [Part; 3],
     pub exact: Exact,
@@ -152,7 +152,7 @@ impl Parts {
         }
     }
 
-    /// Sizes of the terms of M, ½ M' and V'.
+    /// Returns the sizes of the terms of M, ½ M' and V'.
     pub fn sizes(&self) -> [f64; 3] {
         let gravity = self.gravity[0].hypot(self.gravity[1]);
         self.all.iter().fold([0.0; 3], |sum, part| {
@@ -161,7 +161,7 @@ impl Parts {
         })
     }
 
-    /// Size of the joint forces of a rod of this length.
+    /// Returns the size of the joint forces of a rod of this length.
     pub fn force_size(&self, omega: f64, alpha: f64, length: f64) -> f64 {
         let gravity = self.gravity[0].hypot(self.gravity[1]);
         let sum: f64 = self
@@ -172,13 +172,13 @@ impl Parts {
         sum / self.exact.cos_phi.value()
     }
 
-    /// Weight of all bodies.
+    /// Returns the weight of all bodies.
     pub fn weight(&self) -> [f64; 2] {
         self.gravity
             .map(|g| g * self.all.iter().map(|part| part.mass).sum::<f64>())
     }
 
-    /// Moment of their weight about O.
+    /// Returns the moment of the weights about O.
     pub fn weight_moment(&self) -> f64 {
         let [gx, gy] = self.gravity;
         self.all
@@ -187,13 +187,13 @@ impl Parts {
             .sum()
     }
 
-    /// Size of their potential energy.
+    /// Returns the size of the potential energy of the weights.
     pub fn lift_size(&self, scene: &Scene) -> f64 {
         let [gx, gy] = self.weight();
         gx.hypot(gy) * 2.0 * (scene.geometry.crank + scene.geometry.rod)
     }
 
-    /// θ̈ and all forces under a torque on the crank and a force on the slider.
+    /// Solves for θ̈ and all joint forces under a torque on the crank and a force on the slider.
     pub fn solve(&self, omega: f64, torque: f64, force: f64) -> (f64, Reactions) {
         const ALPHA: usize = 7;
         let [crank, rod, slider] = &self.all;
@@ -201,7 +201,7 @@ impl Parts {
         let gravity = self.gravity.map(Dd::from);
         let weight = |part: &Part| gravity.map(|g| Dd::from(part.mass) * g);
         let (one, zero) = (Dd::from(1.0), Dd::ZERO);
-        // Unknown: ground on crank (0, 1), crank on rod (2, 3), rod on slider (4, 5), guide (6), θ̈ (7).
+        // Unknowns: ground on crank (0, 1), crank on rod (2, 3), rod on slider (4, 5), guide (6), θ̈ (7).
         let mut rows = [[zero; 9]; 8];
         for (body, part) in self.all.iter().enumerate() {
             let (acceleration, _) = part.motion(omega);
@@ -266,7 +266,7 @@ impl Parts {
     }
 }
 
-/// Gauss elimination with pivoting.
+/// Solves the system by Gaussian elimination with pivoting.
 fn eliminate(mut rows: [[Dd; 9]; 8]) -> [Dd; 8] {
     for k in 0..8 {
         let size = |row: &[Dd; 9]| row[k].value().abs();

@@ -1,12 +1,12 @@
-//! Random machines under narrow pulses, and their motion by an integration of its own: extrapolated midpoint steps (Gragg,
-//! Bulirsch, Stoer) in pieces between the edges of the pulses, on each of which one formula holds.
+//! Random machines under narrow pulses, and an independent integration of their motion: extrapolated midpoint rule
+//! (Gragg, Bulirsch, Stoer) in pieces between the edges of the pulses, on each of which one formula holds.
 
 use std::f64::consts::{PI, TAU};
 
-/// Crank and rod, m, inertia of the crank, kg m², and mass of the slider, kg.
+/// Crank length and rod length, m, crank inertia, kg m², and slider mass, kg.
 pub const MACHINE: [f64; 4] = [0.05, 0.15, 0.02, 0.6];
 
-/// Numbers without pattern from a seed (splitmix64).
+/// Pseudo-random numbers from a seed (splitmix64).
 pub struct Chance(pub u64);
 
 impl Chance {
@@ -17,12 +17,12 @@ impl Chance {
         b ^ b >> 31
     }
 
-    /// Between two numbers.
+    /// Returns a number uniformly distributed between two numbers.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Between two positive numbers, by order of magnitude.
+    /// Returns a number log-uniformly distributed between two positive numbers.
     fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
@@ -32,7 +32,7 @@ impl Chance {
     }
 }
 
-/// What a pulse is a function of.
+/// Variable of a pulse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Of {
     T,
@@ -49,23 +49,23 @@ pub enum Shape {
     Table,
 }
 
-/// A torque that is nothing but for a short while.
+/// Torque that is nonzero for a short while only.
 #[derive(Clone, Debug)]
 pub struct Pulse {
     pub of: Of,
     pub shape: Shape,
-    /// N m
+    /// Height, N m.
     height: f64,
     centre: f64,
-    /// Half of it is this wide.
+    /// Half-width, in units of the variable.
     pub width: f64,
-    /// Half turns, or a time, after which it comes again.
+    /// Period over the angle, in half turns.
     pub half_turns: Option<u32>,
     period: Option<f64>,
 }
 
 impl Pulse {
-    /// How far an argument is from the nearest of its centres.
+    /// Returns the signed distance of an argument from the nearest centre.
     fn beside(&self, at: f64) -> f64 {
         match self.period {
             Some(period) => at - self.centre - period * ((at - self.centre) / period).round(),
@@ -73,7 +73,7 @@ impl Pulse {
         }
     }
 
-    /// Its edges beside its centre, in widths.
+    /// Returns the edges relative to the centre, in widths.
     fn edges(&self) -> &'static [f64] {
         match self.shape {
             Shape::Gauss => &[-6.0, -4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0, 6.0],
@@ -83,7 +83,7 @@ impl Pulse {
         }
     }
 
-    /// The edges around an argument that goes forward or back, and the formula between them.
+    /// Returns the formula of the pulse at an argument that moves forward or back, with its edges.
     fn piece(&self, at: f64, forward: bool) -> Piece {
         let nudge = (1e-9 * self.width).max(64.0 * f64::EPSILON * at.abs());
         let nudge = if forward { nudge } else { -nudge };
@@ -109,7 +109,7 @@ impl Pulse {
             height: self.height,
             start: at - origin,
             width: self.width,
-            // It begins at one of them, off by rounding.
+            // The motion starts at one of the edges, up to rounding.
             low: low - nudge.max(0.0),
             high: high - nudge.min(0.0),
             form: self.form(index, edges.len()),
@@ -131,7 +131,7 @@ impl Pulse {
         }
     }
 
-    /// Rows of its table, between two arguments at least.
+    /// Returns the rows of the pulse's table, at least between two arguments.
     pub fn rows(&self, low: f64, high: f64) -> Vec<(f64, f64)> {
         let at = |edge: f64| self.centre + edge * self.width;
         let [first, last] = match self.period {
@@ -148,12 +148,12 @@ impl Pulse {
         [&[(first, 0.0)], &inner[..], &[(last, 0.0)]].concat()
     }
 
-    /// The period of its table.
+    /// Returns the period of the pulse's table.
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// Its formula.
+    /// Returns the formula of the pulse.
     pub fn formula(&self) -> String {
         let (centre, width) = (self.centre, self.width);
         let of = match self.of {
@@ -181,21 +181,21 @@ impl Pulse {
     }
 }
 
-/// One formula of a pulse, between two edges.
+/// One formula of a pulse, valid between two edges.
 struct Piece {
     of: Of,
     height: f64,
-    /// Where the motion enters it, as its edges from the centre of the pulse.
+    /// Argument at which the motion enters the piece, from the centre of the pulse, like the edges.
     start: f64,
     width: f64,
     low: f64,
     high: f64,
-    /// A polynomial of the distance from the centre in widths; none: the bell.
+    /// Polynomial in the distance from the centre in widths; NaN for the Gaussian bell.
     form: [f64; 3],
 }
 
 impl Piece {
-    /// From the centre of the pulse.
+    /// Returns the argument, from the centre of the pulse.
     fn of(&self, moved: &Moved) -> f64 {
         self.start
             + match self.of {
@@ -216,31 +216,31 @@ impl Piece {
             }
     }
 
-    /// How far beyond its edges the argument is, in widths; negative inside.
+    /// Returns the distance of the argument beyond the edges, in widths; negative inside.
     fn beyond(&self, moved: &Moved) -> f64 {
         let at = self.of(moved);
         (self.low - at).max(at - self.high) / self.width
     }
 }
 
-/// A run of the machine.
+/// Run of the machine.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub pulses: Vec<Pulse>,
-    /// N m
+    /// Constant torque, N m.
     pub torque: f64,
-    /// N m s/rad
+    /// Viscous coefficient, N m s/rad.
     pub viscous: f64,
-    /// rad
+    /// Start angle, rad.
     pub angle: f64,
-    /// rad/s
+    /// Start speed, rad/s.
     pub speed: f64,
-    /// s
+    /// Duration, s.
     pub duration: f64,
 }
 
 impl Case {
-    /// A random one.
+    /// Draws a random case.
     pub fn random(chance: &mut Chance) -> Case {
         let speed = chance.magnitude(5.0, 100.0);
         let angle = chance.between(0.0, TAU);
@@ -305,7 +305,7 @@ impl Case {
         let height = match of {
             Of::T => 0.5 * share * energy / (width * self.speed) / times,
             Of::Theta => 0.5 * share * energy / width / times,
-            // It drives as the others do, so that the speed does not stay there.
+            // The pulse has the sign of the constant torque, so that the speed does not stay at it.
             Of::Omega => self.torque * chance.between(0.5, 20.0),
         };
         Pulse {
@@ -319,15 +319,15 @@ impl Case {
         }
     }
 
-    /// Angle and speed at its end; none where the crank turns back, or its speed stays at a jump between torques that drive it
-    /// there from both sides.
+    /// Returns angle and speed at the end; none where the crank turns back, or the speed stays at a jump between
+    /// torques that drive it there from both sides.
     pub fn reference(&self) -> Option<[f64; 2]> {
         let mut at = Moved {
             t: 0.0,
             theta: self.angle,
             omega: self.speed,
         };
-        /// More pieces than this are a speed that stays at an edge.
+        /// Number of pieces above which the speed is taken to stay at an edge.
         const MOST_PIECES: u32 = 5000;
         let mut rises = true;
         for _ in 0..MOST_PIECES {
@@ -360,7 +360,8 @@ impl Case {
     }
 }
 
-/// Time, angle and speed, or how far they have changed on a piece: small changes of large numbers round on their own.
+/// Time, angle and speed, or their changes on a piece: changes are kept apart because small ones would round in large
+/// numbers.
 #[derive(Clone, Copy, Debug)]
 struct Moved {
     t: f64,
@@ -384,14 +385,14 @@ impl Moved {
     }
 }
 
-/// The motion on one piece of each pulse.
+/// Motion on one piece of each pulse.
 struct Motion<'a> {
     case: &'a Case,
     start: Moved,
     pieces: Vec<Piece>,
 }
 
-/// A step that was tried: what it adds, and its error in units of what is allowed.
+/// Trial step: increments, and the error in units of the allowed error.
 struct Tried {
     added: Moved,
     error: f64,
@@ -414,7 +415,7 @@ impl Motion<'_> {
         [omega, force / (inertia + mass * dx * dx)]
     }
 
-    /// How far the motion goes until the first edge or the end of the run.
+    /// Integrates to the first edge or to the end of the run; returns the changes.
     fn run(&self) -> Moved {
         let until = self.case.duration - self.start.t;
         let after = |moved: Moved, h: f64| moved.plus(self.step(&moved, h).added);
@@ -438,7 +439,7 @@ impl Motion<'_> {
             }
             let [from, to] = [moved, moved.plus(tried.added)].map(|at| self.slopes(&at)[1]);
             if from * to < 0.0 {
-                // The speed is monotone on each step, so that it passes no edge twice.
+                // The speed is monotone on each step, so that no edge is passed twice.
                 let shorter = root(h, |h| to.signum() * self.slopes(&after(moved, h))[1]);
                 h = shorter.max(1e-9 * self.case.duration).min(h);
             }
@@ -448,7 +449,7 @@ impl Motion<'_> {
             }
             tried = self.step(&moved, h);
             if tried.error > 1.0 {
-                // A longer step had missed a bell.
+                // The longer step missed a bell.
                 longest = 0.5 * h;
                 continue;
             }
@@ -463,10 +464,10 @@ impl Motion<'_> {
         }
     }
 
-    /// A step of extrapolated midpoint rules.
+    /// Makes a step by the extrapolated midpoint rule.
     fn step(&self, moved: &Moved, h: f64) -> Tried {
         const COLUMNS: usize = 7;
-        // Aitken's and Neville's scheme in the square of the length: row k from its plain rule on.
+        // Aitken-Neville scheme in the square of the step length: row k begins with its plain midpoint rule.
         let mut row = [[0.0; 2]; COLUMNS];
         let mut before = [0.0; 2];
         for k in 0..COLUMNS {
@@ -484,7 +485,7 @@ impl Motion<'_> {
             }
         }
         let best = row[COLUMNS - 1];
-        // Increments: what is small beside the angle may be much of a narrow pulse.
+        // Compare increments: a change small beside the angle may be large for a narrow pulse.
         let off = |i: usize| (best[i] - before[i]).abs();
         let speed = self.start.omega + moved.omega;
         Tried {
@@ -497,7 +498,7 @@ impl Motion<'_> {
         }
     }
 
-    /// What the midpoint rule with n parts adds to the state.
+    /// Returns the increment of the state by the midpoint rule with n parts.
     fn midpoint(&self, moved: &Moved, h: f64, n: usize) -> [f64; 2] {
         let part = h / n as f64;
         let slopes = |k: usize, by: [f64; 2]| {
@@ -521,7 +522,7 @@ impl Motion<'_> {
     }
 }
 
-/// Where a function that is negative at zero and positive at h vanishes.
+/// Returns the root of a function that is negative at zero and positive at h.
 fn root(h: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, h);
     let (mut below, mut above) = (f(0.0), f(h));

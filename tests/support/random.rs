@@ -1,4 +1,4 @@
-//! Random mechanisms, the same in every run with the same seed.
+//! Random mechanisms, reproducible from a seed.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -10,7 +10,7 @@ use slider_crank::scene::{
 
 use super::seed::seed;
 
-/// This many cases from one seed.
+/// Returns the configuration for this number of cases from one seed.
 pub fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
@@ -21,7 +21,7 @@ pub fn cases(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Evenly spread orders of magnitude.
+/// Strategy for log-uniform magnitudes.
 pub fn magnitude(from: f64, to: f64) -> impl Strategy<Value = f64> {
     (from.ln()..to.ln()).prop_map(f64::exp)
 }
@@ -30,7 +30,7 @@ fn branch() -> impl Strategy<Value = Branch> {
     prop_oneof![Just(Branch::Right), Just(Branch::Left)]
 }
 
-/// Either sign, or zero in one case out of eight.
+/// Strategy for magnitudes of either sign, zero in one case out of eight.
 fn signed(from: f64, to: f64) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => Just(0.0),
@@ -38,7 +38,7 @@ fn signed(from: f64, to: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// A crank that turns fully, with l − r − |e| from `least` to 100 crank lengths.
+/// Strategy for cranks that turn fully, with l − r − |e| from `least` to 100 crank lengths.
 pub fn rotating_crank(least: f64) -> impl Strategy<Value = Geometry> {
     (
         magnitude(1e-3, 10.0),
@@ -54,7 +54,7 @@ pub fn rotating_crank(least: f64) -> impl Strategy<Value = Geometry> {
         })
 }
 
-/// Any lengths that can be assembled, not close to a change point.
+/// Strategy for arbitrary lengths that can be assembled, not close to a change point.
 pub fn any_class() -> impl Strategy<Value = Geometry> {
     (
         magnitude(1e-3, 10.0),
@@ -74,7 +74,7 @@ pub fn any_class() -> impl Strategy<Value = Geometry> {
         })
 }
 
-/// Crank angles over several turns, half of them close to ±90°.
+/// Strategy for crank angles over several turns, half of them close to ±90°.
 pub fn angle() -> impl Strategy<Value = f64> {
     prop_oneof![
         -20.0..20.0,
@@ -83,7 +83,7 @@ pub fn angle() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// All loads there are formulas for, as a scene takes them and as the test computes them.
+/// All loads with formulas, as a scene takes them and as the test computes them.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     torque: f64,
@@ -123,7 +123,7 @@ impl Drive {
             }))
     }
 
-    /// Torque and force.
+    /// Returns torque and force.
     pub fn value(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
         [
             self.torque - self.rotary * omega + self.stall - self.stall / self.no_load * omega
@@ -133,8 +133,8 @@ impl Drive {
         ]
     }
 
-    /// Torque and force of those whose work is not that of a potential: damping, the falling part of the
-    /// motor line, and the functions.
+    /// Returns torque and force of the loads without a potential: damping, the falling part of the motor line, and the
+    /// functions.
     pub fn without_potential(&self, t: f64, theta: f64, omega: f64, x: f64, v: f64) -> [f64; 2] {
         [
             -self.rotary * omega - self.stall / self.no_load * omega
@@ -143,14 +143,14 @@ impl Drive {
         ]
     }
 
-    /// Potential of the others.
+    /// Returns the potential of the other loads.
     pub fn potential(&self, theta: f64, x: f64) -> f64 {
         let stretched = x - self.rest;
         -(self.torque + self.stall) * theta - self.force * x
             + 0.5 * self.stiffness * stretched * stretched
     }
 
-    /// Sizes of the terms of torque and force, where x and x' are of these sizes.
+    /// Returns the sizes of the terms of torque and force, for x and x' of these sizes.
     pub fn sizes(&self, x: f64, dx: f64, omega: f64) -> [f64; 2] {
         let (omega, v) = (omega.abs(), dx * omega.abs());
         [
@@ -166,7 +166,7 @@ impl Drive {
         ]
     }
 
-    /// Size of the energies of the potential, J, over a few turns.
+    /// Returns the size of the potential energies, J, over a few turns.
     pub fn energy_size(&self, scene: &Scene) -> f64 {
         let x = scene.geometry.crank + scene.geometry.rod;
         let stretched = x + self.rest.abs();
@@ -207,7 +207,7 @@ fn drive() -> impl Strategy<Value = Drive> {
         )
 }
 
-/// A mechanism with bodies and loads in a state of motion.
+/// Mechanism with bodies and loads in a state of motion.
 #[derive(Clone, Debug)]
 pub struct Case {
     pub scene: Scene,
@@ -217,7 +217,7 @@ pub struct Case {
     pub omega: f64,
 }
 
-/// Any bodies, gravity and loads, each body absent now and then, on mechanisms from `geometry`.
+/// Strategy for arbitrary bodies, gravity and loads, each body sometimes absent, on mechanisms from `geometry`.
 pub fn case(geometry: impl Strategy<Value = Geometry>) -> impl Strategy<Value = Case> {
     let mass = || magnitude(0.01, 100.0);
     let crank = (mass(), -1.5..1.5, -1.0..1.0, magnitude(1e-3, 10.0));

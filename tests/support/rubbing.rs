@@ -1,4 +1,4 @@
-//! Random mechanisms with friction, of all classes, under loads that switch.
+//! Random mechanisms with friction, of all classes, under switching loads.
 
 use std::f64::consts::PI;
 
@@ -9,18 +9,18 @@ use super::alike::{bodies, branch};
 use super::image::{Act, Setting};
 use super::random::magnitude;
 
-/// What is left out.
+/// Features to leave out.
 #[derive(Clone, Copy, Debug)]
 pub struct Without {
     pub friction: bool,
     /// Loads other than weight and a spring.
     pub loads: bool,
-    /// Formulas that jump.
+    /// Formulas with jumps.
     pub jumps: bool,
 }
 
-/// A crank angle at which the crank pin is this part of the way between the least and the largest height that the
-/// rod reaches.
+/// Returns a crank angle at which the crank pin is at this fraction of the way between the least and the largest height
+/// that the rod can reach.
 fn reached([r, l, e]: [f64; 3], part: f64, beyond: bool) -> f64 {
     let (low, high) = (f64::max(-l, e - r), f64::min(l, e + r));
     let angle = ((low + part * (high - low) - e) / r)
@@ -29,7 +29,7 @@ fn reached([r, l, e]: [f64; 3], part: f64, beyond: bool) -> f64 {
     if beyond { PI - angle } else { angle }
 }
 
-/// A crank that turns, a rod that turns, or neither.
+/// Strategy for lengths with a rotating crank, a rotating rod, or neither.
 fn lengths() -> impl Strategy<Value = [f64; 3]> {
     let size = || magnitude(0.02, 0.3);
     prop_oneof![
@@ -43,7 +43,7 @@ fn lengths() -> impl Strategy<Value = [f64; 3]> {
     ]
 }
 
-/// A load that switches: between two values, at part of the run and for part of it.
+/// Returns a load that switches between two values at a fraction of the run, for another fraction of it.
 fn switch(kind: usize, [at, width, low, high]: [f64; 4], size: f64, duration: f64) -> Act {
     let (low, high) = (low * size, high * size);
     let [from, to] = [at, at + width].map(|part| part * duration);
@@ -74,7 +74,7 @@ fn switch(kind: usize, [at, width, low, high]: [f64; 4], size: f64, duration: f6
     }
 }
 
-/// Runs of a few radians at the first speed.
+/// Strategy for runs of a few radians at the start speed.
 pub fn rubbing(without: Without) -> impl Strategy<Value = Setting> {
     let kinds = if without.jumps { 0..3usize } else { 0..4usize };
     let shape = (lengths(), any::<bool>(), bodies());

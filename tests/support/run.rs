@@ -1,5 +1,4 @@
-//! One random case with what acts on it, the equation under test, and the sizes that rounding is
-//! measured against.
+//! One random case with its loads, the equation under test, and the sizes that scale rounding.
 
 use slider_crank::mechanism::{Equation, Reactions, Terms};
 
@@ -8,7 +7,7 @@ use super::newton::Parts;
 use super::random::Case;
 use super::{Sizes, close};
 
-/// A case with its bodies, the torque and force that act on it, and the equation under test.
+/// Case with its bodies, the torque and force acting on it, and the equation under test.
 pub struct Run<'a> {
     pub case: &'a Case,
     pub equation: Equation,
@@ -52,7 +51,7 @@ impl Run<'_> {
             .acceleration(self.case.t, self.case.theta, self.case.omega)
     }
 
-    /// M, ½ M' and V' of the bodies.
+    /// Returns M, ½ M' and V' of the bodies.
     pub fn expected_terms(&self) -> [f64; 3] {
         let Parts { all, gravity, .. } = &self.parts;
         let inertia = all
@@ -64,21 +63,21 @@ impl Run<'_> {
         [inertia.d(0), 0.5 * inertia.d(1), potential.d(1)]
     }
 
-    /// Size of the joint forces of a motion, N.
+    /// Returns the size of the joint forces of a motion, N.
     pub fn joint_size(&self, alpha: f64) -> f64 {
         let length = self.case.scene.geometry.rod;
         self.parts.force_size(self.case.omega, alpha, length)
             + self.force_size / self.parts.exact.cos_phi.value()
     }
 
-    /// Size of the terms of the equation for a motion, N m.
+    /// Returns the size of the terms of the equation for a motion, N m.
     pub fn size(&self, alpha: f64) -> f64 {
         let [m, half_dm, dv] = self.parts.sizes();
         m * alpha.abs() + half_dm * self.case.omega.powi(2) + dv + self.load_size
     }
 }
 
-/// Every joint force, and what the ground feels.
+/// Checks every joint force, and the shaking force and moment.
 pub fn check_reactions(got: &Reactions, want: &Reactions, size: f64, arm: f64, tolerance: f64) {
     for (what, got, want) in [
         ("crank bearing", got.crank_bearing, want.crank_bearing),

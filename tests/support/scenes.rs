@@ -1,17 +1,17 @@
-//! Random scene files over all that more than one engine serves.
+//! Random scene files over the scenes that more than one engine serves.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// So many numbers make a scene.
+/// Number of random numbers that define a scene.
 pub const DRAWS: usize = 96;
 
-/// Numbers in [0, 1) that decide what a scene is.
+/// Random numbers in [0, 1) that define a scene.
 pub struct Draws(std::vec::IntoIter<f64>);
 
-/// The lengths and the motion that loads are scaled by.
+/// Lengths and motion by which loads are scaled.
 struct Sizes {
     r: f64,
     l: f64,
@@ -50,7 +50,7 @@ impl Draws {
         (self.next() * count as f64) as usize
     }
 
-    /// The text of a scene file; its tables are those of [`write_tables`].
+    /// Returns the text of a scene file; its tables are those of [`write_tables`].
     pub fn scene(mut self) -> String {
         let mut text = String::new();
         let (mut sizes, turns_fully) = self.geometry(&mut text);
@@ -63,7 +63,7 @@ impl Draws {
         text
     }
 
-    /// Cranks that turn fully, some of them hardly, and some that do not.
+    /// Writes the lengths: cranks that turn fully, some of them barely, and some that do not.
     fn geometry(&mut self, text: &mut String) -> (Sizes, bool) {
         let r = self.magnitude(5e-3, 1.0);
         let turns_fully = !self.chance(0.15);
@@ -95,7 +95,7 @@ impl Draws {
         (sizes, turns_fully)
     }
 
-    /// A few cranks without inertia; all models of the rod.
+    /// Writes the bodies: a few cranks without inertia, and all models of the rod.
     fn bodies(&mut self, text: &mut String, sizes: &mut Sizes) {
         let Sizes { r, l, mass, .. } = *sizes;
         let bare = self.chance(0.06);
@@ -145,7 +145,7 @@ impl Draws {
         }
     }
 
-    /// A torque by its work against the kinetic energy.
+    /// Returns a torque scaled by its work relative to the kinetic energy.
     fn torque(&mut self, sizes: &Sizes) -> f64 {
         0.5 * sizes.inertia * sizes.speed.powi(2) * self.magnitude(3e-3, 1.0)
     }
@@ -244,7 +244,7 @@ impl Draws {
             ),
             13 => ("torque", table("turn.csv", "theta", "360 deg")),
             14 => ("torque", table("time.csv", "t", "2 s")),
-            // Not the same in each turn.
+            // Differs from turn to turn.
             15 => (
                 "torque",
                 expression(format!("{:e} * sin(theta/2)", s * torque)),
@@ -267,7 +267,8 @@ impl Draws {
         writeln!(text, "[[{on}]]\n{load}").unwrap();
     }
 
-    /// From a fraction of a turn to some hundred turns at the first speed; some starts are from rest.
+    /// Writes start and extent: from a fraction of a turn to some hundred turns at the first speed; some starts at
+    /// rest.
     fn run(&mut self, text: &mut String, sizes: &Sizes, turns_fully: bool) {
         let turns = if self.chance(0.04) {
             self.magnitude(20.0, 300.0)
@@ -282,7 +283,7 @@ impl Draws {
             2 => self.between(-300.0, 300.0),
             _ => self.between(-7.0, 7.0),
         };
-        // A place that is reached: the next one where sin(theta) is small enough.
+        // Move to the next reachable angle, where |sin(theta)| is small enough.
         let Sizes { r, l, offset, .. } = *sizes;
         while !turns_fully && (offset + r * angle.sin()).abs() > 0.98 * l {
             angle += 0.01;
@@ -296,7 +297,7 @@ impl Draws {
     }
 }
 
-/// A torque over a turn, a pressure over two turns and a torque over time, in a folder.
+/// Writes a torque over a turn, a pressure over two turns and a torque over time into a folder.
 pub fn write_tables(folder: &Path) {
     let rows = |header: &str, count: u32, step: f64, value: &dyn Fn(f64) -> f64| {
         let row = |i: u32| {
@@ -309,7 +310,7 @@ pub fn write_tables(folder: &Path) {
         let angle = TAU * turns;
         angle.sin() - 0.7 * (3.0 * angle).cos() + 0.1
     };
-    // The bell of a combustion, once in two turns.
+    // Combustion peak, once in two turns.
     let bell = |degrees: f64| 1.0 + 20.0 * (-((degrees - 380.0) / 40.0).powi(2)).exp();
     let tables = [
         (

@@ -1,11 +1,11 @@
-//! The seed of property tests: fixed, so that a run can be repeated, unless a nightly run varies it.
+//! Seed of property tests: fixed for repeatable runs, and varied by the environment for nightly runs.
 
 use proptest::test_runner::RngSeed;
 
-/// What the environment adds to every seed.
+/// Environment variable whose number is added to every seed.
 const VARIED: &str = "PROPTEST_RNG_SEED";
 
-/// This seed, and another one for each value of the environment variable `PROPTEST_RNG_SEED`.
+/// Returns this seed, or a different one for each value of the environment variable `PROPTEST_RNG_SEED`.
 pub fn seed(fixed: u64) -> RngSeed {
     let added = std::env::var(VARIED).map_or(0, |text| {
         let number = text.parse::<u64>();

@@ -1,47 +1,47 @@
-//! Gauss collocation in double-double arithmetic: order 2 STAGES, stable for stiff motions. Slow, and made to
-//! be right (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7; II, IV.8).
+//! Gauss collocation of order 2 STAGES in double-double arithmetic, A-stable, written for accuracy and not for speed
+//! (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.7; II, IV.8).
 
 use nalgebra::{DMatrix, DVector};
 
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::gauss::legendre;
 
-/// Collocation points of a step.
+/// Number of collocation points of a step.
 const STAGES: usize = 16;
 
-/// Steps of Newton's method, which squares what is left: one that takes more does not converge.
+/// Largest number of Newton iterations: quadratic convergence needs fewer.
 pub(super) const ITERATIONS: usize = 25;
 
-/// A step this much shorter than the run is none.
+/// Shortest step relative to the run; shorter ones count as failure.
 const SHORTEST_STEP: f64 = 1e-14;
 
-/// How near to an angle at which the acceleration is not smooth a step must end, rad: what the rest of a kink
-/// does goes with its square.
+/// Distance within which a step must end at an angle where the acceleration is not smooth, rad: the error of the
+/// remaining kink is proportional to its square.
 pub(super) const CORNER: f64 = 1e-10;
 
-/// θ̈ of a motion.
+/// Angular acceleration θ̈ of a motion.
 pub(super) trait Acceleration {
-    /// θ̈ at time t, angle and speed.
+    /// Returns θ̈ at time t, angle and speed.
     fn exactly(&self, t: DoubleDouble, theta: DoubleDouble, omega: DoubleDouble) -> DoubleDouble;
 
-    /// ∂θ̈/∂θ and ∂θ̈/∂θ̇, roughly.
+    /// Returns approximate ∂θ̈/∂θ and ∂θ̈/∂θ̇.
     fn slopes(&self, t: f64, theta: f64, omega: f64) -> (f64, f64);
 
-    /// The first time after `t` at which the acceleration is not smooth.
+    /// Returns the first time after `t` at which the acceleration is not smooth.
     fn next_time(&self, t: f64) -> f64;
 
-    /// The first angle from `theta` towards `towards` at which it is not smooth, if there is one before.
+    /// Returns the first angle between `theta` and `towards` at which the acceleration is not smooth, if any.
     fn corner_between(&self, theta: f64, towards: f64) -> Option<f64>;
 }
 
-/// How finely the motion is resolved.
+/// Resolution and work limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Resolution {
-    /// The series of the acceleration over a step ends with terms this much smaller than its largest.
+    /// Bound of the last series terms of the acceleration over a step, relative to the largest term.
     pub tail: f64,
-    /// Newton steps end where they change the acceleration by less than this part.
+    /// Relative change of the acceleration below which Newton iterations end.
     pub settled: f64,
-    /// Most evaluations.
+    /// Largest number of evaluations.
     pub evaluations: u64,
 }
 
@@ -53,18 +53,18 @@ pub(super) struct Place {
     pub omega: DoubleDouble,
 }
 
-/// The method's coefficients.
+/// Coefficients of the method.
 struct Tableau {
     nodes: [DoubleDouble; STAGES],
     weights: [DoubleDouble; STAGES],
-    /// ∫ of the Lagrange polynomials up to each node, and of that integral again.
+    /// Integrals (`once`) and repeated integrals (`twice`) of the Lagrange polynomials up to each node.
     once: [[DoubleDouble; STAGES]; STAGES],
     twice: [[DoubleDouble; STAGES]; STAGES],
-    /// From values at the nodes to the coefficients of Legendre polynomials.
+    /// Matrix from values at the nodes to coefficients of Legendre polynomials.
     series: [[DoubleDouble; STAGES]; STAGES],
 }
 
-/// Legendre polynomials of degree 0 to `degrees` − 1 on [0, 1].
+/// Returns the Legendre polynomials of degree 0 to `degrees` − 1 on [0, 1].
 fn polynomials(x: DoubleDouble, degrees: usize) -> Vec<DoubleDouble> {
     let y = x * 2.0 - 1.0;
     let mut values = vec![DoubleDouble::ONE, y];
@@ -118,7 +118,7 @@ impl Tableau {
     }
 }
 
-/// The state at time `t_end`, and the number of evaluations; none if the motion does not get there.
+/// Returns the state at time `t_end` and the number of evaluations; none if the motion does not get there.
 pub(super) fn integrate(
     motion: &dyn Acceleration,
     start: Place,
@@ -134,7 +134,7 @@ pub(super) fn integrate(
     let length = t_end - start.t.value();
     let mut place = start;
     let mut h = length * 1e-3;
-    // Tails of the last three refusals, the oldest first.
+    // Tails of the last three rejected steps, the oldest first.
     let mut refused = [f64::INFINITY; 3];
     while place.t.value() < t_end {
         let stop = motion.next_time(place.t.value()).min(t_end);
@@ -155,7 +155,7 @@ pub(super) fn integrate(
         }
         let (mut next, tail) = found;
         let growth = 0.9 * (resolution.tail / tail.max(1e-300)).powf(1.0 / (STAGES as f64 - 1.0));
-        // What shorter and shorter steps do not make smaller is rounding.
+        // A tail that shorter steps do not reduce is rounding.
         let rounding = tail < 1e-7 && tail > 0.5 * refused[0];
         if tail > 10.0 * resolution.tail && !rounding {
             h = step * growth.clamp(0.1, 0.6);
@@ -170,7 +170,7 @@ pub(super) fn integrate(
             };
         refused = [f64::INFINITY; 3];
         if last && corner.is_none() {
-            // The step is a float; what it leaves out of the time is too short for more than its first term.
+            // The step is a float; its remainder in time is so short that the first term suffices.
             let end = DoubleDouble::from(stop);
             let rest = end - next.t;
             let alpha = motion.exactly(next.t, next.theta, next.omega);
@@ -196,7 +196,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// From a step that passes an angle to one that ends there, and its length.
+    /// Shortens a step that passes an angle so that it ends there; returns the length as well.
     fn up_to(
         &mut self,
         place: Place,
@@ -211,7 +211,7 @@ impl Run<'_> {
                 break;
             }
             let newton = h + missing / end.omega.value();
-            // Where the speed misleads, the chord does not.
+            // Where Newton's step misleads, use the chord.
             h = if newton > 0.0 && newton < 1.5 * h {
                 newton
             } else {
@@ -222,7 +222,7 @@ impl Run<'_> {
         Some((found, h))
     }
 
-    /// One step, and the size of the end of its series.
+    /// Makes one step; returns the size of the last series terms as well.
     fn step(&mut self, place: Place, h: f64) -> Option<(Place, f64)> {
         let Place { t, theta, omega } = place;
         let start = self.motion.exactly(t, theta, omega);
@@ -260,7 +260,7 @@ impl Run<'_> {
             let size = alpha.iter().map(|a| (*a).value().abs());
             let size = size.fold(f64::MIN_POSITIVE, f64::max);
             let moved = change.amax() / size;
-            // Loads in floats leave a rest that does not become smaller.
+            // Loads in floats leave a residual that does not decrease.
             let stuck = iteration > 3 && moved < 1e-12 && moved > 0.25 * before;
             if moved <= self.resolution.settled || stuck {
                 let next = Place {
@@ -275,7 +275,7 @@ impl Run<'_> {
         None
     }
 
-    /// ∫∫ of the acceleration over a step of length 1.
+    /// Returns the double integral of the acceleration over a step of length 1.
     fn ends(&self, alpha: &[DoubleDouble; STAGES]) -> DoubleDouble {
         let Tableau { nodes, weights, .. } = &self.tableau;
         (0..STAGES).fold(DoubleDouble::ZERO, |sum, i| {

@@ -1,6 +1,6 @@
-//! The equation of motion in double-double arithmetic, written apart from the mechanics that the engines
-//! use, so that it checks both: velocities and accelerations of the joints from the closed loop, forces by
-//! d'Alembert's principle, no energies and no derivatives of them.
+//! Equation of motion in double-double arithmetic, independent of the mechanics of the engines, so that each checks the
+//! other: velocities and accelerations of the joints from the closed loop, forces by d'Alembert's principle, no
+//! energies and no derivatives of them.
 //!
 //! With unit rates (velocities for θ̇ = 1, marked ₁) and accelerations for θ̈ = 0 (marked ₀),
 //! θ̈ = (Q + Σ m g·v₁ − Σ m a₀·v₁ − Σ I ψ̈₀ ψ̇₁) / (Σ m v₁² + Σ I ψ̇₁²).
@@ -13,33 +13,33 @@ use slider_crank::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variable
 
 type Vector = [DoubleDouble; 2];
 
-/// The mechanism with its loads.
+/// Mechanism with its loads.
 pub struct Extended {
     scene: Scene,
     pub crank_inertia: DoubleDouble,
-    /// Mass and place along the crank and to its left, of what has weight there.
+    /// Mass, and position along the crank and to its left, of the parts with weight on the crank.
     pub on_crank: Vec<(DoubleDouble, DoubleDouble, DoubleDouble)>,
     pub rod: Option<Rod>,
     pub slider_mass: DoubleDouble,
-    /// m/s²
+    /// Gravity, m/s².
     pub gravity: [f64; 2],
     exact: bool,
-    /// Corners and narrow parts of formulas over time, s.
+    /// Corners and narrow features of formulas over time, s.
     marks: Vec<f64>,
 }
 
-/// Mass, centre of gravity and central moment of inertia of a rod that moves as a body.
+/// Mass, centre of gravity and central moment of inertia of a rod modelled as a body.
 pub struct Rod {
-    /// kg
+    /// Mass, kg.
     pub mass: DoubleDouble,
-    /// Along the rod from the crank pin, and to the left of it, m.
+    /// Centre of gravity along the rod from the crank pin (`along`) and to the left of it (`left`), m.
     pub along: f64,
     pub left: f64,
-    /// kg m²
+    /// Central moment of inertia, kg m².
     pub inertia: DoubleDouble,
 }
 
-/// Time (s), crank angle (rad) and speed (rad/s), for loads.
+/// Time (s), crank angle (rad) and speed (rad/s) at which loads are evaluated.
 pub struct State {
     pub t: f64,
     pub theta: DoubleDouble,
@@ -51,7 +51,7 @@ fn exactly(value: f64) -> DoubleDouble {
 }
 
 impl Extended {
-    /// The mechanism of a scene, for a run to `t_end`, s.
+    /// Creates the mechanism of a scene, for a run to `t_end`, s.
     pub fn new(scene: &Scene, t_end: f64) -> Extended {
         let scene = scene.reduced();
         let zero = DoubleDouble::ZERO;
@@ -119,59 +119,59 @@ impl Extended {
         extended
     }
 
-    /// Whether all loads are known to more digits than a float has.
+    /// Whether all loads are known beyond the digits of a float.
     pub fn is_exact(&self) -> bool {
         self.exact
     }
 
-    /// Whether a crank that turns repeats its motion with every turn: no load takes or gives work in a turn.
+    /// Whether a turning crank repeats its motion every turn: no load does net work in a turn.
     pub fn repeats(&self) -> bool {
         let conserves = |load: &Load| matches!(load, Load::Constant(_) | Load::Spring { .. });
         self.scene.torques.is_empty() && self.scene.forces.iter().all(conserves)
     }
 
-    /// r, l and e, m.
+    /// Returns r, l and e, m.
     pub fn lengths(&self) -> (f64, f64, f64) {
         let geometry = &self.scene.geometry;
         (geometry.crank, geometry.rod, geometry.offset)
     }
 
-    /// Torques on the crank.
+    /// Returns the torques on the crank.
     pub fn torques(&self) -> &[Load] {
         &self.scene.torques
     }
 
-    /// Forces on the slider.
+    /// Returns the forces on the slider.
     pub fn forces(&self) -> &[Load] {
         &self.scene.forces
     }
 
-    /// The loads.
+    /// Returns all loads.
     pub fn loads(&self) -> impl Iterator<Item = &Load> {
         self.scene.torques.iter().chain(&self.scene.forces)
     }
 
-    /// The first time after `t` (s) at which a load is not smooth.
+    /// Returns the first time after `t` (s) at which a load is not smooth.
     pub fn next_corner(&self, t: f64) -> f64 {
         let corners = self.loads().map(|load| load.next_corner(t));
         let marks = self.marks.iter().copied().filter(|mark| *mark > t);
         corners.chain(marks).fold(f64::INFINITY, f64::min)
     }
 
-    /// θ̈; not valid where there is none.
+    /// Returns θ̈; not finite where it does not exist.
     pub fn acceleration(&self, state: &State) -> DoubleDouble {
         let geometry = &self.scene.geometry;
         let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
         let (sin, cos) = state.theta.sin_cos();
         let omega = state.omega;
         let squared = omega * omega;
-        // Crank pin, and the rod's direction from there: the wrist pin lies at y = −e.
+        // Crank pin, and direction of the rod from there: the wrist pin lies at y = −e.
         let (ax, ay) = (cos * r, sin * r);
         let rise = -(ay + e);
         let dy = rise / l;
         let run = ((rise + l) * (exactly(l) - rise)).sqrt() * geometry.branch.sign();
         let dx = run / l;
-        // Unit rates. The wrist pin stays on its line: ẏ_A + ψ̇ l dx = 0.
+        // Velocities at θ̇ = 1. The wrist pin stays on its line: ẏ_A + ψ̇ l dx = 0.
         let spin = -ax / run;
         let slider_rate = -ay - spin * rise;
         // Accelerations at θ̈ = 0, divided by θ̇²: ÿ_A + ψ̈ l dx − ψ̇² l dy = 0.
@@ -221,7 +221,7 @@ impl Extended {
     }
 }
 
-/// Ends of the steps that show a formula over time, to rounding.
+/// Requirement on the steps: they resolve a formula over time to rounding.
 const SHOWN: Wanted = Wanted {
     nodes: 20,
     part: f64::EPSILON,
@@ -246,7 +246,7 @@ fn is_exact(load: &Load) -> bool {
     )
 }
 
-/// Value of a load at a speed of its own body.
+/// Returns the value of a load at the speed of its own body.
 pub fn value(
     load: &Load,
     on_slider: bool,

@@ -1,5 +1,5 @@
-//! References in double-double arithmetic for motions made of pieces: with friction, past limits, in a loose joint. Two
-//! fineness levels must agree; equations and method have nothing in common with the engines.
+//! References in double-double arithmetic for motions made of pieces: with friction, past limits, with a loose joint.
+//! Runs at two resolutions must agree; equations and method are independent of the engines.
 
 mod collocation;
 mod extended;
@@ -18,7 +18,7 @@ use slider_crank::precision::{Precision, PrecisionOptions, Reference, precision_
 use slider_crank::scene::{MotionKind, Scene};
 use whole::distance;
 
-/// The comparison of methods, against a reference also where a motion is made of pieces.
+/// Compares the methods, with a reference also for motions made of pieces.
 pub fn precision(scene: &Scene, options: &PrecisionOptions) -> Result<Precision, Error> {
     precision_against(scene, options, &find)
 }
@@ -33,7 +33,7 @@ fn find(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     if whole || scene.motion.kind == MotionKind::ConstantSpeed {
         return whole::extended(scene, t_end, evaluations);
     }
-    // Dry loads are not written in it.
+    // The reference equations do not include dry loads.
     if class == Class::ChangePoint || Equation::new(scene).loads().are_dry() {
         return None;
     }
@@ -42,11 +42,11 @@ fn find(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
 
 const WHAT: &str = "extrapolation of order 20 in double-double arithmetic, event by event";
 
-/// Errors of a step in the two runs; loads in floats have their rounding in them.
+/// Step tolerances of the two runs for exact loads; loads in floats carry their rounding and need the coarser set.
 const STEPS_EXACT: [f64; 2] = [1e-20, 1e-22];
 const STEPS_ROUNDED: [f64; 2] = [1e-15, 1e-16];
 
-/// The reference of motions with friction or past limits, which are made of pieces.
+/// Returns the reference of motions with friction or past limits, which are made of pieces.
 fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     let extended = Extended::new(scene, t_end);
     let guided = Guided::new(scene, &extended, t_end);
@@ -64,7 +64,7 @@ fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     })
 }
 
-/// The reference of motions with a loose joint.
+/// Returns the reference of motions with a loose joint.
 fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     let extended = Extended::new(scene, t_end);
     let loose = Loose::new(scene, &extended)?;
@@ -82,7 +82,7 @@ fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     })
 }
 
-/// Two runs, the second the finer.
+/// Makes two runs, the second with the finer resolution.
 fn twice<T>(
     extended: &Extended,
     evaluations: u64,

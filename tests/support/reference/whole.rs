@@ -1,4 +1,4 @@
-//! What the runs are measured against where no friction, no limit and no loose joint make pieces of the motion.
+//! Reference of smooth motions: without friction, limit or loose joint, which would divide the motion into pieces.
 
 use std::f64::consts::TAU;
 
@@ -10,19 +10,19 @@ use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::precision::Reference;
 use slider_crank::scene::{Load, MotionKind, Scene, Variable};
 
-/// Two runs of the reference must agree; what is stated is larger than their distance by this.
+/// Factor from the distance of the two reference runs to the stated error.
 const MARGIN: f64 = 4.0;
 
-/// Relative rounding of the last operations in double-double arithmetic.
+/// Relative rounding error of the last operations in double-double arithmetic.
 const RESULT_ROUNDING: f64 = 256.0 * DoubleDouble::ROUNDING;
 
-/// Ends of the series of the two runs, and where iterations end. Coarser ones follow for motions near a limit,
-/// where digits are lost; loads in floats have their rounding in the series.
+/// Series tails of the two runs, and the end of the iterations. The coarser set is for motions near a limit, where
+/// digits are lost; loads in floats have their rounding in the series.
 const EXACT: [([f64; 2], f64); 2] = [([1e-20, 1e-22], 1e-23), ([1e-15, 1e-17], 1e-19)];
 const ROUNDED: [([f64; 2], f64); 1] = [([1e-9, 1e-11], 1e-15)];
 
-/// The reference in double-double arithmetic; none if it would take more evaluations than this, or the
-/// motion does not get to the end.
+/// Returns the reference in double-double arithmetic; none if it would take more evaluations than this, or if the
+/// motion does not reach the end.
 pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
     let reduced = scene.reduced();
     if reduced.clearance.is_some() {
@@ -47,7 +47,7 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
             slider: None,
         });
     }
-    // Dry loads are not written in it; friction and limits make pieces of a motion.
+    // The reference equations do not include dry loads; friction and limits divide a motion into pieces.
     if Equation::new(scene).loads().are_dry()
         || reduced.friction.is_some()
         || class != Class::RotatingCrank
@@ -90,7 +90,7 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
     })
 }
 
-/// How far two runs are apart, and what rounding adds.
+/// Returns the distance of two runs plus its rounding.
 pub fn distance(a: DoubleDouble, b: DoubleDouble) -> f64 {
     MARGIN * (a - b).value().abs() + b.value().abs() * RESULT_ROUNDING
 }
@@ -103,19 +103,19 @@ fn loads(exact: bool) -> &'static str {
     }
 }
 
-/// Runs of more turns are made of one turn, if all are the same.
+/// Number of turns above which equal turns are computed from one.
 const FEW_TURNS: f64 = 64.0;
 
-/// The motion as the collocation sees it.
+/// Motion as input of the collocation.
 struct Motion {
     extended: Extended,
-    /// For the slopes alone, which decide how fast the iteration converges and not where to.
+    /// Equation for the slopes alone, which affect the speed of convergence and not its limit.
     equation: Equation,
 }
 
 impl Motion {
-    /// The state at `t_end` of a motion that repeats with every turn: whole periods, and the rest of one. None
-    /// if the crank does not turn.
+    /// Returns the state at `t_end` of a motion that repeats every turn: whole periods, and the rest of one. None if
+    /// the crank does not turn.
     fn repeated(
         &self,
         start: Place,
@@ -128,7 +128,7 @@ impl Motion {
             let end = until(period.value())?;
             let change = (start.theta + turn - end.theta) / end.omega;
             let found = DoubleDouble::from(period.value()) + change;
-            // Newton's method squares what is left: the last change is right to all digits.
+            // Newton's method converges quadratically: after the last change all digits are correct.
             let settled = change.value().abs() <= 1e-13 * found.value();
             period = found;
             if !(period.value() > 0.0 && period.value() < t_end) {
@@ -177,7 +177,7 @@ impl Acceleration for Motion {
             } => Some(table),
             _ => None,
         });
-        // A corner that was met is not met again.
+        // Skip a corner that has just been reached.
         let slack = 4.0 * CORNER + 16.0 * f64::EPSILON * theta.abs().max(towards.abs());
         let (low, high) = (theta.min(towards) + slack, theta.max(towards) - slack);
         let between = corners
@@ -187,7 +187,7 @@ impl Acceleration for Motion {
                     let Some(period) = table.period() else {
                         return *row;
                     };
-                    // The repetition that is met first.
+                    // First repetition of the corner in the direction of motion.
                     let turns = if towards > theta {
                         ((low - row) / period).ceil()
                     } else {

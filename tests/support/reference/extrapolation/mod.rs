@@ -1,67 +1,67 @@
-//! Motions whose equations change at events, in double-double arithmetic: the modified midpoint rule of Gragg with
-//! extrapolation (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9). It has nothing in
-//! common with the methods that are measured against it but the equations' meaning.
+//! Motions whose equations change at events, in double-double arithmetic: Gragg's modified midpoint rule with
+//! extrapolation (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9). It is independent of the
+//! methods under test.
 
 mod run;
 
 use run::Run;
 use slider_crank::numeric::double_double::DoubleDouble;
 
-/// Most events in a row without motion between them.
+/// Largest number of consecutive events without motion between them.
 const STALLED: usize = 20;
 
-/// A state; its first number is the time, s.
+/// State; its first number is the time, s.
 pub(super) type State<const N: usize> = [DoubleDouble; N];
 
-/// A motion made of smooth pieces.
+/// Motion made of smooth pieces.
 pub(super) trait Pieces<const N: usize, const M: usize> {
-    /// What holds in one piece.
+    /// Set of equations of one piece.
     type Mode: Copy;
 
-    /// Rates of a state, not finite where there are none.
+    /// Returns the rates of a state, not finite where they do not exist.
     fn rates(&self, mode: Self::Mode, y: &State<N>) -> State<N>;
 
-    /// Quantities that are positive while the mode lasts.
+    /// Returns quantities that are positive while the mode lasts.
     fn margins(&self, mode: Self::Mode, y: &State<N>) -> [DoubleDouble; M];
 
-    /// How it goes on where a margin has become zero.
+    /// Returns the continuation where a margin has become zero.
     fn change(&self, mode: Self::Mode, which: usize, y: &State<N>) -> Change<Self::Mode>;
 
-    /// The state at rest.
+    /// Returns the state at rest.
     fn resting(&self, y: &State<N>) -> State<N> {
         *y
     }
 
-    /// The first time after `t` (s) at which the rates are not smooth.
+    /// Returns the first time after `t` (s) at which the rates are not smooth.
     fn next_time(&self, t: f64) -> f64;
 
-    /// Sizes of the numbers, for the error of a step.
+    /// Returns the sizes of the numbers, the scale of the error of a step.
     fn sizes(&self, y: &State<N>) -> [f64; N];
 }
 
-/// What follows on an event.
+/// Continuation after an event.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Change<T> {
     /// Another mode.
     Mode(T),
-    /// Rest in this position until that time (s), then another mode; none: for good.
+    /// Rest in this position until this time (s), then another mode; none: rest for good.
     Rest(Option<(f64, T)>),
     /// The equations end here.
     Ends,
-    /// It is not known.
+    /// The continuation is unknown.
     Unknown,
 }
 
-/// How finely, and with how much work.
+/// Resolution and work limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fineness {
     /// Error of a step relative to the sizes.
     pub tolerance: f64,
-    /// Most evaluations.
+    /// Largest number of evaluations.
     pub evaluations: u64,
 }
 
-/// The state at `t_end` (s), or where the equations end, and whether they do; none if it is not found.
+/// Returns the state at `t_end` (s) or where the equations end, and whether they end; none if it is not found.
 pub(super) fn follow<const N: usize, const M: usize, P: Pieces<N, M>>(
     pieces: &P,
     start: State<N>,

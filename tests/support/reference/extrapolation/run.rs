@@ -1,13 +1,13 @@
-//! The pieces, step by step.
+//! Integration of the pieces, step by step.
 
 use super::{Fineness, Pieces, State};
 use slider_crank::numeric::double_double::DoubleDouble;
 
-/// Columns of the extrapolation: the order of a step is twice that.
+/// Number of columns of the extrapolation: the order of a step is twice this.
 const COLUMNS: usize = 10;
-/// An event is located to this part of its step.
+/// Accuracy of the location of an event, relative to its step.
 const LOCATED: f64 = 1e-26;
-/// A step this much shorter than the run is none.
+/// Shortest step relative to the run; shorter ones count as failure.
 const SHORTEST: f64 = 1e-25;
 
 pub(super) struct Run<'a, const N: usize, const M: usize, P> {
@@ -17,7 +17,8 @@ pub(super) struct Run<'a, const N: usize, const M: usize, P> {
 }
 
 impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
-    /// Up to the end of a mode, and which margin ended it, or up to the last time; none if it gets to neither.
+    /// Integrates to the end of a mode, and returns the margin that ended it, or to the last time; none if neither is
+    /// reached.
     pub fn piece(
         &mut self,
         mode: P::Mode,
@@ -29,7 +30,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         while y[0].value() < t_end {
             let stop = self.pieces.next_time(y[0].value()).min(t_end);
             if at_corner {
-                // A margin may have jumped there.
+                // A margin may jump there.
                 let mut margins = self.pieces.margins(mode, y).into_iter();
                 if let Some(which) = margins.position(|margin| margin.value() < 0.0) {
                     return Some(Some(which));
@@ -64,7 +65,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         Some(None)
     }
 
-    /// Which margin is gone first in a step, and after what part of it (s).
+    /// Returns the first margin to vanish in a step, and the time within the step, s.
     fn ended(
         &mut self,
         mode: P::Mode,
@@ -91,7 +92,8 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         first
     }
 
-    /// Where inside a step a margin is least, if it is below zero there: by the cubic of its ends.
+    /// Returns the place of the minimum of a margin inside a step, if it is negative there: by cubic Hermite
+    /// interpolation.
     fn least(
         &mut self,
         mode: P::Mode,
@@ -121,7 +123,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         (margin.value() < 0.0).then_some(part)
     }
 
-    /// The part of a step (s), at whose end a margin is below zero, after which it is zero.
+    /// Returns the time within a step (s) at which a margin vanishes that is negative at the end of the step.
     fn when(
         &mut self,
         mode: P::Mode,
@@ -134,7 +136,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
             self.pieces.margins(mode, &end)[which]
         };
         let (mut to, mut from) = ((step, value(step)), (step, DoubleDouble::ZERO));
-        // A margin that is zero at the start, but for rounding, is positive somewhere before it is gone.
+        // A margin that is zero at the start, up to rounding, is positive somewhere before it vanishes.
         for _ in 0..60 {
             from.0 = from.0 * 0.25;
             from.1 = value(from.0);
@@ -146,7 +148,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         if from.1.value() <= 0.0 {
             return DoubleDouble::ZERO;
         }
-        // Regula falsi, the weight of an end that stays halved.
+        // Regula falsi (Illinois): the weight of a retained end is halved.
         for _ in 0..60 {
             let width = to.0 - from.0;
             if width.value().abs() <= LOCATED * step.value() {
@@ -167,7 +169,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         to.0
     }
 
-    /// A step, and its error over what is allowed.
+    /// Makes a step; returns its error relative to the allowed error as well.
     fn step(&mut self, mode: P::Mode, y: &State<N>, h: DoubleDouble) -> (State<N>, f64) {
         let first = self.pieces.rates(mode, y);
         let sizes = self.pieces.sizes(y);
@@ -176,7 +178,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         for row in 0..COLUMNS {
             let parts = 2 * (row + 1);
             let mut last = self.midpoint(mode, y, &first, h, parts);
-            // Aitken and Neville in powers of the square of the small step.
+            // Aitken-Neville scheme in powers of the square of the small step.
             for (column, entry) in table.iter_mut().enumerate() {
                 let ratio = parts as f64 / (2 * (row - column)) as f64;
                 let weight = DoubleDouble::ONE / (DoubleDouble::from(ratio) * ratio - 1.0);
@@ -200,7 +202,7 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
         (table[COLUMNS - 1], error)
     }
 
-    /// The modified midpoint rule in so many parts.
+    /// Applies the modified midpoint rule with this number of parts.
     fn midpoint(
         &self,
         mode: P::Mode,
@@ -218,13 +220,13 @@ impl<const N: usize, const M: usize, P: Pieces<N, M>> Run<'_, N, M, P> {
             let next = std::array::from_fn(|i| before[i] + rates[i] * double);
             (before, now) = (now, next);
         }
-        // Gragg's smoothing: without it the rates at the end of the step, and a jump next to it, went unseen.
+        // Gragg's smoothing: without it the rates at the end of the step, and a jump next to it, would be unseen.
         let rates = self.pieces.rates(mode, &now);
         std::array::from_fn(|i| (now[i] + before[i] + rates[i] * small) * 0.5)
     }
 }
 
-/// By how much the step may change.
+/// Returns the factor by which the step may change.
 fn growth(error: f64) -> f64 {
     if !error.is_finite() {
         return 0.2;

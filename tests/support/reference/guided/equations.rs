@@ -1,4 +1,4 @@
-//! The equations of crank, rod and slider with the force of the guide.
+//! Equations of crank, rod and slider with the guide force as an unknown.
 
 use super::super::extended::value;
 use super::super::extrapolation::State;
@@ -9,7 +9,7 @@ use slider_crank::scene::Instant;
 
 type Pair = [DoubleDouble; 2];
 
-/// The linear equations at a state.
+/// Linear equations at a state.
 pub(super) struct Equations {
     m: [Pair; 2],
     q: Pair,
@@ -29,7 +29,7 @@ impl Guided<'_> {
         let (turn2, spin2) = (omega * omega, spin * spin);
         let a = [cos * r, sin * r];
         let d = [rod_cos, -rod_sin];
-        // Place, Jacobian and acceleration at θ̈ = Φ̈ = 0 of a point of the rod.
+        // Position, Jacobian and acceleration at θ̈ = Φ̈ = 0 of a point of the rod.
         let point = |along: f64, left: f64| {
             let arm = [d[0] * along - d[1] * left, d[1] * along + d[0] * left];
             let jacobian = [[-a[1], arm[1]], [a[0], -arm[0]]];
@@ -89,7 +89,7 @@ impl Guided<'_> {
 }
 
 impl Equations {
-    /// (θ̈, Φ̈) and N: along the way τ that the guide leaves open and across it.
+    /// Solves for (θ̈, Φ̈) and N: along the free direction τ of the guide and across it.
     pub fn solve(&self, c: f64) -> (Pair, DoubleDouble) {
         let pushed = [0, 1].map(|i| self.jy[i] + self.jx[i] * c);
         let squared = self.jy[0] * self.jy[0] + self.jy[1] * self.jy[1];
@@ -107,12 +107,12 @@ impl Equations {
         [self.jy[1], -self.jy[0]]
     }
 
-    /// M times a pair.
+    /// Returns the product of M and a pair.
     fn times(&self, by: Pair) -> Pair {
         [0, 1].map(|i| self.m[i][0] * by[0] + self.m[i][1] * by[1])
     }
 
-    /// N and the friction that keep it at rest.
+    /// Returns the normal force N and the friction that keep the mechanism at rest.
     pub fn hold(&self) -> (DoubleDouble, DoubleDouble) {
         let determinant = self.jy[0] * self.jx[1] - self.jx[0] * self.jy[1];
         (
@@ -121,7 +121,7 @@ impl Equations {
         )
     }
 
-    /// Positive while there is one and only one acceleration.
+    /// Returns a number that is positive while exactly one acceleration exists.
     pub fn clear(&self, mu: f64) -> DoubleDouble {
         let slow = self.times(self.open());
         let ratio = cross(slow, self.jx) / cross(slow, self.jy) * mu;

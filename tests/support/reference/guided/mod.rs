@@ -1,6 +1,6 @@
-//! Motion with Coulomb friction, and past the limits of a rocker, in double-double arithmetic: crank angle and rod
-//! angle are both unknown, and the normal force of the guide, an unknown too, keeps the wrist pin on its line. No
-//! coordinate of the configuration curve and no formula for the friction's effect, as the engines use.
+//! Motion with Coulomb friction, and past the limits of a rocker, in double-double arithmetic. Crank angle and rod
+//! angle are both unknown, and so is the normal force of the guide, which keeps the wrist pin on its line. Unlike the
+//! engines, this uses no coordinate of the configuration curve and no formula for the effect of friction.
 //!
 //! The rod points along (cos Φ, −sin Φ). With J = ∂(x, y)/∂(θ, Φ) of the wrist pin, N on the slider along +y and the
 //! friction c N along +x: M (θ̈, Φ̈) − N (J_y + c J_x) = Q, J_y (θ̈, Φ̈) = −ÿ at θ̈ = Φ̈ = 0.
@@ -17,33 +17,33 @@ use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::numeric::enclosure::Interval;
 use slider_crank::scene::{Friction, Scene};
 
-/// Time, θ, Φ and their rates.
+/// Number of state variables: time, θ, Φ and their rates.
 const NUMBERS: usize = 5;
-/// Slider velocity, normal force, and the distance from jamming.
+/// Number of margins: slider velocity, normal force, and the distance from jamming.
 const MARGINS: usize = 3;
 
-/// Looks ahead in so many places for the end of a rest.
+/// Number of times at which the end of a rest is looked for.
 const PLACES: u32 = 20_000;
 
-/// How the slider slides: the signs of its velocity and of the normal force, or without friction.
+/// Mode of sliding: the signs of the slider velocity and of the normal force; none without friction.
 type Mode = Option<(f64, f64)>;
 
-/// The mechanism.
+/// Mechanism with its guide.
 pub(super) struct Guided<'a> {
     extended: &'a Extended,
     friction: Option<Friction>,
     t_end: f64,
-    /// Size of the angular speeds, rad/s.
+    /// Scale of the angular speeds, rad/s.
     pace: f64,
-    /// Loads are those between two corners over time (s), at their ends too.
+    /// Interval between two corners of the loads over time (s), on which the loads are smooth, also at its ends.
     between: Cell<Interval>,
 }
 
-/// A corner over time is known to this part of the run.
+/// Accuracy of a corner over time, relative to the run.
 const AT_CORNER: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Guided<'a> {
-    /// The mechanism of a scene, for a run to `t_end` (s).
+    /// Creates the mechanism of a scene, for a run to `t_end` (s).
     pub(super) fn new(scene: &Scene, extended: &'a Extended, t_end: f64) -> Guided<'a> {
         Guided {
             extended,
@@ -54,8 +54,8 @@ impl<'a> Guided<'a> {
         }
     }
 
-    /// Time, crank angle and crank speed at the end of the run, and whether the equations end there; none if it is
-    /// not found.
+    /// Returns time, crank angle and crank speed at the end of the run, and whether the equations end there; none if
+    /// the end is not found.
     pub(super) fn end(
         &self,
         scene: &Scene,
@@ -100,7 +100,7 @@ impl<'a> Guided<'a> {
         mode.map_or(0.0, |(velocity, normal)| -mu * velocity * normal)
     }
 
-    /// Sliding in this direction of the slider: the sign of the normal force that agrees with itself.
+    /// Returns sliding in this direction of the slider, with the self-consistent sign of the normal force.
     fn sliding(&self, equations: &Equations, velocity: f64) -> Change<Mode> {
         let mu = self.friction.map_or(0.0, |friction| friction.coefficient);
         if equations.clear(mu).value() <= 0.0 {
@@ -114,7 +114,7 @@ impl<'a> Guided<'a> {
         }
     }
 
-    /// How it goes on where the slider has stopped.
+    /// Returns the continuation where the slider has stopped.
     fn onwards(&self, y: &State<NUMBERS>) -> Change<Mode> {
         let Some(friction) = self.friction else {
             return Change::Mode(None);
@@ -157,7 +157,7 @@ impl<'a> Guided<'a> {
     }
 }
 
-/// The larger of the angular speeds, rad/s.
+/// Returns the larger of the angular speeds, rad/s.
 fn fastest(y: &State<NUMBERS>) -> f64 {
     y[3].value().abs().max(y[4].value().abs())
 }
@@ -188,7 +188,7 @@ impl Pieces<NUMBERS, MARGINS> for Guided<'_> {
             return Change::Unknown;
         };
         match which {
-            // The slider stops while the crank turns on: a dead centre.
+            // The slider stops while the crank turns on: dead centre.
             0 if fastest(y) > 1e-18 * self.pace => Change::Mode(Some((-velocity, normal))),
             0 => self.onwards(y),
             1 => Change::Mode(Some((velocity, -normal))),

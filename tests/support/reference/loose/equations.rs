@@ -8,22 +8,22 @@ use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::scene::{Instant, Joint};
 
 type Vector = [DoubleDouble; 2];
-/// One number for each of θ, ψ and x.
+/// Triple of numbers, one each for θ, ψ and x.
 type Triple = [DoubleDouble; 3];
 
-/// Journal and bearing at a state.
+/// Relative position and velocity of journal and bearing at a state.
 pub(super) struct Meeting {
     pub distance: DoubleDouble,
-    /// Of the distance, and its rate.
+    /// Jacobian of the distance for θ, ψ and x.
     closing: Triple,
     pub closing_rate: DoubleDouble,
-    /// Of the sliding at the point of contact, and its rate.
+    /// Jacobian of the sliding displacement at the point of contact for θ, ψ and x.
     sliding: Triple,
     pub sliding_rate: DoubleDouble,
 }
 
 impl Loose<'_> {
-    /// Ends of crank and rod.
+    /// Returns the ends of crank and rod.
     fn frame(&self, y: &State<NUMBERS>) -> (Vector, Vector) {
         let (r, ..) = self.extended.lengths();
         let ((sin, cos), (dy, dx)) = (y[1].sin_cos(), y[2].sin_cos());
@@ -35,7 +35,7 @@ impl Loose<'_> {
         let (a, d) = self.frame(y);
         let at_crank = self.clearance.joint == Joint::CrankPin;
         let side = if at_crank { 1.0 } else { -1.0 };
-        // From the slider to the rod's end, and its Jacobian.
+        // Vector from the slider to the end of the rod, and its Jacobian.
         let offset = [
             (a[0] + d[0] * l - y[3]) * side,
             (a[1] + d[1] * l + e) * side,
@@ -54,7 +54,7 @@ impl Loose<'_> {
         let rates = [y[4], y[5], y[6]];
         let closing = by(along);
         let mut sliding = by([-along[1], along[0]]);
-        // Surfaces at the point of contact: that of the bearing turns with the rod, that of the crank pin with it.
+        // Surfaces at the point of contact: the bearing rotates with the rod, the crank pin with the crank.
         let bearing = self.clearance.bearing_radius.unwrap_or(0.0);
         sliding[1] += -DoubleDouble::from(bearing);
         if at_crank {
@@ -69,7 +69,7 @@ impl Loose<'_> {
         }
     }
 
-    /// Virtual work of the contact force for each of θ, ψ and x.
+    /// Returns the virtual work of the contact force for each of θ, ψ and x.
     fn contact(&self, mode: Mode, meeting: &Meeting) -> Triple {
         let zero = DoubleDouble::ZERO;
         let depth = meeting.distance - self.clearance.radial;
@@ -95,7 +95,7 @@ impl Loose<'_> {
         std::array::from_fn(|i| -(normal * meeting.closing[i]) - drag * meeting.sliding[i])
     }
 
-    /// Inertia matrix and forces for θ, ψ and x.
+    /// Returns the inertia matrix and the forces for θ, ψ and x.
     pub(super) fn equations(&self, mode: Mode, y: &State<NUMBERS>) -> ([Triple; 3], Triple) {
         let zero = DoubleDouble::ZERO;
         let (a, d) = self.frame(y);
@@ -166,7 +166,7 @@ fn product(a: Triple, b: Triple) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The solution of three linear equations with a symmetric matrix, by elimination.
+/// Solves three linear equations with a symmetric matrix, by elimination.
 pub(super) fn solved(mut m: [Triple; 3], mut q: Triple) -> Triple {
     for i in 0..3 {
         let (pivot, right) = (m[i], q[i]);

@@ -1,6 +1,6 @@
-//! The mechanism with a loose joint in double-double arithmetic: rod and slider by virtual work, the contact force
-//! along the velocity with which journal and bearing meet at their one point. The engine has Newton's and Euler's
-//! equations about the pinned end.
+//! Mechanism with a loose joint in double-double arithmetic: rod and slider by virtual work, the contact force along
+//! the relative velocity of journal and bearing at the contact point. The engine uses Newton-Euler equations about the
+//! pinned end instead.
 
 mod equations;
 
@@ -11,28 +11,28 @@ use slider_crank::mechanism::{LooseMechanism, LooseState, NormalForce};
 use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::scene::{Clearance, ContactLaw, MotionKind, Rod, RodModel, Scene};
 
-/// Time, θ, ψ, x and their rates.
+/// Number of state variables: time, θ, ψ, x and their rates.
 const NUMBERS: usize = 7;
-/// Of the depth, of the damping's factor, and of the sliding speed.
+/// Number of margins: of the depth, of the damping factor, and of the sliding speed.
 const MARGINS: usize = 3;
 
-/// What journal and bearing do.
+/// Contact mode of journal and bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Mode {
-    /// They are apart.
+    /// No contact.
     Apart,
-    /// They touch.
+    /// Contact.
     Touch {
-        /// Speed with which the contact began, m/s.
+        /// Approach speed at the start of the contact, m/s.
         approach: DoubleDouble,
-        /// Whether they press each other.
+        /// Whether the contact transmits force.
         presses: bool,
-        /// Friction grows with the sliding (0), or is Coulomb's to one side or the other (±1).
+        /// Friction regime: proportional to the sliding speed (0), or Coulomb's in one direction or the other (±1).
         slides: f64,
     },
 }
 
-/// The mechanism.
+/// Mechanism with its loose joint.
 pub(super) struct Loose<'a> {
     extended: &'a Extended,
     clearance: Clearance,
@@ -41,13 +41,13 @@ pub(super) struct Loose<'a> {
     /// Crank angle at the start with its whole turns, rad.
     angle: f64,
     driven: bool,
-    /// Sizes of a speed and of an angular speed.
+    /// Scales of a speed and of an angular speed.
     pace: f64,
 }
 
 impl<'a> Loose<'a> {
-    /// The mechanism of a scene; none for a link without mass, for friction at the guide, and where the scene cannot
-    /// be computed.
+    /// Creates the mechanism of a scene; none for a massless link, for friction at the guide, and for a scene that
+    /// cannot be computed.
     pub(super) fn new(scene: &Scene, extended: &'a Extended) -> Option<Loose<'a>> {
         let reduced = scene.reduced();
         let clearance = reduced.clearance?;
@@ -70,7 +70,7 @@ impl<'a> Loose<'a> {
         })
     }
 
-    /// The state at the end; none if it is not found. A journal that begins at the wall is not served.
+    /// Returns the state at the end; none if it is not found. A journal that starts at the wall is not supported.
     pub(super) fn end(&self, t_end: f64, fineness: Fineness) -> Option<State<NUMBERS>> {
         let s = &self.start;
         let start = [s.t, self.angle, s.psi, s.x, s.omega, s.spin, s.v].map(DoubleDouble::from);
@@ -82,7 +82,7 @@ impl<'a> Loose<'a> {
         (!ends).then_some(end)
     }
 
-    /// The region of friction at a sliding speed.
+    /// Returns the friction regime at a sliding speed.
     fn slides(&self, rate: DoubleDouble) -> f64 {
         let most = self.clearance.friction_threshold;
         if self.clearance.friction.unwrap_or(0.0) == 0.0 || rate.value().abs() < most {
@@ -99,7 +99,7 @@ impl Pieces<NUMBERS, MARGINS> for Loose<'_> {
     fn rates(&self, mode: Mode, y: &State<NUMBERS>) -> State<NUMBERS> {
         let (mut m, mut q) = self.equations(mode, y);
         if self.driven {
-            // Whatever torque it takes: θ̈ = 0.
+            // Prescribed speed: θ̈ = 0, whatever torque this takes.
             m[0] = [DoubleDouble::ONE, DoubleDouble::ZERO, DoubleDouble::ZERO];
             q[0] = DoubleDouble::ZERO;
         }
