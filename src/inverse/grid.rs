@@ -9,7 +9,7 @@ use super::linearised::State;
 pub(super) struct Grid {
     /// Times, s.
     pub times: Vec<f64>,
-    /// First sample of each node, and at the end the number of samples: a node has those up to the next one's first.
+    /// Index of the first sample of each node, and at the end the number of samples.
     pub first: Vec<usize>,
     /// Time of a block of samples that stand at one node, s; 0 where each has its own.
     pub block: f64,
@@ -114,8 +114,8 @@ pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] 
 /// Largest way of the crank from node to node, rad.
 const LONGEST: f64 = 0.12;
 
-/// Samples from which on they may be taken together, nodes that are left at least, and the largest way of the crank, rad, along
-/// which they are.
+/// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
+/// block, rad.
 const MANY: usize = 100_000;
 const BLOCKS: usize = 50_000;
 const SHORT: f64 = 0.02;

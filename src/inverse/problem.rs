@@ -30,9 +30,9 @@ pub(super) struct Problem<'a> {
     pub record: Record<'a>,
     pub grid: Grid,
     pub equation: &'a Equation,
-    /// How strong the noise of the process is along the record.
+    /// Intensity factors of the process noise along the record.
     pub intensities: Intensities,
-    /// A request to stop: what is smoothed then is of no use.
+    /// Request to stop; results are invalid then.
     pub stop: Option<&'a Stop>,
 }
 

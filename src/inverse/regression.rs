@@ -14,7 +14,7 @@ const BLOCK: usize = 64;
 /// Largest order of the periodic process.
 const ORDERS: i32 = 3;
 
-/// To what ln s of a spectrum is sought.
+/// Tolerance of the search for ln s of a spectrum.
 const SPECTRUM_WIDTH: f64 = 0.2;
 
 /// Variances of the coefficients.
@@ -137,7 +137,7 @@ impl Regression {
 /// The coefficients given the samples, in units of σ.
 #[derive(Clone, Debug)]
 pub(super) struct Posterior {
-    /// By how much the squares of the prediction errors fall.
+    /// Fall of the sum of squared prediction errors.
     pub fall: f64,
     /// ln |I + D½ information D½|
     pub log_determinant: f64,

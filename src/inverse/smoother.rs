@@ -56,7 +56,7 @@ impl Problem<'_> {
             if iteration == 0 || iteration == 1 && !self.record.is_linear() {
                 whole.noise = self.by_all_samples(&motion, &path, whole.scales, &whole.noise);
             }
-            // The former ones take their memory.
+            // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
