@@ -69,7 +69,7 @@ pub(super) fn crank_angles<'a>(
         let taken = read(angles);
         let other = match is_whole {
             true => read(image.angles),
-            // The likelihood of an incomplete image is unknown.
+            // The likelihood of an incomplete image is unknown: the motion's own stands for it.
             false => Reading {
                 likelihood: taken.likelihood,
                 sense: -taken.sense,

@@ -26,7 +26,7 @@ pub(super) struct Candidate {
     pub scales: Scales,
 }
 
-/// ln of the likelihood of the likeliest.
+/// Returns ln of the likelihood of the likeliest candidate; the list has it first.
 pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
     let best = tried.first();
     best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)

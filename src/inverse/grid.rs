@@ -15,14 +15,14 @@ pub(super) struct Grid {
     pub block: f64,
 }
 
-/// A path: the nominal one of a linear model.
+/// Nominal path of a linear model.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
     /// The nodes along which it is known, rising.
     pub ranges: Vec<Range<usize>>,
-    /// One for each of these nodes.
+    /// State at each of these nodes.
     pub states: Vec<State>,
-    /// Variance of the crank angle, rad², where the samples are so curved in it that it counts.
+    /// Variance of the crank angle, rad², if the samples are curved in it.
     pub variances: Option<Vec<f64>>,
 }
 
@@ -63,7 +63,7 @@ impl Path {
         }
     }
 
-    /// This path along some nodes of its ranges alone.
+    /// Returns the path along some nodes of its ranges only.
     pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
         let pieces: Vec<Piece<'_>> = ranges.iter().map(|range| self.piece(range)).collect();
         let variances = || pieces.iter().filter_map(|piece| piece.variances);
@@ -152,7 +152,7 @@ impl Grid {
         Grid::finer(times, angles, LONGEST)
     }
 
-    /// Nodes at the samples and between those, at most so far apart, rad.
+    /// Creates nodes at the samples and between them, at most `longest` apart, rad.
     pub fn finer(times: &[f64], angles: &[f64], longest: f64) -> Grid {
         let mut grid = Grid::default();
         for (i, t) in times.iter().enumerate() {

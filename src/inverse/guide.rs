@@ -37,7 +37,7 @@ impl Guide {
         self.reactor.reactions(pose, omega, alpha, &load).guide
     }
 
-    /// Returns the friction, N, on a slider that moves in `direction` (±1), from the whole force along the guide, N.
+    /// Returns the friction, N, on a slider moving in `direction` (±1); `along`, N, is the whole force including it.
     pub fn friction(&self, pose: &Pose, motion: CrankRates, direction: f64, along: f64) -> f64 {
         -self.mu * direction * self.normal(pose, motion, along).abs()
     }

@@ -1,5 +1,5 @@
-//! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each followed by a
-//! Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
+//! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each
+//! followed by a Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Moments of a normal distribution truncated to an interval.
+//! Moments of a normal distribution truncated to an interval, for expectation propagation over encoder codes.
 
 /// Cavity distribution of a code, from all other samples: mean from the middle of the step, and variance, in steps.
 #[derive(Clone, Copy, Debug)]

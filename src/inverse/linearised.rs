@@ -1,7 +1,7 @@
 //! Equation of motion with an unknown torque or force, and its linearisation about a nominal path.
 //!
-//! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
-//! and x' for a force (N); without mechanics θ̈ = u.
+//! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
+//! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
 use super::prior::{Prior, Unknown};
 use crate::mechanism::{Equation, Terms};
@@ -17,9 +17,9 @@ pub(super) type State = [f64; 2 + ORDERS];
 pub(super) struct Rates {
     /// θ̈, rad/s²
     pub alpha: f64,
-    /// ∂θ̈/∂θ
+    /// ∂θ̈/∂θ, 1/s²
     pub by_theta: f64,
-    /// ∂θ̈/∂ω
+    /// ∂θ̈/∂ω, 1/s
     pub by_omega: f64,
     /// ∂θ̈/∂u
     pub by_unknown: f64,

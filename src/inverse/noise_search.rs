@@ -49,7 +49,7 @@ impl Linear<'_> {
         )
     }
 
-    /// Maximises the likelihood over the noise of g and that of u in turn: a loss out of proportion to the speed.
+    /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
     pub fn with_drift(&self, mut noise: Noise) -> Noise {
         for _ in 0..2 {
             let drift = noise.drift.max(noise.corner);

@@ -37,7 +37,7 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// The smoothed motion at a time: between nodes u is interpolated, and the acceleration is that of the equation.
+    /// Returns the smoothed motion at a time: between nodes u is interpolated, the acceleration is the equation's.
     pub fn at(&self, smoothed: &Smoothed, t: f64) -> Estimate {
         let estimates = &smoothed.estimates;
         let (a, b) = self.grid.around(t);
