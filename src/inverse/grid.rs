@@ -9,7 +9,7 @@ use super::linearised::State;
 pub(super) struct Grid {
     /// Times, s.
     pub times: Vec<f64>,
-    /// Index of the first sample of each node, and at the end the number of samples.
+    /// Index of the first sample of each node, then the number of samples: node k has `first[k]..first[k + 1]`.
     pub first: Vec<usize>,
     /// Time of a block of samples that stand at one node, s; 0 where each has its own.
     pub block: f64,
