@@ -1,8 +1,8 @@
-//! Slider positions that turn back a little off the dead centres of the scene, as its lengths or the zero of the sensor are a
-//! little off: sensors that show the turning points where the samples have them.
+//! Alignment of a position sensor: slider samples and a scene in, sensors with corrected zero and gain out, by the
+//! distance of fitted turning points from the dead centres.
 //!
-//! Slightly longer lengths move and stretch the slider's way, but for terms of second order: that is what a sensor's zero and
-//! gain can do. Without that, a slider that turns back before the scene's dead centre takes the crank back with it.
+//! To first order an error of the lengths shifts and stretches the slider's stroke, as zero and gain of a sensor do.
+//! Without the correction, a slider that turns back short of the scene's dead centre reverses the crank with it.
 
 use super::branch_tracking::OFF;
 use super::measurement_model::{Scale, Sensor};
@@ -11,16 +11,16 @@ use crate::numeric::median::median;
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
 use crate::scene::{Measured, Measurement};
 
-/// Way of the slider about a turning point along which it is fitted, in cranks: about 0.8 rad of the crank on both sides.
+/// Slider travel about a turning point that is fitted, in crank lengths: about 0.8 rad of the crank on both sides.
 const WAY: f64 = 0.3;
 
-/// Least samples about a turning point.
+/// Minimum number of samples about a turning point.
 const LEAST_SAMPLES: usize = 6;
 
-/// Standard errors by which a turning point is off a dead centre.
+/// Distance of a turning point from a dead centre, in standard errors, above which the sensor is corrected.
 const ERRORS_OFF: f64 = 3.0;
 
-/// The sensor as it is, and those that show the turning points at the dead centres, where they are off.
+/// Returns the sensor as it is and, if turning points are off the dead centres, sensors corrected to match them.
 pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<Sensor<'a>> {
     let mut list = vec![sensor];
     if sensor.measured != Measured::X {
@@ -55,14 +55,14 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
     list
 }
 
-/// A turning point of the slider next to a dead centre.
+/// Turning point of the slider next to a dead centre.
 #[derive(Clone, Copy, Debug)]
 struct StrokeEnd {
-    /// The dead centre, m.
+    /// Position of the dead centre, m.
     at: f64,
-    /// What is shown where the slider turns back, m.
+    /// Measured position of the turning point, m.
     shown: f64,
-    /// Standard error of that, m.
+    /// Standard error of `shown`, m.
     error: f64,
 }
 
@@ -72,11 +72,11 @@ impl StrokeEnd {
     }
 }
 
-/// The largest value (or the least, of sense −1) at which the samples turn back, m, with its standard error: the median of all
-/// turns next to it.
+/// Returns the largest value (the least, for sense −1) at which the samples turn back, m, with its standard error, by
+/// the median of all turns next to it.
 fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f64; 2]> {
     let values = measurement.values();
-    // Single ones are outliers.
+    // Isolated extremes are outliers.
     let middles = values
         .windows(3)
         .map(|w| sense * w[0].max(w[1]).min(w[0].min(w[1]).max(w[2])));
@@ -97,7 +97,7 @@ fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f
     Some([shown, error * (1.6 / turns.len() as f64).sqrt().min(1.0)])
 }
 
-/// Where a polynomial through samples about a turning point has its vertex, and the standard error of its value.
+/// Returns the value at the vertex of a polynomial through samples about a turning point, with its standard error, m.
 fn vertex(measurement: &Measurement, range: std::ops::Range<usize>) -> Option<[f64; 2]> {
     let t = &measurement.elapsed()[range.clone()];
     let equations = Equations {

@@ -1,5 +1,5 @@
-//! The likelihood by all samples of a long record, whose noise stretches of it have told before: what varies more slowly than a
-//! stretch lasts, only the whole tells. Filters of several noises run side by side along the record.
+//! Likelihood by all samples of a long record, to refine a noise that was estimated from stretches: variations slower
+//! than a stretch show only in the whole. Filters of several noises run side by side along the record.
 
 use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
@@ -10,11 +10,11 @@ use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
 use crate::numeric::parallel;
 
-/// Most rounds in which corner frequencies beyond those that were tried are looked at.
+/// Maximum number of rounds that look beyond the corner frequencies already tried.
 const CORNER_ROUNDS: usize = 6;
 
 impl Problem<'_> {
-    /// The likeliest corner frequency by all samples about a path along all nodes, from a first one.
+    /// Returns the noise with the likeliest corner frequency by all samples about a whole path, from a first noise.
     pub fn by_all_samples(
         &self,
         motion: &Motion<'_>,
@@ -65,7 +65,7 @@ impl Problem<'_> {
         *first
     }
 
-    /// What the samples tell of noises.
+    /// Computes the likelihood terms of several noises.
     fn evidences(
         &self,
         motion: &Motion<'_>,
@@ -94,7 +94,7 @@ impl Problem<'_> {
         let mut filters: Vec<(Option<Gaussian<N>>, Evidence)> =
             vec![Default::default(); noises.len()];
         for some in firsts.chunks(noises.len()) {
-            // A stretch begins at the node where the one before ends.
+            // Each stretch begins at the node where the preceding one ends.
             let stretches = parallel::map(some.iter(), |first| {
                 let range = *first..last.min(first + NODES_OF_A_THREAD) + 1;
                 self.stretch(motion, path, range, noises[0].sigma)

@@ -1,15 +1,15 @@
-//! The slider force as Duarte, Valencia and Obregon (2018) print it, beside the complete one.
+//! Slider force as printed by Duarte, Valencia and Obregon (2018), beside the complete one.
 
 use super::row::InverseRow;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::{Crank, Rod, RodModel, Scene, Slider};
 
-/// Slider force of a mechanism in line by the paper's energies, and by its equation (9) as it stands in print.
+/// Slider force of an in-line mechanism, by the paper's energies and by equation (9) as printed.
 ///
-/// The paper's (7) leaves out the translation of the rod and (8) has its centre of gravity at another height: that
-/// is the rod model `spin-only`. Its (9) has, on top of that, a slider speed that contradicts the paper's (5), and a minus
-/// that must be a plus in the slider's centrifugal term.
+/// Equation (7) of the paper omits the translation of the rod, and (8) puts its centre of gravity at another height:
+/// the rod model `spin-only`. Equation (9) has in addition a slider speed that contradicts (5), and a minus in place of
+/// a plus in the slider's centrifugal term.
 #[derive(Debug)]
 pub struct AsPrinted {
     spin_only: Equation,
@@ -23,7 +23,7 @@ pub struct AsPrinted {
 }
 
 impl AsPrinted {
-    /// For a scene with crank, rod and slider, without offset, on the right branch.
+    /// Creates the forces of a scene with crank, rod and slider, without offset, on the right branch.
     ///
     /// # Errors
     /// [`Error::Refused`] for other scenes.
@@ -55,15 +55,15 @@ impl AsPrinted {
         })
     }
 
-    /// What is to be known of the printed forces of this scene; a warning for the summary.
+    /// Returns a warning for the summary if the scene has friction, which the printed equations lack.
     pub fn warning(&self) -> Option<String> {
         self.friction.then(|| {
             "the equations of Duarte et al. have no friction: the printed forces are the whole force on the slider, the friction of the guide included".to_owned()
         })
     }
 
-    /// The slider force (N) of a row by the paper's energies, and by its (9) as printed; none where the force is left
-    /// empty.
+    /// Returns the slider force, N, of a row by the paper's energies, and by (9) as printed; none if the row has no
+    /// force.
     pub fn forces(&self, row: &InverseRow) -> Option<[f64; 2]> {
         row.slider_force?;
         let terms = self.spin_only.terms(row.theta);
@@ -76,7 +76,7 @@ impl AsPrinted {
         Some([torque / terms.pose.dx, printed])
     }
 
-    /// The left side of (9), N m.
+    /// Returns the left side of (9), N m.
     fn left_side(&self, row: &InverseRow) -> f64 {
         let (l2, l3) = (self.l2, self.l3);
         let (sin, cos) = row.theta.sin_cos();

@@ -1,35 +1,35 @@
-//! Where the motion does not determine the slider force: near the dead centres, and at rest with friction or dry loads.
+//! Stretches without a determined slider force: near dead centres, and at rest with friction or dry loads.
 
 use crate::numeric::median::median;
 use serde::Serialize;
 
 use super::row::{Doubt, InverseRow, LONG_ARM};
 
-/// A stretch of the motion in which the slider force is left empty.
+/// Stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DeadCentreBand {
-    /// First sample in it, s.
+    /// Time of the first sample, s.
     pub from_s: f64,
-    /// Last sample in it, s.
+    /// Time of the last sample, s.
     pub to_s: f64,
     /// Crank angle of the first sample, rad.
     pub from_theta_rad: f64,
     /// Crank angle of the last sample, rad.
     pub to_theta_rad: f64,
-    /// Samples in it.
+    /// Number of samples in the stretch.
     pub rows: usize,
-    /// Why the force is not determined there.
+    /// Reason, in words, why the force is not determined.
     pub reason: &'static str,
 }
 
-/// The rule by which samples are left without a force.
+/// Rule by which samples are left without a force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct BandRule {
     /// Largest half-width of the 95 % band of the slider force at which the force is given, N.
     pub half_width_max_n: f64,
-    /// Lever arm |x'| below which the rule applies, m/rad: half a crank.
+    /// Lever arm |x'| below which the rule applies, m/rad: half of the crank length.
     pub arm_m: f64,
-    /// The rule in words.
+    /// Rule in words.
     pub rule: &'static str,
 }
 
@@ -44,14 +44,14 @@ const TOO_WIDE: &str =
 
 const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
 
-/// Whether samples beside each other are left empty by one cause: rest is another one than a dead centre.
+/// True if adjacent empty samples share one cause: rest is one cause, dead centres and limits another.
 pub(super) fn alike(reason: &str, other: &str) -> bool {
     (reason == AT_REST) == (other == AT_REST)
 }
 
 impl BandRule {
-    /// The rule for a motion: crank length in m, torque and its standard error in N m at each sample, half of a 95 % band
-    /// in standard errors.
+    /// Creates the rule from the crank length, m, torque and standard error at each sample, N m, and half of a 95 %
+    /// band in standard errors.
     pub(super) fn new(
         r: f64,
         torques: impl Iterator<Item = (f64, f64)> + Clone,
@@ -67,7 +67,7 @@ impl BandRule {
         }
     }
 
-    /// Why the force of a sample is left empty, if it is.
+    /// Returns the reason why the force of a sample is left empty, if it is.
     pub(super) fn reason(
         &self,
         row: &InverseRow,

@@ -1,8 +1,8 @@
-//! Which of the motions that have the same samples the crank took: by the marginal likelihood of each through the equation of
-//! motion, and by what the scene says of its start.
+//! Choice among motions that have the same samples, by the marginal likelihood of each through the equation of motion,
+//! and by the scene's initial angle and sense of speed.
 //!
-//! A slider position belongs to a motion and to its mirror image at the line from the crank pivot to the slider pin, which goes
-//! along the other strokes, and is as smooth. Only the force of one of them looks like a force, or the scene tells.
+//! A slider position belongs to a motion and to its mirror image at the line from the crank pivot to the slider pin,
+//! which takes the other strokes and is equally smooth. Only a plausible force, or the scene, tells the two apart.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -17,21 +17,21 @@ use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 
-/// ln of the odds beyond which a choice needs no word: 1000 to 1.
+/// ln of the odds above which a choice needs no warning: 1000 to 1.
 const CERTAIN: f64 = 6.9;
 
-/// ln of the odds that the likelihoods of a motion and of its mirror image can give, and that the sense of a stated speed can:
-/// forces that no prior describes make the false one likelier in one record of fifty (simulated ones of eight kinds), and a
-/// stated sense is taken for as trustworthy.
+/// Bound of ln of the odds from the likelihoods of a motion and of its mirror image, and from the sense of a stated
+/// speed: forces that no prior describes make the false motion likelier in one record of fifty (simulated ones of eight
+/// kinds), and a stated sense counts as equally trustworthy.
 const BOUND: f64 = 3.9;
 
-/// ln of the odds from which on something is said to speak for a motion: 2 to 1.
+/// ln of the odds above which a criterion is named in favour of a motion: 2 to 1.
 const TOLD: f64 = 0.7;
 
-/// To what an angle of a scene is written, rad: half a degree.
+/// Precision of the scene's initial angle, rad: half a degree.
 const WRITTEN: f64 = 0.01;
 
-/// The crank angles of all samples, continued over the turns.
+/// Returns the crank angles of all samples, continued over the turns.
 ///
 /// # Errors
 /// [`Error::Scene`] for values that the mechanism cannot take, [`Error::Refused`] for a motion that leaves the branch.
@@ -69,7 +69,7 @@ pub(super) fn crank_angles<'a>(
         let taken = read(angles);
         let other = match is_whole {
             true => read(image.angles),
-            // Nothing is known of its likelihood.
+            // The likelihood of an incomplete image is unknown: the motion's own stands for it.
             false => Reading {
                 likelihood: taken.likelihood,
                 sense: -taken.sense,
@@ -82,7 +82,7 @@ pub(super) fn crank_angles<'a>(
     best(pairs, measurement, motion)
 }
 
-/// The likeliest of the motions, with what is to be said of it.
+/// Returns the likeliest of the motions with its warnings.
 fn best<'a>(
     mut pairs: Vec<Pair<'a>>,
     measurement: &Measurement,
@@ -131,22 +131,22 @@ fn best<'a>(
     Ok(CrankAngles { warnings, ..angles })
 }
 
-/// How far the scene's angle is off the begin of a motion, rad.
+/// Returns the distance of the scene's angle from the initial angle of a motion, rad, from 0 to pi.
 fn off(angles: &CrankAngles<'_>, motion: &Motion) -> f64 {
     let off = angles.theta[0] - motion.angle;
     (off - (off / TAU).round() * TAU).abs()
 }
 
-/// A motion that the samples may stand for.
+/// Motion that the samples may stand for.
 #[derive(Debug)]
 struct Reading<'a> {
     angles: CrankAngles<'a>,
-    /// ln of the marginal likelihood of a window of samples, by the likeliest prior.
+    /// ln of the marginal likelihood of a window of samples by the likeliest prior, less the cost of zero and gain.
     likelihood: f64,
-    /// How far the scene's angle is off, rad.
+    /// Distance of the scene's angle from the initial angle, rad.
     off: f64,
-    /// The sense in which it turns where it comes to half of the scene's speed first; if it never does, in its first quarter of
-    /// a turn.
+    /// Sense of rotation (±1) where the speed first exceeds half of the scene's; if it never does, over the first
+    /// quarter of a turn.
     sense: f64,
 }
 
@@ -164,7 +164,7 @@ impl<'a> Reading<'a> {
         let problem = problem(record, theta, equation, None);
         let first = first_path::coarse(&problem, theta);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
-        // Schwarz (1978): zero and gain are found from the samples.
+        // Cost of a zero and a gain found from the samples (Schwarz 1978).
         let Scale { shift, stretch } = angles.sensor.scale;
         let found = f64::from(u8::from(shift != 0.0) + u8::from(stretch != 1.0));
         let cost = 0.5 * found * (measurement.len() as f64).ln();
@@ -186,12 +186,12 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// ln of the density of the scene's angle: one that is off by an unknown size has the density 1/δ (Jeffreys).
+    /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys).
     fn of_angle(&self) -> f64 {
         -(self.off + WRITTEN).ln()
     }
 
-    /// ln of the probability of the sense of the scene's speed.
+    /// Returns ln of the probability of the sense of the scene's speed.
     fn of_speed(&self, motion: &Motion) -> f64 {
         if self.sense * motion.speed < 0.0 {
             -BOUND
@@ -201,14 +201,14 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// A motion and its mirror image.
+/// Motion and its mirror image.
 #[derive(Debug)]
 struct Pair<'a> {
     taken: Reading<'a>,
-    /// Where the taken one leaves the branch of the scene.
+    /// Sample at which the taken motion leaves the branch of the scene.
     leaves: Option<usize>,
     doubt: Option<String>,
-    /// ln of the larger likelihood of the two.
+    /// ln of the larger likelihood of the two motions.
     likelihood: f64,
 }
 

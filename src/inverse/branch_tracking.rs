@@ -1,9 +1,9 @@
-//! Crank angles that samples stand for: a coarse path from which the smoother starts.
+//! Crank angles from samples of x or gamma: measured values in, coarse paths for the smoother out.
 //!
-//! A slider position or a crank-pin angle belongs to several crank angles, and at a dead centre the path may go on or turn
-//! back. Several hypotheses are followed side by side (multiple-hypothesis tracking, Reid 1979), each by a Kalman filter whose
-//! angular acceleration is a Wiener process; the likelier ones are kept, and noise and agility are those that make the best
-//! hypothesis likeliest.
+//! A slider position or a crank-pin angle belongs to several crank angles, and at a dead centre the path may go on or
+//! turn back. Several hypotheses are followed side by side (multiple-hypothesis tracking, Reid 1979), each by a Kalman
+//! filter whose angular acceleration is a Wiener process; the likelier ones are kept, and noise and agility are chosen
+//! to make the best hypothesis likeliest.
 
 use std::f64::consts::TAU;
 
@@ -13,23 +13,23 @@ use crate::error::Error;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
 
-/// Crank angles of samples.
+/// Crank angles assigned to samples.
 #[derive(Clone, Debug)]
 pub(super) struct CrankAngles<'a> {
-    /// How the samples show them.
+    /// Sensor that shows the angles as samples.
     pub sensor: Sensor<'a>,
-    /// rad
+    /// Crank angles, rad.
     pub theta: Vec<f64>,
-    /// Standard deviation of a measured value that made them likeliest, rad or m.
+    /// Likeliest standard deviation of a measured value, rad or m.
     pub sigma: f64,
-    /// What the reader should know of them.
+    /// Warnings for the user, in words.
     pub warnings: Vec<String>,
 }
 
-/// The motions that samples may stand for, of different ends or sensors, the likeliest first.
+/// Returns the motions that samples may stand for, of different ends or sensors, the likeliest first.
 ///
 /// # Errors
-/// [`Error::Refused`] where the mechanism has none.
+/// [`Error::Refused`] if no motion of the mechanism explains the samples.
 pub(super) fn motions<'a>(
     sensors: &[Sensor<'a>],
     measurement: &Measurement,
@@ -93,16 +93,16 @@ pub(super) fn motions<'a>(
     Ok(motions)
 }
 
-/// Crank angle by which motions are apart, rad.
+/// Difference of crank angle at which two motions are distinct, rad.
 pub(super) const APART: f64 = 0.5;
 
-/// Most motions that are compared by their likelihoods through the equation.
+/// Maximum number of motions that are compared by their likelihoods through the equation.
 const MOTIONS: usize = 4;
 
-/// Samples by which noise and agility are found.
+/// Number of samples by which noise and agility are found.
 pub(super) const EARLY: usize = 500;
 
-/// Part of what can be reached by which a value may be off: lengths and zero of an instrument are hardly worse.
+/// Largest error of a value, in crank lengths or rad: lengths and zero of an instrument are hardly worse.
 pub(super) const OFF: f64 = 0.1;
 
 /// Refuses values far from all that the mechanism can take.
@@ -111,7 +111,7 @@ pub(super) fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Resul
     let excess = |value: f64| sensor.angles(value).1;
     let is_off = |i: &usize| excess(values[*i]) > OFF * sensor.size();
     let on_no_angle = |i: &usize| sensor.angles(values[*i]).0.angles().is_empty();
-    // Single ones that are only off are outliers.
+    // A few values slightly beyond the range are outliers.
     let many = (0..values.len()).filter(is_off).count() * 20 > values.len();
     let far: Vec<usize> = (0..values.len())
         .filter(|i| many && is_off(i) || on_no_angle(i))
@@ -141,7 +141,7 @@ pub(super) fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Resul
     Err(measurement.problems(list.collect()).into())
 }
 
-/// Speed of a crank, rad/s, whose slider or rod goes as far as the samples do.
+/// Estimates the speed of a crank, rad/s, from the total travel of slider or rod in the samples.
 fn typical_speed(sensor: &Sensor<'_>, measurement: &Measurement) -> f64 {
     let (times, values) = (measurement.elapsed(), measurement.values());
     let way: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();

@@ -11,8 +11,8 @@ use super::scales::{Autoregression, Noise, Scales};
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 
-/// No instrument tells an angle to the root of the rounding of doubles, rad: a record so exact was computed, and errs smoothly,
-/// which a prior of order three would take for force.
+/// Crank-angle noise below which a record was computed, rad: no instrument resolves the root of double rounding.
+/// Computed records err smoothly, which a prior of order three would take for force.
 const COMPUTED: f64 = 1.5e-8;
 
 /// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
@@ -26,7 +26,7 @@ pub(super) struct Candidate {
     pub scales: Scales,
 }
 
-/// ln of the likelihood of the likeliest.
+/// Returns ln of the likelihood of the likeliest candidate; the list has it first.
 pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
     let best = tried.first();
     best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)

@@ -1,7 +1,7 @@
-//! Codes of an encoder: each says that the crank is within an interval, with the probability Φ((b − θ)/ε) − Φ((a − θ)/ε) for the
-//! ends a, b of the interval and their jitter ε. Expectation propagation (Minka 2001) puts a normal distribution in the place of
-//! each such likelihood: the one with the moments that the code leaves of what all other samples say. Where the shaft is slow
-//! the codes inside a step say nothing and the passages say much; where it is fast each is worth step²/12.
+//! Expectation propagation (Minka 2001) for encoder codes: intervals in, smoothed motion out. A code has the
+//! probability Φ((b − θ)/ε) − Φ((a − θ)/ε) for the ends a, b of its interval and their jitter ε. A normal distribution
+//! (site) stands for it, matched to the moments that the code leaves of the cavity distribution of all other samples.
+//! On a slow shaft codes inside a step say nothing and passages much; on a fast one each is worth step²/12.
 
 use super::estimate::Estimate;
 use super::interval::{Cavity, Site};
@@ -12,25 +12,25 @@ use super::quantised::{Codes, Interval};
 use super::smoother::{PATH_AT_REST, Smoothed, change};
 use crate::numeric::parallel;
 
-/// Jitters that are tried, in steps, and most samples by which one is chosen.
+/// Jitters that are tried, in steps, and maximum number of samples by which one is chosen.
 const JITTERS: [f64; 8] = [1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 1.0];
 const JITTER_SAMPLES: usize = 4000;
 
-/// Part by which the normal distributions move towards the moments.
+/// Damping of expectation propagation: fraction of the change of a site that is made in one round.
 const DAMPING: f64 = 0.6;
 
-/// An interval with the normal distribution that stands for it, and what all others say of it, both in its widths.
+/// Belief about an interval: its site and its cavity, in widths of the interval.
 #[derive(Clone, Copy)]
 struct Belief {
     width: f64,
     site: Site,
     cavity: Cavity,
-    /// Jitter of the interval's ends.
+    /// Jitter of the ends of the interval, in widths.
     jitter: f64,
 }
 
 impl Belief {
-    /// ln of the probability of the code over that of the normal distribution in its place.
+    /// Returns ln of the probability of the code over that of its site.
     fn correction(&self) -> f64 {
         let Belief {
             width,
@@ -47,7 +47,7 @@ impl Belief {
         probability + 0.5 * ((variance * width * width).ln() + off * off / variance)
     }
 
-    /// The normal distribution on its way to the moments.
+    /// Returns the site, moved towards the moments by `DAMPING`.
     fn moved(&self) -> Site {
         let next = self.cavity.matched(self.jitter).1;
         let between = |a: f64, b: f64| a + DAMPING * (b - a);
@@ -59,14 +59,14 @@ impl Belief {
 }
 
 impl Codes {
-    /// Precision of a sample of weight 1 in terms of a width.
+    /// Returns the precision of a sample of weight 1, in units of 1/width².
     fn unit(self, width: f64) -> f64 {
         (width / self.spread()).powi(2)
     }
 }
 
 impl Problem<'_> {
-    /// What is believed of each interval about a smoothed motion, but of those that do not count.
+    /// Returns the belief about each interval by a smoothed motion, with the likeliest jitter; none for outliers.
     fn beliefs(&self, codes: Codes, smoothed: &Smoothed) -> Vec<Option<Belief>> {
         let record = &self.record;
         let of = |i: usize| {
@@ -80,7 +80,7 @@ impl Problem<'_> {
             };
             let estimate = self.at(smoothed, t);
             let precision = width * width / estimate.covariance[0];
-            // What is left of almost nothing is rounding.
+            // Less than 1e-6 of the precision is rounding.
             let left = (precision - site.precision).max(1e-6 * precision);
             let mean = (estimate.state[0] - middle) / width;
             let cavity = Cavity {
@@ -110,7 +110,7 @@ impl Problem<'_> {
         list
     }
 
-    /// Moves the normal distributions towards the moments.
+    /// Moves the sites towards the moments.
     fn propagate(&mut self, codes: Codes, beliefs: &[Option<Belief>]) {
         for (i, belief) in beliefs.iter().enumerate() {
             let Some(belief) = belief else { continue };
@@ -125,12 +125,12 @@ impl Problem<'_> {
     }
 }
 
-/// Most rounds of expectation propagation, and those between two estimates of the noise of the motion.
+/// Maximum number of rounds of expectation propagation, and rounds between two estimates of the process noise.
 const PROPAGATION_ROUNDS: usize = 16;
 const ROUNDS_OF_A_NOISE: usize = 4;
 
 impl Smoothed {
-    /// Whether motion and likelihood are finite.
+    /// True if motion and likelihood are finite.
     pub fn is_finite(&self) -> bool {
         let is_finite = |e: &Estimate| e.state[0].is_finite() && e.covariance[0] > 0.0;
         self.noise.likelihood.is_finite() && self.estimates.iter().all(is_finite)
@@ -138,7 +138,7 @@ impl Smoothed {
 }
 
 impl Problem<'_> {
-    /// A smoothed motion about which the normal distributions that stand for codes have come to rest.
+    /// Iterates expectation propagation about a smoothed motion until the sites converge.
     pub fn propagated(&mut self, codes: Codes, mut smoothed: Smoothed) -> Smoothed {
         smoothed.scales.known = Some(codes.spread());
         smoothed.noise.sigma = codes.spread();
@@ -148,7 +148,7 @@ impl Problem<'_> {
             let beliefs = self.beliefs(codes, &smoothed);
             self.propagate(codes, &beliefs);
             let path = smoothed.path(false);
-            // The noise of the motion follows codes that hardly move.
+            // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
                 let linear = Linear {
@@ -164,7 +164,7 @@ impl Problem<'_> {
             }
             is_at_rest = change(&smoothed.estimates, &path) < PATH_AT_REST;
         }
-        // Of the samples by which the evidence is found.
+        // Corrections of the samples that enter the evidence.
         let beliefs = self.beliefs(codes, &smoothed);
         let first = &self.grid.first;
         let ranges = self.sampled().into_iter();
@@ -174,8 +174,8 @@ impl Problem<'_> {
         smoothed
     }
 
-    /// The smoothed motion with the prior by which the codes are likeliest, of those by which the normal distributions in their
-    /// place are.
+    /// Returns the smoothed motion with the prior that makes the codes likeliest, among the likeliest priors of the
+    /// sites, and the priors compared.
     pub fn likeliest_of_codes(
         &mut self,
         codes: Codes,
@@ -207,11 +207,11 @@ impl Problem<'_> {
         (smoothed, listed)
     }
 
-    /// Means and weights of the normal distributions in the place of the codes.
+    /// Returns means (rad) and weights of the sites of the codes.
     pub fn sites(&self) -> (Vec<f64>, Vec<f64>) {
         (self.record.values.clone(), self.record.weights.clone())
     }
 }
 
-/// Priors that are compared by the probability of the codes.
+/// Maximum number of priors that are compared by the probability of the codes.
 const CANDIDATES: usize = 3;

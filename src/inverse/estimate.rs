@@ -1,27 +1,27 @@
-//! What the smoother says of the motion at a node.
+//! Smoothed motion at a node, with its covariance.
 
 use super::linearised::State;
 use super::motion_estimate::MotionEstimate;
 
-/// The smoothed motion at a node.
+/// Smoothed motion at a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Estimate {
     pub state: State,
-    /// rad/s²
+    /// Crank acceleration θ̈, rad/s².
     pub alpha: f64,
     /// Covariance of θ, ω, θ̈: 00, 01, 11, 02, 12, 22.
     pub covariance: [f64; 6],
-    /// Prediction error of the samples of the node over its standard deviation; not a number without samples.
+    /// Prediction error of the samples of the node over its standard deviation; NaN without samples.
     pub innovation: f64,
 }
 
 impl Estimate {
-    /// θ, ω, θ̈.
+    /// Returns θ (rad), ω (rad/s), θ̈ (rad/s²).
     pub fn motion(&self) -> [f64; 3] {
         [self.state[0], self.state[1], self.alpha]
     }
 
-    /// The motion with its errors.
+    /// Returns the motion with covariance and rounding errors.
     pub fn estimated(&self) -> MotionEstimate {
         MotionEstimate {
             value: self.motion(),

@@ -1,4 +1,4 @@
-//! Paths from which the iterations of the smoother set out.
+//! Initial paths of the smoother's iterations.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::problem::Problem;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 
-/// A first path along measured crank angles: a straight line, of which the linear model knows how far the samples are off.
+/// Returns a straight line along measured crank angles; the linear model accounts for the distance of the samples.
 pub(super) fn straight(problem: &Problem<'_>) -> Path {
     let (times, record) = (&problem.grid.times, &problem.record);
     let (theta, last) = (&record.values, record.values.len() - 1);
@@ -18,7 +18,7 @@ pub(super) fn straight(problem: &Problem<'_>) -> Path {
     Path::whole(times.iter().map(state).collect(), None)
 }
 
-/// A first path along crank angles, rad, with their slopes.
+/// Returns a path along crank angles, rad, with their slopes by differences.
 pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
     let (times, record) = (&problem.grid.times, &problem.record);
     let last = theta.len() - 1;
@@ -32,7 +32,7 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
 }
 
 impl Problem<'_> {
-    /// The state of a prior at a node of a smoothed motion.
+    /// Returns the state of a prior at a node of a smoothed motion.
     pub fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
         let [theta, omega, alpha] = from.estimates[node].motion();
         if prior.unknown == Unknown::Acceleration {
@@ -51,7 +51,7 @@ impl Problem<'_> {
         [theta, omega, unknown, 0.0, 0.0]
     }
 
-    /// The states of a prior along a smoothed motion, at some ranges of nodes.
+    /// Returns the states of a prior along a smoothed motion, at ranges of nodes.
     pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: Vec<Range<usize>>) -> Path {
         let along = |range: &Range<usize>| {
             let first = range.start;

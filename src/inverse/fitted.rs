@@ -1,4 +1,4 @@
-//! The estimated motion at each sample, by polynomial or smoother.
+//! Estimated motion at each sample, by polynomial or smoother, with residuals and figures of the fit.
 
 use super::branch_tracking::CrankAngles;
 use super::motion_estimate::MotionEstimate;
@@ -17,39 +17,39 @@ use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement};
 
-/// The estimated motion.
+/// Estimated motion, with residuals and figures of the fit.
 #[derive(Debug)]
 pub(super) struct Fitted {
-    /// One for each row of the measurement.
+    /// Motion at each row of the measurement.
     pub motion: Vec<MotionEstimate>,
     /// Measured values, rad or m; a crank angle continued over the turns, a crank-pin angle with its sign.
     pub measured: Vec<f64>,
-    /// Measured minus fitted.
+    /// Measured minus fitted values, rad or m.
     pub residuals: Vec<f64>,
     /// Degrees of freedom of the noise.
     pub free: f64,
     pub summary: FitSummary,
-    /// Whether the residuals are plainly not noise.
+    /// Whether the residuals are plainly not white noise.
     pub patterned: bool,
-    /// Whether the iterations came to rest.
+    /// Whether the iterations converged.
     pub settled: bool,
-    /// The row that is farthest off, of those that hardly count because they are.
+    /// Row of the outlier with the largest residual.
     pub farthest_outlier: Option<usize>,
-    /// Turns of the cycle after which a part of the torque repeats, if the smoother knows one; else 0.
+    /// Turns per cycle of the periodic torque in the smoother's prior; 0 without a periodic torque.
     pub cycle: u8,
-    /// Step of an encoder, or of rounding, rad, which is wider than the noise.
+    /// Step of an encoder or of rounding, rad, if wider than the noise.
     pub coded: Option<f64>,
-    /// θ, ω, θ̈ with each of the errors that all samples share.
+    /// θ, ω, θ̈ at each sample under each of the errors that all samples share.
     pub moved: Vec<Vec<[f64; 3]>>,
-    /// Least standard deviation of a sample, rad or m.
+    /// Lower bound of the standard deviation of a sample, rad or m.
     floor: f64,
 }
 
 impl Fitted {
-    /// Estimates the motion.
+    /// Estimates the motion by the method of the options.
     ///
     /// # Errors
-    /// Why the samples do not serve.
+    /// The reason, in words: too few samples, or a degree given to a smoother.
     pub fn new(
         measurement: &Measurement,
         angles: &CrankAngles<'_>,
@@ -106,8 +106,8 @@ impl Fitted {
         })
     }
 
-    /// Akaike's information criterion for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297), σ one of the parameters;
-    /// of a smoother with what its parameters are worth (Hurvich, Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
+    /// Returns Akaike's criterion AICc for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297), σ a parameter; of
+    /// a smoother by its effective parameters (Hurvich, Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
     fn information(&self) -> f64 {
         let n = self.residuals.len() as f64;
         let parameters = self.summary.parameters + 1.0;
@@ -179,7 +179,7 @@ impl Fitted {
                 log_likelihood: *likelihood,
             });
         fitted.free = (counted - parameters).max(1.0);
-        // Codes have no prediction errors that would be normal.
+        // Prediction errors of codes are not normal.
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.settled = smoothed.settled;
@@ -216,7 +216,7 @@ impl Fitted {
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
-        // What rounding leaves has patterns of its own.
+        // Rounding errors have patterns of their own.
         fitted.patterned = whiteness.is_violated() && fitted.summary.rms > record.floor;
         fitted.settled = settled;
         fitted.summary = FitSummary {
@@ -236,7 +236,7 @@ impl Fitted {
         fitted
     }
 
-    /// Measured values and residuals of a motion.
+    /// Computes measured values and residuals of a motion.
     fn of_motion(record: &Record<'_>, motion: Vec<MotionEstimate>) -> Fitted {
         let sensor = record.sensor;
         let value = |row: usize| record.values[row];
@@ -277,7 +277,7 @@ impl Fitted {
     }
 }
 
-/// Whether crank angles, rad, lie within one turn: a polynomial may serve.
+/// True if crank angles, rad, lie within one turn: a polynomial may serve.
 fn is_within_a_turn(theta: &[f64]) -> bool {
     let ends = (f64::INFINITY, f64::NEG_INFINITY);
     let ends = theta.iter().fold(ends, |(a, b), v| (a.min(*v), b.max(*v)));

@@ -9,20 +9,20 @@ use super::linearised::State;
 pub(super) struct Grid {
     /// Times, s.
     pub times: Vec<f64>,
-    /// First sample of each node, and at the end the number of samples: a node has those up to the next one's first.
+    /// Index of the first sample of each node, then the number of samples: node k has `first[k]..first[k + 1]`.
     pub first: Vec<usize>,
     /// Time of a block of samples that stand at one node, s; 0 where each has its own.
     pub block: f64,
 }
 
-/// A path: the nominal one of a linear model.
+/// Nominal path of a linear model.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
     /// The nodes along which it is known, rising.
     pub ranges: Vec<Range<usize>>,
-    /// One for each of these nodes.
+    /// State at each of these nodes.
     pub states: Vec<State>,
-    /// Variance of the crank angle, rad², where the samples are so curved in it that it counts.
+    /// Variance of the crank angle, rad², if the samples are curved in it.
     pub variances: Option<Vec<f64>>,
 }
 
@@ -63,7 +63,7 @@ impl Path {
         }
     }
 
-    /// This path along some nodes of its ranges alone.
+    /// Returns the path along some nodes of its ranges only.
     pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
         let pieces: Vec<Piece<'_>> = ranges.iter().map(|range| self.piece(range)).collect();
         let variances = || pieces.iter().filter_map(|piece| piece.variances);
@@ -114,8 +114,8 @@ pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] 
 /// Largest way of the crank from node to node, rad.
 const LONGEST: f64 = 0.12;
 
-/// Samples from which on they may be taken together, nodes that are left at least, and the largest way of the crank, rad, along
-/// which they are.
+/// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
+/// block, rad.
 const MANY: usize = 100_000;
 const BLOCKS: usize = 50_000;
 const SHORT: f64 = 0.02;
@@ -152,7 +152,7 @@ impl Grid {
         Grid::finer(times, angles, LONGEST)
     }
 
-    /// Nodes at the samples and between those, at most so far apart, rad.
+    /// Creates nodes at the samples and between them, at most `longest` apart, rad.
     pub fn finer(times: &[f64], angles: &[f64], longest: f64) -> Grid {
         let mut grid = Grid::default();
         for (i, t) in times.iter().enumerate() {

@@ -1,25 +1,24 @@
 //! Coulomb friction at the guide of a slider whose motion is known.
 //!
-//! The motion and the torques on the crank determine the whole force along the guide, and with it the normal force: there
-//! is one answer for the slider force. Where a torque on the crank is asked for, friction and normal force depend on each
-//! other.
+//! The motion and the torques on the crank determine the whole force along the guide, and with it the normal force: the
+//! slider force is unique. Where the crank torque is unknown, friction and normal force depend on each other.
 
 use crate::error::Error;
 use crate::mechanism::{LoadValue, Pose, Reactor};
 use crate::scene::Scene;
 
-/// The guide of a slider with friction.
+/// Guide of a slider with friction.
 #[derive(Debug)]
 pub(super) struct Guide {
     mu: f64,
     reactor: Reactor,
 }
 
-/// Motion at one sample: speed, rad/s, and acceleration, rad/s², of the crank.
+/// Crank speed, rad/s, and crank acceleration, rad/s², at one sample.
 pub(super) type CrankRates = [f64; 2];
 
 impl Guide {
-    /// The guide of a scene; none without friction.
+    /// Returns the guide of a scene; none without friction.
     pub fn new(scene: &Scene) -> Result<Option<Guide>, Error> {
         let Some(friction) = scene.reduced().friction else {
             return Ok(None);
@@ -29,7 +28,7 @@ impl Guide {
         Ok(Some(Guide { mu, reactor }))
     }
 
-    /// The normal force, N, with this whole force along the guide, N.
+    /// Returns the normal force, N, under this whole force along the guide, N.
     fn normal(&self, pose: &Pose, [omega, alpha]: CrankRates, along: f64) -> f64 {
         let load = LoadValue {
             torque: 0.0,
@@ -38,13 +37,13 @@ impl Guide {
         self.reactor.reactions(pose, omega, alpha, &load).guide
     }
 
-    /// The friction, N, on a slider that moves in `direction` (±1), for a whole force along the guide, N, itself included.
+    /// Returns the friction, N, on a slider moving in `direction` (±1); `along`, N, is the whole force including it.
     pub fn friction(&self, pose: &Pose, motion: CrankRates, direction: f64, along: f64) -> f64 {
         -self.mu * direction * self.normal(pose, motion, along).abs()
     }
 
-    /// The friction, N, beside this force on the slider, N, where a torque on the crank drives it. Not a number where
-    /// the guide locks itself, and no torque does.
+    /// Returns the friction, N, on a slider that a torque on the crank drives, beside this force on the slider, N. NaN
+    /// where the guide locks and no torque moves the slider.
     pub fn driven(&self, pose: &Pose, motion: CrankRates, direction: f64, force: f64) -> f64 {
         let without = self.normal(pose, motion, force);
         let slope = self.normal(pose, motion, force + 1.0) - without;

@@ -1,5 +1,5 @@
-//! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each followed by a
-//! Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
+//! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each
+//! followed by a Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
 
 use std::f64::consts::TAU;
 
@@ -7,41 +7,41 @@ use super::kalman::{Gaussian, Sample, Step};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 
-/// Noise of the samples and agility of the crank.
+/// Noise parameters of a tracker: sample noise and agility of the crank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
-    /// rad or m
+    /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
     /// Spectral density of the jerk of the crank angle, rad²/s⁵.
     pub jerk: f64,
 }
 
-/// A hypothesis: a path that ends here.
+/// Hypothesis: a path up to the current sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hypothesis {
     state: Gaussian<3>,
     pub score: f64,
-    /// First angle, rad.
+    /// First crank angle, rad.
     begin: f64,
-    /// Last angle in the list of all.
+    /// Index of the last link in the list of all links.
     last: usize,
 }
 
 impl Hypothesis {
-    /// The way from its first angle to the last, rad, without its sense.
+    /// Returns the absolute rotation from the first angle to the last, rad.
     pub fn turned(&self) -> f64 {
         (self.state.mean[0] - self.begin).abs()
     }
 }
 
-/// An angle of a path and the one before.
+/// Crank angle of a path, rad, with the index of the preceding link.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     theta: f64,
     before: Option<usize>,
 }
 
-/// Follows hypotheses through samples.
+/// Tracker of hypotheses through samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tracker<'a, 's> {
     pub sensor: &'a Sensor<'s>,
@@ -51,12 +51,12 @@ pub(super) struct Tracker<'a, 's> {
     pub speed: f64,
 }
 
-/// Most hypotheses that are kept, and ln of the likelihood ratio beyond which one is dropped.
+/// Maximum number of hypotheses, and ln of the likelihood ratio to the best beyond which one is dropped.
 const MOST_HYPOTHESES: usize = 6;
 pub(super) const DROPPED: f64 = 50.0;
 
 impl Tracker<'_, '_> {
-    /// Noise and agility that are tried.
+    /// Returns the settings that are tried: noise levels, at least the resolution (rad or m), by agilities.
     pub fn settings(&self, resolution: f64) -> Vec<Setting> {
         let size = self.sensor.size();
         let noises = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| (part * size).max(resolution));
@@ -71,7 +71,7 @@ impl Tracker<'_, '_> {
         list
     }
 
-    /// Crank angles, rad, of all hypotheses that are left at the end, the likeliest first.
+    /// Returns the crank angles, rad, of all hypotheses left at the end, the likeliest first.
     pub fn tracks(&self, setting: &Setting) -> Vec<Vec<f64>> {
         let mut links = Vec::with_capacity(2 * self.values.len());
         let ends = self.run(setting, self.values.len(), &mut links);
@@ -88,7 +88,7 @@ impl Tracker<'_, '_> {
         ends.iter().map(path).collect()
     }
 
-    /// The hypotheses after some samples, the likeliest first.
+    /// Returns the hypotheses after a number of samples, the likeliest first.
     pub fn followed(&self, setting: &Setting, samples: usize) -> Vec<Hypothesis> {
         self.run(setting, samples, &mut Vec::with_capacity(2 * samples))
     }
@@ -119,13 +119,13 @@ impl Tracker<'_, '_> {
         now
     }
 
-    /// The crank angles that a sample may stand for.
+    /// Returns the crank angles that a sample may stand for.
     fn sighted(&self, sample: usize, sigma: f64) -> Vec<Sight> {
         let value = self.values[sample];
         let (candidates, excess) = self.sensor.angles(value);
         let sights = candidates.angles().iter().map(|theta| {
             let shown = self.sensor.shown(*theta);
-            // Of a dead centre the curvature tells the width.
+            // At a dead centre the curvature sets the width.
             let steep = shown.slope * shown.slope + shown.curvature.abs() * (sigma + excess);
             Sight {
                 theta: *theta,
@@ -154,7 +154,7 @@ impl Tracker<'_, '_> {
     }
 }
 
-/// A crank angle that a sample may stand for.
+/// Crank angle, rad, that a sample may stand for.
 #[derive(Clone, Copy, Debug)]
 struct Sight {
     theta: f64,
@@ -163,7 +163,7 @@ struct Sight {
     score: f64,
 }
 
-/// A time over which the angular acceleration is a Wiener process.
+/// Returns the transition over a time `dt`, s, in which the angular acceleration is a Wiener process.
 fn step(dt: f64, jerk: f64) -> Step<3> {
     let q = |n: i32, divisor: f64| jerk * dt.powi(n) / divisor;
     let noise = [
@@ -178,7 +178,7 @@ fn step(dt: f64, jerk: f64) -> Step<3> {
     }
 }
 
-/// A hypothesis with a sample taken in, in the turns in which it may be.
+/// Extends a hypothesis by a sample, in each turn of the crank that is possible.
 fn extend(
     predicted: &Hypothesis,
     sight: &Sight,
@@ -196,7 +196,7 @@ fn extend(
             row: [1.0, 0.0, 0.0],
             variance: sight.variance,
         });
-        // Outliers count as such, by the tails of Student's distribution with four degrees of freedom.
+        // Outliers are scored by the tails of Student's distribution with four degrees of freedom.
         let spread = seen.variance;
         let off = seen.error * seen.error / spread;
         let tails = if off < 4.0 {
@@ -206,7 +206,7 @@ fn extend(
         };
         found.score += sight.score - 0.5 * spread.ln() - tails;
         if off > 25.0 {
-            // It moves the path no further than five standard deviations would.
+            // An outlier moves the path no further than a sample five standard deviations off.
             let (before, there) = (predicted.state, found.state.mean);
             let part = 5.0 / off.sqrt();
             let between = |k: usize| before.mean[k] + part * (there[k] - before.mean[k]);
@@ -224,7 +224,7 @@ fn extend(
     }
 }
 
-/// Keeps the likeliest hypotheses, and of those that agree the likeliest.
+/// Keeps the likeliest hypotheses, and only the likeliest of those that agree.
 fn prune(list: &mut Vec<Hypothesis>) {
     list.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut kept: usize = 0;

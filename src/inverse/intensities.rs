@@ -1,8 +1,8 @@
-//! Stretches of the record in which the noise of the process is stronger or weaker than elsewhere: a machine that stands still
-//! between its moves, a force that jumps. Each stretch and its factor are three parameters more, and are taken where they make
-//! the samples likelier than these cost (Schwarz 1978; as in circular binary segmentation: Olshen et al., Biostatistics 5 (2004)
-//! 557). The scores of the intensity of each step, by which they are found, are by-products of the smoother (Koopman and
-//! Shephard, Biometrika 79 (1992) 823).
+//! Stretches of the record with stronger or weaker process noise than elsewhere: a machine that stands still between
+//! its moves, a force that jumps. Each stretch has three parameters, and is accepted where the likelihood gains more
+//! than they cost (Schwarz 1978; as in circular binary segmentation: Olshen et al., Biostatistics 5 (2004) 557).
+//! Stretches are found by the scores of the intensity of each step, by-products of the smoother (Koopman and Shephard,
+//! Biometrika 79 (1992) 823).
 
 use std::ops::Range;
 
@@ -17,21 +17,21 @@ use super::smoother::Smoothed;
 use super::state_space::Deviations;
 use crate::numeric::maximum::largest_to;
 
-/// Parameters of a stretch: its begin, its end, its factor.
+/// Number of parameters of a stretch: begin, end, factor.
 const PARAMETERS: f64 = 3.0;
 
-/// ln of the largest factor, and to what it is sought.
+/// ln of the largest factor, and tolerance of its search.
 const LARGEST: f64 = 25.0;
 const WIDTH: f64 = 0.3;
 
-/// Derivative of ln of the likelihood by ln of the intensity of a step, and its variance.
+/// Score of a step: derivative of ln of the likelihood by ln of its intensity, with the variance of the score.
 #[derive(Clone, Copy, Debug, Default)]
 struct Score {
     slope: f64,
     information: f64,
 }
 
-/// The scores of all steps.
+/// Companion of the smoother that collects the scores of all steps.
 struct Scores<'a> {
     model: &'a Deviations<'a>,
     per_variance: f64,
@@ -39,7 +39,7 @@ struct Scores<'a> {
 }
 
 impl<const N: usize> Companion<N> for Scores<'_> {
-    /// ½ (rᵀ Q r − tr QN) for r = W (x − x̂) and its variance N = W (P̂ − P) W.
+    /// Collects the slope ½ (rᵀ Q r − tr QN) for r = W (x − x̂) and its variance N = W (P̂ − P) W.
     fn returned(&mut self, node: usize, _: &Return<N>, [predicted, found]: [&Gaussian<N>; 2]) {
         let noise = self.model.process_noise::<N>(node);
         let precision = shares(&predicted.covariance, &diagonal([1.0; N]));
@@ -70,8 +70,8 @@ fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
     scores.list
 }
 
-/// The steps whose intensity is furthest from the usual, whether it is higher, and by how much ln of the likelihood may rise: of
-/// all stretches that last a power of two steps.
+/// Returns the steps whose intensity deviates most from the usual, whether it is higher, and the expected rise of ln of
+/// the likelihood, among all stretches of a power of two steps.
 fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
     let mut sums = vec![[0.0; 2]];
     for score in scores {
@@ -93,12 +93,12 @@ fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
 }
 
 impl Problem<'_> {
-    /// What stretches of a prior beside these cost.
+    /// Returns the cost of stretches in ln of the likelihood (Schwarz 1978).
     fn cost(&self, intensities: &Intensities) -> f64 {
         PARAMETERS * intensities.0.len() as f64 * 0.5 * (self.record.times.len() as f64).ln()
     }
 
-    /// The stretches in which the noise of a prior is of another intensity.
+    /// Finds the stretches in which the process noise under a prior has another intensity.
     fn intensities_of(&self, found: &Smoothed) -> Intensities {
         let mut intensities = Intensities::default();
         let motion = self.motion(found.prior);
@@ -163,13 +163,13 @@ impl Problem<'_> {
         intensities
     }
 
-    /// The likeliest smoothed motion, by stretches of another intensity as long as these make the samples likelier.
+    /// Returns the likeliest smoothed motion and the priors compared; stretches are added while the likelihood gains.
     pub fn likeliest_with_intensities(
         &mut self,
         kinematic: &Smoothed,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         let mut best = self.likeliest_of_all(kinematic);
-        // What repeats, what was computed, and stretches that stand for a long record have none.
+        // Periodic priors, computed records and long records represented by stretches have no intensities.
         while best.0.prior.cycle == 0
             && !self.is_computed(&best.0.noise)
             && self.sampled() == self.all()
@@ -209,7 +209,7 @@ mod tests {
     use crate::inverse::prior::TORQUE;
     use crate::inverse::state_space::Observed;
 
-    /// ln of the likelihood, σ = 1, of samples about a path of steps with these intensities.
+    /// Returns a model of samples about a path of these steps.
     fn model<'a>(
         steps: &'a [Linearised],
         increments: &'a Increments,

@@ -1,13 +1,13 @@
-//! Moments of a normal distribution of which only an interval is left.
+//! Moments of a normal distribution truncated to an interval, for expectation propagation over encoder codes.
 
-/// What all other samples say of the angle at a code: mean from the middle of the step and variance, in steps.
+/// Cavity distribution of a code, from all other samples: mean from the middle of the step, and variance, in steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cavity {
     pub mean: f64,
     pub variance: f64,
 }
 
-/// A normal distribution that stands for a code: precision, and that times the mean from the middle of the step, in steps.
+/// Site of a code, the normal distribution in its place: precision, and precision times mean from the middle, in steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Site {
     pub precision: f64,
@@ -15,7 +15,7 @@ pub(super) struct Site {
 }
 
 impl Cavity {
-    /// ln of the probability of the code, and the normal distribution of the same moments in its place.
+    /// Returns ln of the probability of the code, and the site of equal moments; `jitter` of the ends in steps.
     pub fn matched(&self, jitter: f64) -> (f64, Site) {
         let variance = self.variance + jitter * jitter;
         let spread = variance.sqrt();
@@ -29,7 +29,7 @@ impl Cavity {
             true => tail(a) - tail(b),
             false => tail(-b) - tail(-a),
         };
-        // What a narrow step leaves is a normal distribution already; one that is far away says no more than its place.
+        // A narrow step leaves a normal distribution already; a far one gives no more than its position.
         if 1.0 < NARROW * spread || probability < f64::MIN_POSITIVE.sqrt() {
             let off = self.mean * self.mean / (variance + 1.0 / 12.0);
             return (-0.5 * (off + (variance + 1.0 / 12.0).ln()) - 0.919, far);
@@ -41,28 +41,28 @@ impl Cavity {
         if !(precision.is_finite() && left > 0.0) {
             return (probability.ln(), far);
         }
-        // λ times (mean + slope/bend), without a quotient of two that vanish.
+        // Precision times (mean + slope/bend), without the quotient of two vanishing numbers.
         let shift = precision * self.mean + slope / left;
         (probability.ln(), Site { precision, shift })
     }
 }
 
-/// Width of a step over the spread of what the others say, below which the step is narrow.
+/// Width of a step over the standard deviation of the cavity, below which the step is narrow.
 const NARROW: f64 = 0.3;
 
-/// The density of the standard normal distribution.
+/// Returns the density of the standard normal distribution.
 fn density(z: f64) -> f64 {
     (-0.5 * z * z).exp() * 0.398_942_280_401_432_7
 }
 
-/// The probability that a standard normal variable is beyond z, by the continued fraction of Mills' ratio, and by the series
-/// of the error function near zero; right to 1e-9 of itself.
+/// Returns the probability that a standard normal variable exceeds z, by the continued fraction of Mills' ratio, near
+/// zero by the series of the error function; relative error 1e-9.
 fn tail(z: f64) -> f64 {
     if z < 0.0 {
         return 1.0 - tail(-z);
     }
     if z > 2.5 {
-        // So many terms leave 1e-10 of the tail.
+        // This number of terms leaves a relative error of 1e-10.
         let terms = 10 + (200.0 / (z * z)) as u32;
         let fraction = (1..=terms)
             .rev()

@@ -1,51 +1,51 @@
-//! Inverse dynamics: the equation read backwards along an estimated motion, with the standard errors that follow from its
-//! covariance.
+//! Inverse dynamics: an estimated motion in, slider force and crank torque out, by the equation of motion, with
+//! standard errors that follow from the covariance of the motion.
 
 use super::guide::Guide;
 use super::motion_estimate::MotionEstimate;
 use crate::mechanism::{Equation, LoadValue, Pose, Sense, Terms};
 use crate::scene::Instant;
 
-/// Torque and lever arm at one sample.
+/// Torque, force and lever arm at one sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Demand {
     /// Torque on the crank that the motion needs beside the torques of the scene, N m.
     pub torque: f64,
-    /// Standard error.
+    /// Standard error of the torque, N m.
     pub torque_se: f64,
-    /// x', m/rad.
+    /// Lever arm x', m/rad.
     pub arm: f64,
-    /// Standard error of x'.
+    /// Standard error of x', m/rad.
     pub arm_se: f64,
-    /// Force on the slider that does the same, N.
+    /// Force on the slider that drives the motion in place of the torque, N.
     pub force: f64,
-    /// Standard error.
+    /// Standard error of the force, N.
     pub force_se: f64,
-    /// Whether the rod is so near to normal to the guide that the terms of the equation grow without bound.
+    /// Whether the rod is nearly normal to the guide, where the terms of the equation grow without bound.
     pub near_limit: bool,
-    /// Whether friction of the guide and dry loads are known: without any, or where the slider certainly slides.
+    /// Whether friction of the guide and dry loads are known: none in the scene, or the slider certainly slides.
     pub friction_known: bool,
 }
 
-/// Reads the equation of a scene backwards.
+/// Inverse dynamics of a scene.
 #[derive(Debug)]
 pub(super) struct Backwards<'a> {
     pub equation: &'a Equation,
-    /// Whether the forces of the scene act beside the one that is asked for.
+    /// Whether the forces of the scene act beside the slider force that is computed.
     pub beside_forces: bool,
-    /// The guide, if it has friction.
+    /// Guide with friction, if the scene has one.
     pub guide: Option<&'a Guide>,
 }
 
-/// Step for differences: in the crank angle (rad), and over speed and acceleration; they are right to about 1e-9.
+/// Difference step: crank angle in rad, speed and acceleration relative; differences are right to about 1e-9.
 const STEP: f64 = 1e-5;
 
-/// cos φ below which force and torque are curved enough over the uncertainty of the crank angle to ask for their second
-/// differences.
+/// cos φ below which the standard errors include second differences, for force and torque are curved over the
+/// uncertainty of the crank angle.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
 
 impl Backwards<'_> {
-    /// The scene's loads at a state; dry ones against a motion in this sense of the crank, zero: without them.
+    /// Returns the scene's loads at a state, dry ones against a crank motion of this sense (±1; 0: without dry loads).
     fn loads(&self, t: f64, theta: f64, omega: f64, pose: &Pose, sense: f64) -> LoadValue {
         let loads = self.equation.loads();
         let value = loads.value(t, theta, omega, pose);
@@ -67,8 +67,8 @@ impl Backwards<'_> {
         }
     }
 
-    /// Force on the slider, N, and torque on the crank, N m, either of which drives a motion beside the loads of the scene and the
-    /// friction of the guide, dry ones against this sense of the crank. Torque where a guide locks itself: not a number.
+    /// Returns the force on the slider, N, and the torque on the crank, N m, either of which drives a motion beside the
+    /// scene's loads and guide friction, dry loads against this sense of the crank. Torque NaN if the guide locks.
     fn needed_at(&self, t: f64, terms: &Terms, at: [f64; 3], sense: f64) -> [f64; 2] {
         let ([theta, omega, alpha], pose) = (at, &terms.pose);
         let mut whole = self.equation.generalized_force(terms, omega, alpha);
@@ -88,13 +88,13 @@ impl Backwards<'_> {
         [force, torque]
     }
 
-    /// Force and torque of a motion, by `needed_at`.
+    /// Returns the force, N, and the torque, N m, of a motion, by `needed_at`.
     pub fn needed(&self, t: f64, at: [f64; 3], sense: f64) -> [f64; 2] {
         self.needed_at(t, &self.equation.terms(at[0]), at, sense.signum())
     }
 
-    /// What one state of the motion needs. At rest friction and dry loads may be anything up to their magnitude: the torque is
-    /// then the middle of what is possible, and its error has the rest in it.
+    /// Computes force, torque and standard errors of a state. At rest friction and dry loads may be anything up to
+    /// their magnitude: the torque is then the middle of its range, and its standard error includes half of the range.
     pub fn demand(&self, t: f64, state: &MotionEstimate) -> Demand {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);

@@ -11,7 +11,7 @@ use super::periodic::Regressed;
 use super::regression::Regression;
 use super::state_space::Deviations;
 
-/// One step of the model, from a node to the next.
+/// Step of the model from a node to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<const N: usize> {
     /// Φ
@@ -22,7 +22,7 @@ pub(super) struct Step<const N: usize> {
     pub noise: Matrix<N>,
 }
 
-/// What was measured at a node.
+/// Scalar sample at a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample<const N: usize> {
     /// y
@@ -33,7 +33,7 @@ pub(super) struct Sample<const N: usize> {
     pub variance: f64,
 }
 
-/// A normal distribution.
+/// Normal distribution of the state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gaussian<const N: usize> {
     /// Mean.
@@ -42,36 +42,36 @@ pub(super) struct Gaussian<const N: usize> {
     pub covariance: Matrix<N>,
 }
 
-/// Prediction error of a sample.
+/// Prediction error (innovation) of a sample.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation<const N: usize> {
     pub error: f64,
-    /// In units of σ².
+    /// Variance of the error, in units of σ².
     pub variance: f64,
     /// K
     pub gain: Vector<N>,
 }
 
-/// What runs along with the filter and the smoother.
+/// Observer of the filter and the smoother.
 pub(super) trait Companion<const N: usize> {
-    /// A step to the next node has been predicted.
+    /// Called after the prediction of a step to the next node.
     #[inline(always)]
     fn stepped(&mut self, _node: usize, _step: &Step<N>) {}
 
-    /// The distribution of a node before its sample is known.
+    /// Called with the distribution of a node before its sample is used.
     #[inline(always)]
     fn predicted(&mut self, _node: usize, _distribution: &Gaussian<N>) {}
 
-    /// A sample has been taken in.
+    /// Called after a sample has updated the state.
     #[inline(always)]
     fn updated(&mut self, _node: usize, _sample: &Sample<N>, _found: &Innovation<N>) {}
 
-    /// The smoother is back at a node, from the next one, of which the filter predicted and the smoother found these.
+    /// Called when the smoother returns to a node, with the predicted and the smoothed distribution of the next one.
     #[inline(always)]
     fn returned(&mut self, _node: usize, _way: &Return<N>, _next: [&Gaussian<N>; 2]) {}
 }
 
-/// How the smoother comes from a node to the one before: x(k) = Φ⁻¹ (x(k+1) − c − QW (x(k+1) − x̂)).
+/// Smoother step from a node to the preceding one: x(k) = Φ⁻¹ (x(k+1) − c − QW (x(k+1) − x̂)).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Return<const N: usize> {
     /// Φ⁻¹
@@ -80,7 +80,7 @@ pub(super) struct Return<const N: usize> {
     pub share: Matrix<N>,
 }
 
-/// What the prediction errors v of the samples, with variances S, tell of a model.
+/// Likelihood terms of a model, from the prediction errors v of the samples with variances S.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Evidence {
     /// Σ v²/S
@@ -92,7 +92,7 @@ pub(super) struct Evidence {
 }
 
 impl<const N: usize> Gaussian<N> {
-    /// The distribution one step later.
+    /// Returns the distribution one step later.
     #[inline(always)]
     pub fn predicted(&self, step: &Step<N>) -> Gaussian<N> {
         Gaussian {
@@ -101,7 +101,7 @@ impl<const N: usize> Gaussian<N> {
         }
     }
 
-    /// Takes a sample in.
+    /// Updates the distribution by a sample.
     #[inline(always)]
     pub fn update(&mut self, sample: &Sample<N>) -> Innovation<N> {
         let shared = times(&self.covariance, &sample.row);
@@ -158,21 +158,21 @@ impl<const N: usize> Companion<N> for Evidence {
     }
 }
 
-/// The prediction error decomposition of the likelihood.
+/// Computes the prediction error decomposition of the likelihood.
 pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
     run::<N>(model, None, &mut evidence);
     evidence
 }
 
-/// The prediction error decomposition of the likelihood without the periodic part, and what the samples tell of that.
+/// Computes the prediction error decomposition without the periodic part, and the regression of that part in `to`.
 pub(super) fn regressed<const N: usize>(model: &Deviations<'_>, to: &mut Regression) -> Evidence {
     let mut both = (Evidence::default(), Regressed::new(model, to));
     run::<N>(model, None, &mut both);
     both.0
 }
 
-/// Runs the filter from before the first sample, or on from what it knows after that.
+/// Runs the filter from the prior before the first sample, or from a known distribution after it.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
@@ -196,7 +196,7 @@ pub(super) fn run<const N: usize>(
     now
 }
 
-/// What the filter leaves to the smoother, and a companion of both.
+/// Predictions and innovations that the filter leaves to the smoother, and a companion of both.
 struct Forward<'a, C, const N: usize> {
     path: Vec<Gaussian<N>>,
     innovations: Vec<Option<f64>>,
@@ -219,11 +219,11 @@ impl<C: Companion<N>, const N: usize> Companion<N> for Forward<'_, C, N> {
     }
 }
 
-/// The distribution of the state at each node, given all samples, and the prediction errors over their standard
+/// Returns the distribution of the state at each node, given all samples, and the prediction errors over their standard
 /// deviations (in units of σ), by node.
 ///
-/// The way back uses Φ⁻¹ and the precision W of the prediction: with ŵ = Q W (x − x̂) for the noise of a step,
-/// x(k) = Φ⁻¹ (x(k+1) − c − ŵ) and P(k) = Φ⁻¹ [Q − QWQ + (I − QW) P(k+1) (I − WQ)] Φ⁻ᵀ, which has no difference of large
+/// The backward recursion uses Φ⁻¹ and the precision W of the prediction: with ŵ = Q W (x − x̂) for the noise of a step,
+/// x(k) = Φ⁻¹ (x(k+1) − c − ŵ) and P(k) = Φ⁻¹ [Q − QWQ + (I − QW) P(k+1) (I − WQ)] Φ⁻ᵀ, without a difference of large
 /// numbers where the start is diffuse.
 pub(super) fn smooth<const N: usize>(
     model: &Deviations<'_>,
@@ -255,7 +255,7 @@ pub(super) fn smooth<const N: usize>(
     (path, innovations)
 }
 
-/// The smoothed distribution one step before `later`, where the filter predicted `predicted`.
+/// Returns the smoothed distribution one step before `later`, where the filter predicted `predicted`.
 #[inline(always)]
 fn earlier<const N: usize>(
     step: &Step<N>,

@@ -1,4 +1,4 @@
-//! The motion without mechanics: what the samples alone say, by white snap, with the noise that makes them likeliest.
+//! Motion from samples without mechanics: Kalman smoother with white snap and the likeliest noise.
 
 use super::grid::Path;
 use super::likelihood::Linear;
@@ -7,12 +7,12 @@ use super::problem::Problem;
 use super::scales::Scales;
 use super::smoother::{ITERATIONS, PATH_AT_REST, Smoothed};
 
-/// First standard deviation of a sample over the way between two, and the factor by which it is lowered: the prior of the start
-/// is then as wide as that way.
+/// First standard deviation of a sample over the distance between two, and the factor by which it is lowered: the prior
+/// of the start spans that distance at first.
 const LARGE: f64 = 1e-3;
 
 impl Problem<'_> {
-    /// The motion without mechanics, from a first path.
+    /// Smooths the motion without mechanics, from a first path and the sample noise σ, rad or m.
     pub fn kinematic(&self, first: Path, sigma: f64) -> Smoothed {
         let motion = self.motion(KINEMATIC);
         let slope = self.slope(&first);
@@ -22,7 +22,7 @@ impl Problem<'_> {
         let mut best: Option<Smoothed> = None;
         let is_linear = self.record.is_linear();
         let mut sigma = sigma;
-        // The prior of the start is so many σ wide: a σ that is large at first, and lowered, makes it wide enough.
+        // The width of the initial prior is proportional to σ: a large σ, lowered step by step, makes it wide enough.
         let mut floor = LARGE * slope * self.way();
         for iteration in 0..ITERATIONS {
             floor = floor.max(self.record.floor);
@@ -62,7 +62,7 @@ impl Problem<'_> {
                 estimates,
                 settled,
             });
-            // A second pass takes what is lost to rounding about a straight line.
+            // A second pass recovers digits lost to rounding about a straight line.
             if settled && (!is_linear || iteration > 0) {
                 break;
             }

@@ -22,7 +22,7 @@ pub(super) struct Linear<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stretch {
     pub steps: Vec<Linearised>,
-    /// What the harmonics of what repeats add in each step.
+    /// Increments of the harmonics of the periodic part in each step.
     pub increments: Increments,
     pub observed: Vec<Observed>,
 }
@@ -32,7 +32,7 @@ impl Linear<'_> {
     fn spread(&self) -> State {
         let mut spread = self.scales.spread();
         if self.prior.follows_speed {
-            // Such a g makes as much of the speed as the spread of u has.
+            // With this spread, g times the spread of the speed has the spread of u.
             spread[2 + self.prior.order] = spread[2] / self.scales.speed;
         }
         spread
@@ -68,7 +68,7 @@ impl Linear<'_> {
         self.stretches.iter().map(of).sum()
     }
 
-    /// The evidence without the part that repeats, and what the samples tell of that.
+    /// Returns the evidence without the periodic part, and the regression of that part.
     fn regressed(&self, noise: &Noise) -> (Evidence, Regression) {
         let mut to = Regression::new(2 * self.prior.harmonics);
         let of = |stretch: &Stretch| {
@@ -90,7 +90,7 @@ impl Linear<'_> {
         self.regressed(noise).1.solved(spectrum)
     }
 
-    /// The evidence with the part that repeats, of the spectrum that the noise has or else of the likeliest.
+    /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
     fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
         let (mut evidence, regression) = self.regressed(noise);
         let starts = self.prior.states() * self.stretches.len();
@@ -134,7 +134,7 @@ impl Linear<'_> {
         self.judged(noise, &evidence, self.stretches.len())
     }
 
-    /// Noise with its likelihood and its σ by what samples tell in filters that began so many times.
+    /// Returns the noise with its likelihood and σ, from the evidence of filters that were started `begun` times.
     pub fn judged(&self, mut noise: Noise, evidence: &Evidence, begun: usize) -> Noise {
         let starts = (self.prior.states() * begun) as f64;
         let free = evidence.samples as f64 - starts;

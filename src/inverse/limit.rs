@@ -1,7 +1,7 @@
-//! The limits of a crank that cannot turn fully, where the rod stands normal to the guide and the branches meet.
+//! Check of a motion against the limits of a rocker, where the rod stands normal to the guide and the branches meet.
 //!
-//! A motion that comes to a limit may turn back just before it, on its branch, or pass it and go on along the other one:
-//! the crank angle turns back either way, and within its uncertainty it does not tell which.
+//! A motion that comes to a limit may turn back just before it, on its branch, or pass it and go on along the other
+//! one: the crank angle turns back either way, and within its uncertainty does not show which happened.
 
 use super::fitted::Fitted;
 use super::inverse_dynamics::NEAR_LIMIT;
@@ -12,11 +12,11 @@ use crate::mechanism::Linkage;
 use crate::scene::Measurement;
 use std::f64::consts::TAU;
 
-/// Standard errors of the crank angle within which a motion is at the limit.
+/// Distance from a limit, in standard errors of the crank angle, within which a motion counts as at the limit.
 const WITHIN: f64 = 5.0;
 
-/// Refuses a motion that comes to a limit within its uncertainty or that of a sample, at the samples or where it turns between
-/// them: what is smoothed across a limit is another motion.
+/// Refuses a motion that comes to a limit within its uncertainty or that of a sample, at the samples or where it turns
+/// between them: smoothing across a limit gives another motion.
 pub(super) fn keeps_clear(
     sensor: &Sensor<'_>,
     fitted: &Fitted,
@@ -76,18 +76,18 @@ pub(super) fn refusal(
     )
 }
 
-/// The limit in the turn of a crank angle.
+/// Returns the limit angle in the turn nearest to a crank angle, rad.
 fn nearest(limit: f64, theta: f64) -> f64 {
     limit + ((theta - limit) / TAU).round() * TAU
 }
 
-/// The way from a crank angle to the nearest limit, rad.
+/// Returns the distance from a crank angle to the nearest limit, rad.
 fn distance(limits: &[f64], theta: f64) -> f64 {
     let from = |limit: &f64| (theta - nearest(*limit, theta)).abs();
     limits.iter().map(from).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether a limit lies between two states, as a change point may.
+/// True if a limit lies between the crank angles of two states.
 fn passes(limits: &[f64], a: &MotionEstimate, b: &MotionEstimate) -> bool {
     let turn = |state: &MotionEstimate, limit: f64| ((state.value[0] - limit) / TAU).floor();
     limits
@@ -95,8 +95,8 @@ fn passes(limits: &[f64], a: &MotionEstimate, b: &MotionEstimate) -> bool {
         .any(|limit| turn(a, *limit) != turn(b, *limit))
 }
 
-/// The crank angle at which the motion turns back between two samples, and how uncertain the way between them makes it, rad:
-/// the vertex of the parabola of the nearer one, and its distance from that of the other.
+/// Returns the crank angle at which the motion turns back between two samples, and its uncertainty, rad: the vertex of
+/// the parabola of the slower sample, and the distance of the other's vertex.
 fn turning_angle(a: &MotionEstimate, b: &MotionEstimate) -> Option<(f64, f64)> {
     let [of_a, of_b] = [a, b].map(|state| {
         let [theta, omega, alpha] = state.value;

@@ -1,7 +1,7 @@
-//! The equation of motion with an unknown torque or force, and its linearisation about a nominal path.
+//! Equation of motion with an unknown torque or force, and its linearisation about a nominal path.
 //!
-//! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1 for a torque (N m)
-//! and x' for a force (N); without mechanics θ̈ = u.
+//! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
+//! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
 use super::prior::{Prior, Unknown};
 use crate::mechanism::{Equation, Terms};
@@ -9,23 +9,23 @@ use crate::mechanism::{Equation, Terms};
 /// Largest order of a prior.
 pub(super) const ORDERS: usize = 3;
 
-/// θ, ω, u, and its derivatives or g.
+/// State: θ, ω, u, then the derivatives of u, or g.
 pub(super) type State = [f64; 2 + ORDERS];
 
-/// θ̈ and its derivatives at a state.
+/// θ̈ and its partial derivatives at a state.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rates {
     /// θ̈, rad/s²
     pub alpha: f64,
-    /// ∂θ̈/∂θ
+    /// ∂θ̈/∂θ, 1/s²
     pub by_theta: f64,
-    /// ∂θ̈/∂ω
+    /// ∂θ̈/∂ω, 1/s
     pub by_omega: f64,
     /// ∂θ̈/∂u
     pub by_unknown: f64,
 }
 
-/// The equation of motion with its unknown.
+/// Equation of motion with its unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion<'a> {
     pub equation: &'a Equation,
@@ -34,11 +34,11 @@ pub(super) struct Motion<'a> {
     pub origin: f64,
 }
 
-/// Step of the crank angle (rad) for differences: they are right to about 1e-9 of the terms.
+/// Difference step of the crank angle, rad, and relative step of the speed, right to about 1e-9 of the terms.
 const STEP: f64 = 1e-6;
 
 impl Motion<'_> {
-    /// θ̈ and ∂θ̈/∂u.
+    /// Returns θ̈ and ∂θ̈/∂u.
     pub fn acceleration(&self, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
         if self.prior.unknown == Unknown::Acceleration {
             return [unknown, 1.0];
@@ -46,7 +46,7 @@ impl Motion<'_> {
         self.at(&self.equation.terms(theta), t, theta, omega, unknown)
     }
 
-    /// θ̈ and ∂θ̈/∂u by the terms of the equation at θ.
+    /// Returns θ̈ and ∂θ̈/∂u by the terms of the equation at θ.
     fn at(&self, terms: &Terms, t: f64, theta: f64, omega: f64, unknown: f64) -> [f64; 2] {
         let load = self
             .equation
@@ -62,7 +62,7 @@ impl Motion<'_> {
         [(known + arm * unknown) / m, arm / m]
     }
 
-    /// θ̈ at a state with its derivatives.
+    /// Returns θ̈ and its partial derivatives at a state.
     pub fn rates(&self, t: f64, state: &State) -> Rates {
         let [theta, omega, unknown, ..] = *state;
         if self.prior.unknown == Unknown::Acceleration {
@@ -91,7 +91,7 @@ impl Motion<'_> {
         }
     }
 
-    /// Mean acceleration of a step: what g adds to u, per time.
+    /// Returns the mean acceleration of a step, rad/s², the rate at which g adds to u; 0 without g.
     fn tilt(&self, h: f64, ends: [&State; 2]) -> f64 {
         match self.prior.follows_speed {
             true => (ends[1][1] - ends[0][1]) / h,
@@ -99,7 +99,7 @@ impl Motion<'_> {
         }
     }
 
-    /// A state with u and its derivatives a time later.
+    /// Returns a state with u and its derivatives advanced by a time h, s; θ and ω stay.
     fn later(&self, h: f64, tilt: f64, from: &State) -> State {
         let mut state = *from;
         let last = 2 + self.prior.order;
@@ -116,7 +116,7 @@ impl Motion<'_> {
         state
     }
 
-    /// θ̈ in the middle of a step whose ends are known, with u as the prior predicts it from the first.
+    /// Returns θ̈ in the middle of a step with known ends, where the prior predicts u from the begin.
     fn in_the_middle(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> f64 {
         let h = t[1] - t[0];
         let [a, b] = ends;
@@ -128,7 +128,7 @@ impl Motion<'_> {
         self.acceleration(0.5 * (t[0] + t[1]), theta, omega, unknown)[0]
     }
 
-    /// One step of the linear model of the deviations from a nominal path.
+    /// Returns one step of the linear model of the deviations from a nominal path.
     pub fn linearised(&self, t: [f64; 2], ends: [&State; 2], rates: [&Rates; 2]) -> Linearised {
         let h = t[1] - t[0];
         let [a, b] = ends;
@@ -169,7 +169,7 @@ impl Motion<'_> {
     }
 }
 
-/// Upper two rows of the transition of the state over a time h, for constant derivatives of θ̈: the exponential series to h⁴.
+/// Returns the rows of θ and ω of the transition over h, s, for constant derivatives of θ̈: exponential series to h⁴.
 pub(super) fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [State; 2] {
     // Columns of Aⁿ/n! hⁿ for A = [[0, 1], [by_theta, by_omega]].
     let mut power = [[1.0, 0.0], [0.0, 1.0]];
@@ -190,20 +190,20 @@ pub(super) fn exponential(h: f64, by_theta: f64, by_omega: f64, lever: f64) -> [
     top
 }
 
-/// One step of the deviations from a nominal path.
+/// Step of the linear model of deviations from a nominal path.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Linearised {
-    /// s
+    /// Duration, s.
     pub h: f64,
-    /// Rows of θ and ω of the transition.
+    /// Transition rows of θ and ω.
     pub top: [State; 2],
     /// Prediction from the nominal path's begin minus its end.
     pub defect: State,
-    /// ∂θ̈/∂u
+    /// Mean ∂θ̈/∂u of the step.
     pub lever: f64,
-    /// What g adds to u, per time.
+    /// Mean acceleration of the step, rad/s²: the rate at which g adds to u.
     pub tilt: f64,
-    /// Intensity of the noise of the process beside the usual one.
+    /// Intensity of the process noise over the usual one.
     pub intensity: f64,
 }
 

@@ -9,7 +9,7 @@ pub(super) type Vector<const N: usize> = [f64; N];
 /// N rows of N numbers.
 pub(super) type Matrix<const N: usize> = [[f64; N]; N];
 
-/// A matrix with these numbers on its diagonal.
+/// Returns the matrix with these numbers on its diagonal.
 pub(super) fn diagonal<const N: usize>(numbers: Vector<N>) -> Matrix<N> {
     let mut matrix = [[0.0; N]; N];
     for (k, number) in numbers.into_iter().enumerate() {
@@ -18,7 +18,7 @@ pub(super) fn diagonal<const N: usize>(numbers: Vector<N>) -> Matrix<N> {
     matrix
 }
 
-/// A P Aᵀ + Q, symmetric.
+/// Returns A P Aᵀ + Q, symmetric.
 #[inline(always)]
 pub(super) fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
     let half = product(a, p);
@@ -32,7 +32,7 @@ pub(super) fn congruent<const N: usize>(a: &Matrix<N>, p: &Matrix<N>, q: &Matrix
     whole
 }
 
-/// A B
+/// Returns A B.
 #[inline(always)]
 pub(super) fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
     let mut whole = [[0.0; N]; N];
@@ -46,7 +46,7 @@ pub(super) fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N>
     whole
 }
 
-/// A x
+/// Returns A x.
 #[inline(always)]
 pub(super) fn times<const N: usize>(a: &Matrix<N>, x: &Vector<N>) -> Vector<N> {
     std::array::from_fn(|i| dot(&a[i], x))
@@ -66,8 +66,8 @@ pub(super) fn sum<const N: usize>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-/// Q P⁻¹ for a covariance P and a symmetric Q, by the factors of Cholesky of P, scaled to a unit diagonal to which its rounding
-/// is added.
+/// Returns Q P⁻¹ for a covariance P and a symmetric Q, by Cholesky factors of P, scaled to a unit diagonal to which its
+/// rounding is added.
 #[inline(always)]
 pub(super) fn shares<const N: usize>(p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
     let scale: Vector<N> = std::array::from_fn(|k| 1.0 / p[k][k].sqrt());

@@ -1,13 +1,13 @@
-//! The largest likelihood along one parameter.
+//! Maximum of the likelihood along one parameter.
 
 use super::scales::Noise;
 
-/// The likelier one of two.
+/// Returns the likelier of two noises.
 pub(super) fn better(a: Noise, b: Noise) -> Noise {
     if b.likelihood > a.likelihood { b } else { a }
 }
 
-/// Largest value near a guess: uphill in growing steps, then parabolas through the three best points.
+/// Maximises the likelihood near a guess: uphill in growing steps, then parabolas through the three best points.
 pub(super) fn climb(
     at: impl Fn(f64) -> Noise,
     guess: f64,
@@ -65,16 +65,16 @@ fn value(points: &[(f64, Noise)], place: f64) -> f64 {
     found.map_or(f64::NEG_INFINITY, |(_, noise)| noise.likelihood)
 }
 
-/// Rise of ln of a likelihood that is not worth another evaluation.
+/// Rise of ln of the likelihood below which another evaluation does not pay.
 pub(super) const ENOUGH_RISE: f64 = 0.05;
 
-/// A place and how much higher it is expected to be than what is known.
+/// Vertex of a parabola, with its expected rise above the best known point.
 pub(super) struct Top {
     pub place: f64,
     rise: f64,
 }
 
-/// Where the parabola through three points has its top, kept inside.
+/// Returns the vertex of the parabola through three points, kept between the outer ones.
 pub(super) fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (right - left) / (c.0 - a.0);

@@ -1,38 +1,38 @@
-//! Mean of the cycles: force and torque over the crank angle, with their standard errors and their scatter from cycle to cycle.
+//! Mean of the cycles: force and torque over the crank angle, with standard errors and scatter from cycle to cycle.
 
 use std::f64::consts::TAU;
 
 use super::Inverse;
 use super::row::InverseRow;
 
-/// Angles in a turn at which cycles are compared.
+/// Number of angles per turn at which cycles are compared.
 const IN_A_TURN: usize = 360;
 
-/// Force and torque at one angle of the cycle.
+/// Mean force and torque at one angle of the cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeanRow {
     /// Crank angle within the cycle, rad.
     pub theta: f64,
     /// Force on the slider, N; none where no cycle determines it.
     pub slider_force: Option<CycleMean>,
-    /// Torque on the crank that does the same, N m.
+    /// Torque on the crank that drives the motion in place of the force, N m.
     pub crank_torque: Option<CycleMean>,
 }
 
 /// A mean over cycles, N or N m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CycleMean {
-    /// Number of cycles that determine it.
+    /// Number of cycles that determine the mean.
     pub cycles: usize,
-    /// Mean.
+    /// Mean of the cycles.
     pub value: f64,
     /// Standard error of the mean.
     pub standard_error: f64,
-    /// Standard deviation from cycle to cycle; none of a single one.
+    /// Standard deviation from cycle to cycle; none for a single cycle.
     pub scatter: Option<f64>,
 }
 
-/// A value of one cycle with its standard error, and the part of that which all cycles share.
+/// Value of one cycle, its standard error, and the part of the error that all cycles share.
 #[derive(Clone, Copy)]
 struct Passage {
     value: f64,
@@ -60,7 +60,7 @@ impl Sums {
         self.shared += passage.shared.powi(2);
     }
 
-    /// What cycles do not share falls with their number: the larger one of what their scatter and what their own errors say.
+    /// Returns the mean. The unshared variance, the larger of scatter and own errors, falls with the number of cycles.
     fn mean(&self) -> Option<CycleMean> {
         let count = self.cycles as f64;
         let variance = (self.cycles > 1).then(|| self.about / (count - 1.0));
@@ -75,9 +75,9 @@ impl Sums {
 }
 
 impl Inverse {
-    /// Mean of the cycles, one row for each degree of the crank angle that was passed. A cycle is a turn, or two turns where the
-    /// torque repeats after two. Errors of values of the scene are shared by all cycles; where the smoother knows what repeats,
-    /// each cycle rests on all, and all of their errors are.
+    /// Returns the mean of the cycles, one row for each degree of crank angle that was passed. A cycle is a turn, or
+    /// two turns where the torque repeats after two. Errors of scene values are shared by all cycles; with a periodic
+    /// prior of the smoother each cycle rests on all, and all errors are shared.
     pub fn mean_cycle(&self) -> Vec<MeanRow> {
         let turns = usize::from(self.cycle.max(1));
         let count = IN_A_TURN * turns;
@@ -85,7 +85,7 @@ impl Inverse {
         let mut sums = vec![[Sums::default(); 2]; count];
         for (k, pair) in self.rows.windows(2).enumerate() {
             let [from, to] = [pair[0].theta / step, pair[1].theta / step];
-            // The begin counts, the end is the next one's begin.
+            // The begin counts, the end is the begin of the next pair.
             let passed = match from < to {
                 true => from.ceil()..to.ceil(),
                 false => to.floor() + 1.0..from.floor() + 1.0,
@@ -108,7 +108,7 @@ impl Inverse {
         rows.filter(|row| row.crank_torque.is_some()).collect()
     }
 
-    /// Force or torque at a part of the way from a row to the next.
+    /// Interpolates force (`which` = 0) or torque (1) at a fraction of the way from a row to the next.
     fn passage(&self, row: usize, part: f64, which: usize) -> Option<Passage> {
         let of = |row: usize| {
             let InverseRow {

@@ -1,20 +1,20 @@
-//! What an instrument shows at a crank angle: h(θ), with its derivatives.
+//! Measurement model: crank angle in, reading h(θ) of a sensor and its derivatives out.
 
 use std::f64::consts::TAU;
 
 use crate::mechanism::{InversePosition, Linkage};
 use crate::scene::Measured;
 
-/// A measured quantity of a mechanism.
+/// Sensor of a mechanism: the measured quantity and its scale.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sensor<'a> {
     pub linkage: &'a Linkage,
     pub measured: Measured,
-    /// What a sensor of slider positions shows: shift + stretch x.
+    /// Zero and gain of a position sensor, which shows shift + stretch x.
     pub scale: Scale,
 }
 
-/// Zero, m, and gain of a sensor of slider positions.
+/// Zero, m, and gain of a position sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Scale {
     pub shift: f64,
@@ -22,26 +22,26 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// The slider is where the sensor shows it.
+    /// Exact sensor: zero 0 and gain 1.
     pub const TRUE: Scale = Scale {
         shift: 0.0,
         stretch: 1.0,
     };
 }
 
-/// A measured value at a crank angle.
+/// Reading of a sensor at a crank angle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
-    /// rad or m; a crank-pin angle with its sign, continued over the turns.
+    /// Reading, rad or m; a crank-pin angle has its sign and is continued over the turns.
     pub value: f64,
     /// Derivative with respect to the crank angle.
     pub slope: f64,
-    /// Second derivative.
+    /// Second derivative with respect to the crank angle.
     pub curvature: f64,
 }
 
 impl Sensor<'_> {
-    /// The crank angles at which a value is shown, and how far it is from all that can be shown.
+    /// Returns the crank angles of a reading, and its distance from all possible readings, rad or m.
     pub fn angles(&self, value: f64) -> (InversePosition, f64) {
         match self.measured {
             Measured::X => {
@@ -55,7 +55,7 @@ impl Sensor<'_> {
         }
     }
 
-    /// What is shown at a crank angle, rad.
+    /// Returns the reading at a crank angle, rad.
     pub fn shown(&self, theta: f64) -> Shown {
         match self.measured {
             Measured::Theta => Shown {
@@ -84,7 +84,7 @@ impl Sensor<'_> {
         }
     }
 
-    /// A size of what is measured per radian of the crank: the crank length, m, or 1.
+    /// Returns the typical change of the reading per radian of the crank: the crank length, m, or 1.
     pub fn size(&self) -> f64 {
         match self.measured {
             Measured::X => self.linkage.r,
@@ -92,8 +92,8 @@ impl Sensor<'_> {
         }
     }
 
-    /// Measured minus shown, with what is shown. A protractor at the crank pin shows no sign: that next to what is shown
-    /// counts.
+    /// Returns measured value minus reading, and the reading. A crank-pin protractor shows no sign: the sign nearer to
+    /// the reading counts.
     pub fn residual(&self, value: f64, theta: f64) -> (f64, Shown) {
         let shown = self.shown(theta);
         let off = |value: f64| {

@@ -1,17 +1,17 @@
-//! The motion of a crank mirrored at the line from its pivot to the slider pin: it has the slider at the same places.
+//! Mirror image of a crank motion at the line from pivot to slider pin: a second motion with the same slider positions.
 
 use std::f64::consts::TAU;
 
 use super::branch_tracking::{APART, CrankAngles};
 
-/// The mirror image of a motion, and the sample at which it leaves the branch of the scene.
+/// Mirror image of a motion, and the first sample at which it leaves the branch of the scene.
 #[derive(Clone, Debug)]
 pub(super) struct Image<'a> {
     pub angles: CrankAngles<'a>,
     pub leaves: Option<usize>,
 }
 
-/// The mirror image of a motion, as far as it is on the branch.
+/// Returns the mirror image of a motion, and the sample at which it leaves the branch.
 pub(super) fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
     let linkage = motion.sensor.linkage;
     let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
@@ -36,7 +36,7 @@ pub(super) fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
     }
 }
 
-/// The first sample at which two motions are apart.
+/// Returns the first sample at which two motions are more than `APART` apart.
 pub(super) fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
     let off = |k: usize| a.theta[k] - b.theta[k];
     let turns = (off(0) / TAU).round() * TAU;

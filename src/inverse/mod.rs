@@ -1,6 +1,6 @@
-//! Slider force and crank torque from a measured motion: samples and a scene go in, force and torque with their standard
-//! errors come out, by an iterated extended Kalman smoother whose model is the equation of motion (or by a polynomial), and by
-//! inverse dynamics along the motion that it gives.
+//! Slider force and crank torque from a measured motion: samples and a scene go in, force and torque with their
+//! standard errors come out, by an iterated extended Kalman smoother whose model is the equation of motion (or by a
+//! polynomial), and by inverse dynamics along the estimated motion.
 //!
 //! ```
 //! use slider_crank::scene::{Measurement, Reading, Scene};
@@ -108,7 +108,7 @@ use crate::scene::{Measured, Measurement, Scene, UncertainValue};
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]
 pub struct Inverse {
-    /// The numbers.
+    /// Summary: plan, data, fit, ranges, bands and warnings.
     pub summary: InverseSummary,
     /// One row for each sample.
     pub rows: Vec<InverseRow>,
@@ -120,7 +120,7 @@ pub struct Inverse {
     cycle: u8,
 }
 
-/// Slider force and crank torque from a measured motion.
+/// Computes slider force and crank torque from a measured motion.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what cannot be computed,
@@ -152,10 +152,10 @@ pub fn inverse(
     inverse_of_uncertain(scene, &[], measurement, options)
 }
 
-/// Slider force and crank torque from a measured motion, with the errors of uncertain values of the scene in their band.
+/// Computes slider force and crank torque as [`inverse`], with the errors of uncertain scene values in the bands.
 ///
 /// # Errors
-/// As [`inverse`].
+/// The errors of [`inverse`].
 pub fn inverse_of_uncertain(
     scene: &Scene,
     uncertain: &[UncertainValue],
@@ -164,7 +164,7 @@ pub fn inverse_of_uncertain(
 ) -> Result<Inverse, Error> {
     let found = recovered(scene, uncertain, measurement, options);
     match &options.stop {
-        // What was cut off looks like samples that do not serve.
+        // An interrupted fit looks like unusable samples.
         Some(stop) if stop.is_requested() => Err(Error::Interrupted),
         _ => found,
     }
@@ -253,18 +253,18 @@ fn recovered(
 }
 
 impl Inverse {
-    /// Whether joint forces were asked for.
+    /// True if joint forces were requested.
     pub fn with_reactions(&self) -> bool {
         self.reactor.is_some()
     }
 
-    /// The lever arm x' of the slider force at a row, m/rad.
+    /// Returns the lever arm x' of the slider force at a row, m/rad.
     pub fn lever_arm(&self, row: &InverseRow) -> f64 {
         self.equation.linkage().pose(row.theta).dx
     }
 
-    /// The joint forces of a row, with its slider force acting; none where that is empty, or if they were not asked
-    /// for.
+    /// Returns the joint forces of a row with its slider force acting; none if the row has no force or joint forces
+    /// were not requested.
     pub fn reactions(&self, row: &InverseRow) -> Option<Reactions> {
         let reactor = self.reactor.as_ref()?;
         row.slider_force?;

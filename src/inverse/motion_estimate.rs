@@ -6,12 +6,12 @@ pub(super) struct MotionEstimate {
     pub value: [f64; 3],
     /// Covariance, rows of the lower triangle.
     pub covariance: [f64; 6],
-    /// What rounding may have done to the three.
+    /// Bounds of the rounding errors of the three values.
     pub rounding: [f64; 3],
 }
 
 impl MotionEstimate {
-    /// Standard error of a combination of the three, with their rounding and with what else rounding adds.
+    /// Returns the standard error of a linear combination of the three, with their rounding and `more` rounding.
     pub fn error(&self, gradient: &[f64; 3], more: f64) -> f64 {
         let parts = gradient.iter().zip(&self.rounding);
         let rounding: f64 = parts.map(|(g, r)| (g * r).abs()).sum();
@@ -19,12 +19,12 @@ impl MotionEstimate {
         (quadratic(&self.covariance, gradient) + rounding).sqrt()
     }
 
-    /// Standard error of the crank angle, rad.
+    /// Returns the standard error of the crank angle, rad.
     pub fn angle_error(&self) -> f64 {
         self.error(&[1.0, 0.0, 0.0], 0.0)
     }
 
-    /// This motion where its times may be stretched by a part.
+    /// Returns the motion with the error of a time scale whose relative standard error is `part`.
     pub fn stretched(mut self, part: f64) -> MotionEstimate {
         let [_, first, second] = self.value;
         let off = [0.0, part * first, 2.0 * part * second];
@@ -39,10 +39,10 @@ impl MotionEstimate {
     }
 }
 
-/// Part of the largest rounding that is its standard deviation: roundings of many terms seldom add up.
+/// Standard deviation of a rounding error over its bound: roundings of many terms seldom add up.
 const RARE: f64 = 0.5;
 
-/// gᵀ S g for a symmetric matrix given by its lower triangle.
+/// Returns gᵀ S g, at least 0, for a symmetric matrix given by its lower triangle.
 fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {
     let [aa, ba, bb, ca, cb, cc] = *matrix;
     let [a, b, c] = *gradient;

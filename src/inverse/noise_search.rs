@@ -1,11 +1,11 @@
-//! The noise that makes samples likeliest: searches over one frequency after the other.
+//! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
 use super::maximum::{better, climb};
 use super::scales::{Autoregression, Noise};
 
 impl Linear<'_> {
-    /// The largest likelihood over the corner frequency, from a first guess.
+    /// Maximises the likelihood over the corner frequency, from a first guess, rad/s.
     pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
         self.renewed(Noise {
             correlated,
@@ -13,12 +13,12 @@ impl Linear<'_> {
         })
     }
 
-    /// The likeliest corner frequency beside what else a noise has, from the one that it has.
+    /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
     pub fn renewed(&self, noise: Noise) -> Noise {
         self.improved(self.evaluated(noise))
     }
 
-    /// The likeliest corner frequency beside what else a noise has, whose likelihood is known.
+    /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
     pub fn improved(&self, first: Noise) -> Noise {
         let by_corner = |corner| self.evaluated(Noise { corner, ..first });
         let best = self.over(first.corner, first, by_corner);
@@ -28,13 +28,13 @@ impl Linear<'_> {
         }
     }
 
-    /// The largest likelihood over a frequency, from a first guess with its noise.
+    /// Maximises the likelihood over a frequency, rad/s, from a first guess with its noise.
     fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise) -> Noise {
         let range = self.scales.corners().map(f64::ln);
         climb(|log| at(log.exp()), guess.ln(), first, range)
     }
 
-    /// The largest likelihood over corner frequencies all over the range.
+    /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
     pub fn anywhere(&self) -> Noise {
         let lowest = (0.5 / self.scales.duration).ln();
         let highest = (3.0 / self.scales.spacing).ln();
@@ -49,7 +49,7 @@ impl Linear<'_> {
         )
     }
 
-    /// The likeliest noise of g beside that of u: a loss that is not in proportion to the speed.
+    /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
     pub fn with_drift(&self, mut noise: Noise) -> Noise {
         for _ in 0..2 {
             let drift = noise.drift.max(noise.corner);
@@ -61,7 +61,7 @@ impl Linear<'_> {
         noise
     }
 
-    /// The largest likelihood over the corner frequency, the correlation of the noise and its white part.
+    /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess.
     pub fn correlated(&self, from: &Noise, guesses: &[Autoregression]) -> Noise {
         let mut best = Noise {
             likelihood: f64::NEG_INFINITY,
@@ -102,5 +102,5 @@ impl Linear<'_> {
     }
 }
 
-/// Most rounds of the search over one parameter after the other.
+/// Maximum number of rounds of the search over one parameter after the other.
 const CORRELATION_ROUNDS: usize = 8;

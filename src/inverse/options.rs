@@ -1,11 +1,11 @@
-//! What is asked of an inverse computation.
+//! Options of an inverse computation.
 
 use crate::numeric::stop::Stop;
 
-/// How the motion is estimated.
+/// Method of motion estimation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitKind {
-    /// A polynomial where it leaves nothing but noise within one turn, else the smoother.
+    /// Polynomial within one turn where it leaves only noise and has the lower AICc, else the smoother.
     Auto,
     /// A polynomial of the crank angle over time.
     Polynomial,
@@ -14,10 +14,10 @@ pub enum FitKind {
 }
 
 impl FitKind {
-    /// All of them.
+    /// All methods.
     pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
 
-    /// Name in options and outputs.
+    /// Returns the name in options and outputs.
     pub fn name(self) -> &'static str {
         match self {
             FitKind::Auto => "auto",
@@ -30,25 +30,24 @@ impl FitKind {
 /// Degree of a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitSize {
-    /// The degree that the samples support.
+    /// Degree that the samples support.
     Auto,
-    /// This degree.
+    /// Given degree.
     Fixed(usize),
 }
 
-/// What is asked of an inverse computation.
+/// Options of an inverse computation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InverseOptions {
-    /// How the motion is estimated.
+    /// Method of motion estimation.
     pub fit: FitKind,
-    /// Degree of a polynomial.
+    /// Degree of the polynomial.
     pub size: FitSize,
-    /// Joint forces for the rows.
+    /// Whether joint forces of the rows can be computed.
     pub reactions: bool,
-    /// Whether the slider force is what acts beside the forces of the scene; if not it is the whole force on the
-    /// slider.
+    /// Whether the slider force acts beside the forces of the scene; if not, it is the whole force on the slider.
     pub beside_forces: bool,
-    /// A request to stop.
+    /// Request to stop, if any.
     pub stop: Option<Stop>,
 }
 

@@ -1,26 +1,26 @@
-//! Samples that are far off: noise as a mixture of two normal distributions, of which the wider one has few samples (variance
-//! inflation; Box and Tiao, Biometrika 55 (1968) 119). Each sample counts by the probability that it belongs to the narrow one.
+//! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
+//! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use crate::numeric::median::median;
 
-/// Standard deviations beyond which a sample is looked at: one in 10⁸ of noise.
+/// Residual, in standard deviations, above which a sample is examined: one in 10⁸ of noise.
 const FAR: f64 = 5.7;
 
-/// Share of its own value in the path from which on a sample is not judged.
+/// Leverage on the path above which a sample is not judged.
 const TIED: f64 = 0.5;
 
-/// Part of the samples beyond which what lies far off is no outlier.
+/// Fraction of the samples above which far ones are no outliers.
 const MOST_OUTLIERS: f64 = 0.1;
 
-/// Standard deviation of normal noise over the median of its sizes.
+/// Standard deviation of normal noise over the median of its absolute values.
 const NORMAL: f64 = 1.4826;
 
-/// Weight below which a sample does not count.
+/// Weight below which a sample is left out.
 const LEAST_WEIGHT: f64 = 1e-6;
 
-/// Weights of the samples, that go in steps of this width, by a smoothed motion; none where there are no outliers and never were.
+/// Returns weights of the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
 pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Vec<f64>> {
     let record = &problem.record;
     let sigma = smoothed.noise.sigma;
@@ -28,14 +28,14 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
         .map(|i| {
             let estimate = problem.at(smoothed, record.times[i]);
             let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
-            // Of a sample that counts, part of its error is in the path.
+            // Part of the error of a weighted sample is in the path.
             let variance = shown.slope * shown.slope * estimate.covariance[0] / (sigma * sigma);
             let leverage = record.weights[i] * variance;
-            // The path goes where such a sample is, right or wrong.
+            // The path follows a sample of large leverage, right or wrong.
             if leverage > TIED {
                 return 0.0;
             }
-            // By what all others say of it.
+            // Residual from the prediction by all other samples.
             let left = 1.0 - leverage;
             residual / (sigma * left * (1.0 + variance / left).sqrt())
         })
@@ -67,7 +67,7 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
     Some(standardised.iter().map(weight).collect())
 }
 
-/// Whether two lists of weights leave the same samples out.
+/// True if two lists of weights differ by less than 0.1.
 pub(super) fn alike(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1)
 }

@@ -61,7 +61,7 @@ fn cosines_and_sines(angle: f64, harmonics: usize) -> Vec<f64> {
 struct Columns<'a, const N: usize> {
     steps: &'a [Linearised],
     increments: &'a Increments,
-    /// Row after row.
+    /// Derivatives by the coefficients, one row for each state.
     of: Vec<f64>,
     /// Room for the rows after a step, and for E.
     room: Vec<f64>,
@@ -139,7 +139,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Filter and normal equations.
+/// Companion of the filter that fills the normal equations.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
     to: &'a mut Regression,
@@ -170,7 +170,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 pub(super) struct Sensitivities<'a, const N: usize> {
     columns: Columns<'a, N>,
     posterior: &'a Posterior,
-    /// Of the covariance of the coefficients.
+    /// Factor A of the covariance Aᵀ A of the coefficients.
     factor: DMatrix<f64>,
     /// The rows of each node, one after the other.
     list: Vec<f64>,

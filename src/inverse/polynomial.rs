@@ -1,32 +1,32 @@
-//! A polynomial of the crank angle over time: least squares in terms of what was measured, by Gauss-Newton iterations where
-//! that is not the crank angle itself.
+//! Polynomial of the crank angle over time: samples in, motion with covariance out, by least squares in the measured
+//! quantity (Gauss-Newton iterations unless the crank angle itself is measured).
 
 use super::motion_estimate::MotionEstimate;
 use super::record::Record;
 use crate::numeric::parallel;
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
 
-/// Most iterations of Gauss and Newton, and those after which the degree stays.
+/// Maximum number of Gauss-Newton iterations, and number of those after which the degree is fixed.
 const ITERATIONS: usize = 30;
 const CHOICES: usize = 3;
 
-/// Change of the crank angle, rad, at which the iterations have come to rest.
+/// Largest change of the crank angle, rad, at which the iterations have converged.
 const ANGLE_AT_REST: f64 = 1e-10;
 
-/// A fitted polynomial and the motion at its samples.
+/// Fitted polynomial, and the motion at the samples.
 #[derive(Clone, Debug)]
 pub(super) struct Polynomial {
     pub fit: PolynomialFit,
     pub motion: Vec<MotionEstimate>,
-    /// Whether the iterations came to rest.
+    /// Whether the iterations converged.
     pub settled: bool,
 }
 
 impl Polynomial {
-    /// Fits a polynomial of a degree, or of the likeliest one, from first crank angles, rad.
+    /// Fits a polynomial of the given degree, or of the likeliest one, from first crank angles, rad.
     ///
     /// # Errors
-    /// Why the samples do not serve.
+    /// The reason, in words, if the samples are too few.
     pub fn new(
         record: &Record<'_>,
         first: &[f64],

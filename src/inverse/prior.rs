@@ -1,4 +1,4 @@
-//! What is unknown and how it may vary: the priors among which the likelihood chooses.
+//! Priors among which the likelihood chooses: the unknown of the equation of motion and its random process.
 
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub(super) enum Unknown {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Prior {
     pub unknown: Unknown,
-    /// How often the white noise is integrated to u: 1 (Wiener process) or more.
+    /// Number of integrations from the white noise to u: 1 (Wiener process) or more.
     pub order: usize,
     /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state.
     pub follows_speed: bool,
@@ -42,7 +42,7 @@ impl Prior {
         2 + self.order + usize::from(self.follows_speed)
     }
 
-    /// What varies at random, in words.
+    /// Names the random term in words.
     pub fn name(self) -> &'static str {
         match (self.unknown, self.order, self.follows_speed) {
             (.., 1, _) if self.cycle == 1 => "torque that repeats every turn, and a Wiener process",

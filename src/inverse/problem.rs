@@ -30,14 +30,14 @@ pub(super) struct Problem<'a> {
     pub record: Record<'a>,
     pub grid: Grid,
     pub equation: &'a Equation,
-    /// How strong the noise of the process is along the record.
+    /// Intensity factors of the process noise along the record.
     pub intensities: Intensities,
-    /// A request to stop: what is smoothed then is of no use.
+    /// Request to stop; results are invalid then.
     pub stop: Option<&'a Stop>,
 }
 
 impl<'a> Problem<'a> {
-    /// The smoothed motion at a time: between nodes u is interpolated, and the acceleration is that of the equation.
+    /// Returns the smoothed motion at a time: between nodes u is interpolated, the acceleration is the equation's.
     pub fn at(&self, smoothed: &Smoothed, t: f64) -> Estimate {
         let estimates = &smoothed.estimates;
         let (a, b) = self.grid.around(t);

@@ -1,36 +1,36 @@
-//! Values that go in steps: codes of an encoder, or rounded numbers.
+//! Quantised values: detection of encoder codes or rounded numbers, and the intervals of the angle that they stand for.
 
 use std::ops::Range;
 
 use crate::numeric::median::median;
 
-/// Codes of an encoder.
+/// Quantisation of the crank angle: codes of an encoder, or rounded numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Codes {
     /// Width of a step, rad.
     pub step: f64,
 }
 
-/// Angles between which the crank was at a time.
+/// Interval that contains the crank angle at a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interval {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// rad
+    /// Middle of the interval, rad.
     pub middle: f64,
-    /// rad
+    /// Width of the interval, rad.
     pub width: f64,
-    /// The sample in it, or the one before it.
+    /// Index of the sample in the interval, or of the sample before it.
     pub sample: usize,
 }
 
 impl Codes {
-    /// Values as codes: of an encoder, or rounded to digits of this size, rad.
+    /// Detects values quantised by an encoder, or rounded to digits of this size, rad.
     pub fn of(values: &[f64], digits: f64) -> Option<Codes> {
         Codes::of_encoder(values, digits).or_else(|| Codes::rounded(values, digits))
     }
 
-    /// Values rounded to digits of one size.
+    /// Detects values rounded to digits of one size, rad.
     fn rounded(values: &[f64], digits: f64) -> Option<Codes> {
         let is_multiple = |v: &f64| (v / digits - (v / digits).round()).abs() < MULTIPLE;
         let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
@@ -38,14 +38,14 @@ impl Codes {
             .then_some(Codes { step: digits })
     }
 
-    /// Values of which all differences are multiples of a step that is far wider than the digits.
+    /// Detects values whose differences are all multiples of a step that is far wider than the digits, rad.
     fn of_encoder(values: &[f64], digits: f64) -> Option<Codes> {
         let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let digits = (4.0 * digits).max(1e-13 * largest);
         let mut step = 0.0f64;
         for pair in values.windows(2) {
             let mut rest = (pair[1] - pair[0]).abs();
-            // Euclid's algorithm to what the digits leave.
+            // Euclid's algorithm, down to the size of the digits.
             while rest > digits {
                 (step, rest) = (rest, step % rest);
                 rest = rest.min(step - rest);
@@ -66,15 +66,15 @@ impl Codes {
             products += count * difference;
             most = most.max(count.abs());
         }
-        // Differences that are all the same are a steady speed.
+        // Equal differences are a steady speed.
         (most > 1.0 || values.windows(2).any(|pair| pair[0] == pair[1])).then(|| Codes {
             step: products / squares,
         })
     }
 
-    /// What the samples say without what follows from others: passages from step to step, and steps that were shown at a sample
-    /// beside which others were left out, at both ends, and within a stay: one for each time that a stay lasts as long as usual,
-    /// for a crank at rest could leave the step between. All samples where those are fewer.
+    /// Returns the independent information of the samples: passages from step to step, and codes shown next to skipped
+    /// steps, at both ends, and within a stay, one for each median duration of a stay, for a crank at rest could leave
+    /// the step between. Returns all samples where these are no more.
     pub fn intervals(&self, times: &[f64], values: &[f64]) -> Vec<Interval> {
         let shown = |sample: usize| Interval {
             t: times[sample],
@@ -107,7 +107,7 @@ impl Codes {
             if let Some(next) = stays.get(k + 1)
                 && !skips(stay.end)
             {
-                // The time of the passage is known to a sample: in a stay of many that is a small part of the step.
+                // The time of a passage is known to one sample spacing: in a long stay a small part of the step.
                 list.push(Interval {
                     t: 0.5 * (times[last] + times[last + 1]),
                     middle: 0.5 * (values[last] + values[last + 1]),
@@ -122,33 +122,33 @@ impl Codes {
         }
     }
 
-    /// Steps from the sample before to this one.
+    /// Returns the number of steps from the preceding sample to this one.
     fn count(&self, values: &[f64], sample: usize) -> i64 {
         ((values[sample] - values[sample - 1]) / self.step).round() as i64
     }
 
-    /// Standard error of the zero of an encoder, rad, which has whole numbers of steps in a turn: it is where an index mark
-    /// was seen between two codes, and codes may begin or be in the middle where the angle is. Anywhere within a step on both
-    /// sides. Numbers that were rounded have none.
+    /// Returns the standard error of the zero of an encoder, rad; none for rounded numbers. An encoder has a whole
+    /// number of steps in a turn. Its index mark was seen between two codes, and a code may stand for the begin or the
+    /// middle of its step: the error is uniform within a step on both sides.
     pub fn zero_error(&self) -> Option<f64> {
         let count = std::f64::consts::TAU / self.step;
         (count < MOST_COUNTS && (count - count.round()).abs() < MULTIPLE)
             .then(|| self.step / 3f64.sqrt())
     }
 
-    /// Standard deviation of an error that may lie anywhere in a step, rad.
+    /// Returns the standard deviation of an error that is uniform within a step, rad.
     pub fn spread(self) -> f64 {
         self.step / 12f64.sqrt()
     }
 }
 
-/// Largest number of steps of an encoder in a turn.
+/// Largest number of steps per turn of an encoder.
 const MOST_COUNTS: f64 = 1e6;
 
-/// Part of a step to which numbers are multiples of it.
+/// Tolerance of a whole number of steps, in steps.
 const MULTIPLE: f64 = 0.01;
 
-/// Digits in a step from which on it is one of an encoder, not of rounding.
+/// Least ratio of the step of an encoder to the size of the digits; smaller steps are rounding.
 const WIDE: f64 = 100.0;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The samples of one or several sensors at the nodes of a path.
+//! Record: samples of one or several sensors, combined at the nodes of a path.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -9,35 +9,35 @@ use super::quantised::{Codes, Interval};
 use super::state_space::Observed;
 use crate::scene::Measured;
 
-/// Samples with the crank angles that they were read as.
+/// Samples of a sensor with their weights, and of the sensors beside it.
 #[derive(Clone, Debug)]
 pub(super) struct Record<'a> {
     pub sensor: Sensor<'a>,
-    /// Times, s, rising.
+    /// Sample times, s, rising.
     pub times: Cow<'a, [f64]>,
     /// Measured values, rad or m; a crank angle continued over the turns.
     pub values: Vec<f64>,
-    /// Weight of each sample: 0 for none, 1 for a full one.
+    /// Weight of each sample: precision over that of a full one; 0 for none.
     pub weights: Vec<f64>,
-    /// Steps in which the samples go.
+    /// Quantisation of the samples, if wider than the noise.
     pub codes: Option<Codes>,
-    /// Intervals in the place of the samples that go in steps: normal distributions at `values` stand for them.
+    /// Intervals in the place of quantised samples, represented by normal distributions at `values`.
     pub intervals: Vec<Interval>,
     /// Other sensors of the motion.
     pub beside: Vec<SensorBeside<'a>>,
-    /// Least standard deviation of a sample, rad or m.
+    /// Lower bound of the standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Time of the scene at time 0 of the record, s.
     pub origin: f64,
 }
 
-/// A sensor beside that of the record, with a value at each of its times.
+/// Sensor beside that of the record, with a value at each time of the record.
 #[derive(Clone, Debug)]
 pub(super) struct SensorBeside<'a> {
     pub sensor: Sensor<'a>,
-    /// rad or m
+    /// Measured values, rad or m.
     pub values: Cow<'a, [f64]>,
-    /// Standard deviation of a sample, rad or m; infinite as long as it is not known.
+    /// Standard deviation of a sample, rad or m; infinite while unknown.
     pub sigma: f64,
     /// Mean of the residuals, rad or m.
     pub mean: f64,
@@ -54,7 +54,7 @@ impl Record<'_> {
         }
     }
 
-    /// This record with the intervals of its codes in the place of the samples.
+    /// Returns this record with the intervals of its codes in the place of the samples.
     pub fn coded(&self, codes: Codes) -> Self {
         let intervals = codes.intervals(&self.times, &self.values);
         Record {
@@ -67,7 +67,7 @@ impl Record<'_> {
         }
     }
 
-    /// Samples that hardly count because they are far off.
+    /// Returns the indices of the samples with little weight because they are far off.
     pub fn outliers(&self) -> impl Iterator<Item = usize> {
         let far = (0..self.weights.len()).filter(|i| match self.intervals.get(*i) {
             Some(interval) => interval.middle.is_nan(),
@@ -76,12 +76,12 @@ impl Record<'_> {
         far.map(|i| self.intervals.get(i).map_or(i, |interval| interval.sample))
     }
 
-    /// Whether what was measured is the crank angle itself, and nothing else.
+    /// True if the crank angle itself was measured, and nothing else.
     pub fn is_linear(&self) -> bool {
         self.sensor.measured == Measured::Theta && self.beside.is_empty()
     }
 
-    /// Crank angle of a path at a sample of a node, rad.
+    /// Returns the crank angle of a path at a sample of a node, rad.
     pub fn angle(&self, grid: &Grid, path: &Piece<'_>, node: usize, sample: usize) -> f64 {
         match grid.block > 0.0 {
             true => path.angle(grid, self.times[sample]),
@@ -89,7 +89,7 @@ impl Record<'_> {
         }
     }
 
-    /// What the samples of a node show beside a nominal state.
+    /// Returns the mean deviation of the samples of a node from the nominal path.
     pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
         let none = Observed {
             variance: f64::INFINITY,
@@ -102,7 +102,7 @@ impl Record<'_> {
             let (residual, shown) = self.sensor.residual(self.values[i], theta);
             let mut precision = self.weights[i];
             if let Some(variances) = path.variances {
-                // What the curvature of h leaves beside its tangent.
+                // Deviation of h from its tangent by the curvature.
                 let bent = 0.5 * shown.curvature * variances[node - path.first] / sigma;
                 precision /= 1.0 + precision * 2.0 * bent * bent;
             }
@@ -127,7 +127,7 @@ impl Record<'_> {
         }
     }
 
-    /// What all sensors show at a node, in terms of the crank angle, with Σ w h′² and Σ w h′ r of the record's own.
+    /// Returns the mean deviation of all sensors at a node, rad, from Σ w h′² and Σ w h′ r of the record's own.
     fn observed_by_all(
         &self,
         [mut information, mut sum]: [f64; 2],
@@ -162,8 +162,8 @@ impl Record<'_> {
         }
     }
 
-    /// Takes the middles of intervals for samples, each as good as its width: what passages from step to step tell, whatever the
-    /// motion between them is.
+    /// Replaces samples by the middles of their intervals, weighted by 1/width²: the information of passages from step
+    /// to step, for any motion between them.
     pub fn take_middles(&mut self, codes: Codes) {
         self.codes = None;
         for (i, interval) in std::mem::take(&mut self.intervals).iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What cannot be computed backwards, and why.
+//! Refusals of scenes and motions that inverse dynamics cannot treat.
 
 use super::inverse_dynamics::Backwards;
 use super::row::InverseRow;
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::plan::{Method, Plan};
 use crate::scene::{Measurement, MotionKind, Scene};
 
-/// The plan of a scene whose motion was measured.
+/// Returns the plan of a scene whose motion was measured; refuses clearance.
 pub(super) fn plan(scene: &Scene) -> Result<Plan, Error> {
     if scene.reduced().clearance.is_some() {
         return Err(Error::refused(
@@ -22,7 +22,7 @@ pub(super) fn plan(scene: &Scene) -> Result<Plan, Error> {
     Ok(plan)
 }
 
-/// Refuses a fit that leaves the angles that the crank can take.
+/// Refuses a fit with crank angles that the mechanism cannot take.
 pub(super) fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
     let Some(sample) = found.unreachable else {
         return Ok(());
@@ -37,8 +37,8 @@ pub(super) fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), E
     ))
 }
 
-/// Refuses loads without a value along the motion; says where a guide locks itself, and refuses a motion all along which
-/// it does.
+/// Refuses loads without a finite value along the motion, and a guide that locks at every sample; returns a warning if
+/// it locks at some.
 pub(super) fn finite(
     backwards: &Backwards<'_>,
     measurement: &Measurement,

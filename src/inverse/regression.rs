@@ -14,7 +14,7 @@ const BLOCK: usize = 64;
 /// Largest order of the periodic process.
 const ORDERS: i32 = 3;
 
-/// To what ln s of a spectrum is sought.
+/// Tolerance of the search for ln s of a spectrum.
 const SPECTRUM_WIDTH: f64 = 0.2;
 
 /// Variances of the coefficients.
@@ -22,7 +22,7 @@ const SPECTRUM_WIDTH: f64 = 0.2;
 pub(super) struct Spectrum {
     /// s, N m in units of σ
     size: f64,
-    /// m
+    /// Order m of the periodic Wiener process.
     order: i32,
 }
 
@@ -33,8 +33,8 @@ impl Spectrum {
         (0..count).map(of).collect()
     }
 
-    /// s of the spectrum of another order that has the same variance at the middle harmonic of so many coefficients, on a logarithmic
-    /// scale.
+    /// Returns s of the spectrum of another order with the same variance at the middle harmonic, on a logarithmic
+    /// scale, of `count` coefficients.
     fn of_order(self, order: i32, count: usize) -> f64 {
         self.size * (0.5 * count as f64).sqrt().powi(order - self.order)
     }
@@ -59,7 +59,7 @@ impl Regression {
         }
     }
 
-    /// Takes a row E with its error e in, and 1/√S.
+    /// Adds a row E with its error e; `per` is 1/√S.
     pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
         for (value, score) in row.iter().zip(&mut self.score) {
             *score -= value * per * error * per;
@@ -70,7 +70,7 @@ impl Regression {
         }
     }
 
-    /// Multiplies the rows that wait: the lower triangle, block by block.
+    /// Adds the products of the waiting rows: the lower triangle, block by block.
     pub fn multiply(&mut self) {
         let count = self.score.len();
         let rows = DMatrix::from_column_slice(count, self.rows.len() / count, &self.rows);
@@ -83,7 +83,7 @@ impl Regression {
         self.rows.clear();
     }
 
-    /// The likeliest of spectra, of which `likelihood` sees the fall of the squares and the rise of ln |S|: of those near one, or of all.
+    /// Returns the likeliest spectrum, near one or of all; `likelihood` uses `fall` and `log_determinant`.
     pub fn likeliest(
         &self,
         near: Option<Spectrum>,
@@ -92,7 +92,7 @@ impl Regression {
         let told = 1.0 / self.information.diagonal().max().sqrt();
         let of_order = |order: i32| {
             let [low, high] = match near {
-                // From nothing that is told to 1e13 times that.
+                // From e⁻² to 1e13 times the least standard error of a coefficient.
                 None => [told * (-2f64).exp(), told * 30f64.exp()],
                 Some(near) => [0.25, 4.0].map(|part| part * near.of_order(order, self.score.len())),
             };
@@ -137,7 +137,7 @@ impl Regression {
 /// The coefficients given the samples, in units of σ.
 #[derive(Clone, Debug)]
 pub(super) struct Posterior {
-    /// By how much the squares of the prediction errors fall.
+    /// Fall of the sum of squared prediction errors.
     pub fall: f64,
     /// ln |I + D½ information D½|
     pub log_determinant: f64,

@@ -1,25 +1,25 @@
-//! Tests of residuals for being white noise.
+//! Tests of residuals for white noise.
 
-/// What tests of whiteness tell.
+/// Statistics of tests for white noise.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Whiteness {
-    /// Correlation of each residual with the next.
+    /// Lag-one autocorrelation of the residuals.
     pub lag_one: f64,
-    /// Runs of one sign, in standard deviations from what noise has (Wald and Wolfowitz).
+    /// Runs of one sign, in standard deviations from the number expected of noise (Wald and Wolfowitz).
     pub runs: f64,
-    /// Ljung and Box's statistic (Biometrika 65 (1978) 297) of the first autocorrelations, in standard deviations of χ²
+    /// Ljung-Box statistic (Biometrika 65 (1978) 297) of the first autocorrelations, as a standard normal deviate of χ²
     /// (Wilson and Hilferty).
     pub ljung_box: f64,
 }
 
-/// Standard deviations beyond which residuals are not taken for white noise: one in 10 000 records of noise is beyond.
+/// Normal deviate above which residuals are not white noise: one in 10 000 records of noise exceeds it.
 const DEVIATIONS: f64 = 3.7;
 
-/// Most autocorrelations that are tested.
+/// Maximum number of autocorrelations that are tested.
 const LAGS: usize = 20;
 
 impl Whiteness {
-    /// Tests residuals, those that are no numbers left out.
+    /// Tests residuals; values that are not finite are left out.
     pub fn of(residuals: impl Iterator<Item = f64>) -> Whiteness {
         let list: Vec<f64> = residuals.filter(|r| r.is_finite()).collect();
         let n = list.len() as f64;
@@ -45,24 +45,24 @@ impl Whiteness {
         }
     }
 
-    /// Whether the residuals are plainly not white.
+    /// True if the residuals are plainly not white.
     pub fn is_violated(&self) -> bool {
         self.ljung_box > DEVIATIONS
     }
 }
 
-/// Runs of one sign (Wald and Wolfowitz).
+/// Number of runs of one sign (Wald and Wolfowitz).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Runs {
     pub found: f64,
-    /// Number that noise has.
+    /// Number expected of noise.
     pub expected: f64,
-    /// Variance of the number that noise has.
+    /// Variance of the number for noise.
     variance: f64,
 }
 
 impl Runs {
-    /// Runs of residuals.
+    /// Counts the runs of residuals.
     pub fn of(list: &[f64]) -> Runs {
         let positive = list.iter().filter(|r| **r > 0.0).count() as f64;
         let all = list.len() as f64;
@@ -75,7 +75,7 @@ impl Runs {
         }
     }
 
-    /// Standard deviations from what noise has.
+    /// Returns the difference from the number expected of noise, in standard deviations.
     fn deviation(&self) -> f64 {
         match self.variance > 0.0 {
             true => (self.found - self.expected) / self.variance.sqrt(),

@@ -1,4 +1,4 @@
-//! One output row for each sample.
+//! Output row of each sample.
 
 use super::inverse_dynamics::Demand;
 use super::motion_estimate::MotionEstimate;
@@ -6,19 +6,19 @@ use super::motion_estimate::MotionEstimate;
 /// Motion, force and torque at one sample, SI and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InverseRow {
-    /// s
+    /// Time, s.
     pub t: f64,
     /// Fitted crank angle, rad, unwrapped.
     pub theta: f64,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega: f64,
-    /// rad/s²
+    /// Crank acceleration, rad/s².
     pub alpha: f64,
     /// Force on the slider along +x, N; none where the motion does not determine it.
     pub slider_force: Option<f64>,
     /// Standard error of the force, N.
     pub slider_force_se: Option<f64>,
-    /// Torque on the crank that does the same as the slider force, N m; none where the guide locks itself against any.
+    /// Torque on the crank that drives the motion in place of the slider force, N m; none where the guide locks.
     pub crank_torque: Option<f64>,
     /// Standard error of the torque, N m.
     pub crank_torque_se: Option<f64>,
@@ -26,18 +26,18 @@ pub struct InverseRow {
     pub near_dead_centre: bool,
 }
 
-/// What was measured at one sample and what the fit gives, rad or m.
+/// Measured value and residual of the fit at one sample, rad or m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
-    /// s
+    /// Time, s.
     pub t: f64,
-    /// As measured; a crank angle continued over the turns.
+    /// Measured value; a crank angle is continued over the turns.
     pub measured: f64,
-    /// Measured minus fitted.
+    /// Measured minus fitted value.
     pub residual: f64,
 }
 
-/// What decides whether a row has a force.
+/// Criteria that decide whether a row has a force.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Doubt {
     /// Whether the mechanism can take the crank angle.
@@ -52,7 +52,7 @@ pub(super) struct Doubt {
     pub friction_known: bool,
 }
 
-/// The lever arm, in cranks, below which the rule applies.
+/// Lever arm |x'|, in crank lengths, below which forces may be left empty.
 pub(super) const LONG_ARM: f64 = 0.5;
 
 impl Doubt {
@@ -70,7 +70,7 @@ impl Doubt {
 }
 
 impl InverseRow {
-    /// A row before it is decided whether it has a force.
+    /// Creates a row with its force, before the rule of empty forces is applied.
     pub(super) fn new(t: f64, state: &MotionEstimate, demand: &Demand) -> InverseRow {
         let [theta, omega, alpha] = state.value;
         let is_known = demand.torque.is_finite() && demand.torque_se.is_finite();

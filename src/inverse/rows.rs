@@ -1,4 +1,4 @@
-//! All output rows of a motion, those in doubt without a force.
+//! Output rows of a motion: force and torque at each sample, doubtful forces left empty.
 
 use super::bands::{BandRule, DeadCentreBand, alike};
 use super::fitted::Fitted;
@@ -9,17 +9,17 @@ use crate::mechanism::Linkage;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
 
-/// All rows of a motion and the bands without force.
+/// Rows of a motion, and the bands without force.
 #[derive(Debug)]
 pub(super) struct Rows {
     pub rows: Vec<InverseRow>,
     pub bands: Vec<DeadCentreBand>,
     pub rule: BandRule,
-    /// The first sample whose crank angle the mechanism cannot take.
+    /// First sample whose crank angle the mechanism cannot take.
     pub unreachable: Option<usize>,
 }
 
-/// All rows with their forces, and what is in doubt of each.
+/// Computes all rows with their forces, and the criteria of doubt for each.
 fn demanded(
     backwards: &Backwards<'_>,
     fitted: &Fitted,
@@ -37,8 +37,8 @@ fn demanded(
     })
 }
 
-/// Crank torques and their standard errors, N m, of a rocker over its lever arm where that is
-/// longer than the crank: it grows without bound towards a limit, and the torque with it.
+/// Returns crank torques and standard errors, N m; those of a rocker over |x'| in crank lengths where it exceeds 1, for
+/// lever arm and torque grow without bound towards a limit.
 fn torques<'a>(
     linkage: &'a Linkage,
     rows: &'a [InverseRow],
@@ -66,7 +66,7 @@ impl Residual {
 }
 
 impl Rows {
-    /// The rows; half of a 95 % band is `factor` standard errors.
+    /// Computes the rows; half of a 95 % band is `factor` standard errors.
     pub fn new(
         backwards: &Backwards<'_>,
         fitted: &Fitted,
@@ -87,7 +87,7 @@ impl Rows {
         found
     }
 
-    /// Leaves out the forces that are in doubt.
+    /// Empties the forces that are in doubt, and lists the bands.
     fn leave_out_doubtful(&mut self, doubts: &[Doubt], factor: f64) {
         let mut before: Option<&str> = None;
         for (i, doubt) in doubts.iter().enumerate() {

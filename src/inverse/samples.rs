@@ -1,4 +1,4 @@
-//! The samples of a measurement as the smoother and the polynomial take them.
+//! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
 use super::branch_tracking::CrankAngles;
 use super::grid::{Grid, Path};
@@ -15,16 +15,16 @@ use crate::mechanism::Equation;
 use crate::numeric::stop::Stop;
 use crate::scene::{Beside, BesideColumn, Measured, Measurement};
 
-/// Units of rounding of computed values.
+/// Lower bound of the standard deviation of a sample, in units of rounding of the largest value.
 const COMPUTED: f64 = 2.0;
 
-/// Most rounds in which outliers are found.
+/// Maximum number of rounds of outlier detection.
 const OUTLIER_ROUNDS: usize = 6;
 
-/// Largest corner frequency of a smoother, over the rate of blocks of samples, rad: less happens in a block than noise tells.
+/// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
 const SLOW: f64 = 0.3;
 
-/// The samples of a measurement with the crank angles that they were read as.
+/// Returns the samples of a measurement at full weight; a measured crank angle is the unwrapped one of `angles`.
 pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
     let sensor = angles.sensor;
     let values = match sensor.measured {
@@ -45,7 +45,7 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
     }
 }
 
-/// The sensors beside that of a record, whose noise is not known yet.
+/// Returns the sensors beside that of a record, with unknown noise.
 fn sensors_beside<'a>(measurement: &'a Measurement, own: Sensor<'a>) -> Vec<SensorBeside<'a>> {
     let of = |column: &'a BesideColumn| match column.beside {
         Beside::Sensor(measured) => Some(SensorBeside {
@@ -63,7 +63,7 @@ fn sensors_beside<'a>(measurement: &'a Measurement, own: Sensor<'a>) -> Vec<Sens
     measurement.beside().iter().filter_map(of).collect()
 }
 
-/// A record with its nodes.
+/// Returns a record with its nodes, at blocks of samples where these are dense.
 pub(super) fn problem<'a>(
     record: Record<'a>,
     theta: &[f64],
@@ -81,7 +81,7 @@ pub(super) fn problem<'a>(
     }
 }
 
-/// The samples of a measurement with the weights that outliers leave them, and their motion without mechanics.
+/// Returns the samples of a measurement with their outlier weights, and the motion smoothed without mechanics.
 pub(super) fn kinematic<'a>(
     measurement: &'a Measurement,
     angles: &CrankAngles<'a>,
@@ -118,7 +118,7 @@ pub(super) fn kinematic<'a>(
         }
         problem.record = first;
     }
-    // Codes that leave no certain motion, or are finer than the noise, count as noise.
+    // Codes that yield no finite motion, or are finer than the noise, are treated as noisy samples.
     match is_whole {
         true => {
             problem.record.intervals.clear();
@@ -128,7 +128,7 @@ pub(super) fn kinematic<'a>(
     }
 }
 
-/// The samples, that go in steps of this width, with the weights that outliers leave them, and their motion without mechanics.
+/// Returns the samples, quantised in `step` (0: none), with outlier weights, and the motion smoothed without mechanics.
 fn without_outliers<'a>(
     record: Record<'a>,
     angles: &CrankAngles<'_>,
@@ -163,8 +163,8 @@ fn without_outliers<'a>(
     (problem, kinematic)
 }
 
-/// The likeliest smoothed motion, by the samples that are not far off by its own prior: a force that jumps takes samples
-/// where a motion without mechanics does not expect them.
+/// Returns the likeliest smoothed motion and the priors compared. Outliers are judged by the chosen prior: a force that
+/// jumps puts samples where a motion without mechanics does not expect them.
 pub(super) fn likeliest(
     problem: &mut Problem<'_>,
     kinematic: Smoothed,
@@ -172,7 +172,7 @@ pub(super) fn likeliest(
     let mut found = problem.likeliest_with_intensities(&kinematic);
     for _ in 0..OUTLIER_ROUNDS {
         let before = problem.record.weights.clone();
-        // The weights of codes are what they are worth.
+        // The weights of codes are precisions of the normal distributions in their place.
         if problem.record.codes.is_some() || before.iter().all(|weight| *weight == 1.0) {
             break;
         }

@@ -1,41 +1,41 @@
-//! Typical sizes along a record, and the noise that is estimated in terms of them.
+//! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
 use super::linearised::State;
 use super::regression::Spectrum;
 
-/// Typical sizes along a record.
+/// Typical magnitudes along a record.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales {
-    /// Time from sample to sample, s.
+    /// Mean time between samples, s.
     pub spacing: f64,
-    /// Duration, s.
+    /// Duration of the record, s.
     pub duration: f64,
-    /// d measured/dθ, root mean square.
+    /// Root mean square of d measured/dθ.
     pub slope: f64,
-    /// ∂θ̈/∂u, root mean square.
+    /// Root mean square of ∂θ̈/∂u.
     pub lever: f64,
-    /// θ̈, rad/s², and its rate, rad/s³, root mean squares: spread of the prior before the first sample.
+    /// Root mean squares of θ̈, rad/s², and its rate, rad/s³: spread of the prior before the first sample.
     pub motion: [f64; 2],
-    /// ω, rad/s, root mean square about its mean.
+    /// Standard deviation of ω along the record, rad/s.
     pub speed: f64,
-    /// Least standard deviation of a sample, rad or m.
+    /// Lower bound of the standard deviation of a sample, rad or m.
     pub floor: f64,
-    /// Standard deviation of a sample of weight 1, where it is known.
+    /// Standard deviation of a sample of weight 1, rad, where it is known (codes).
     pub known: Option<f64>,
 }
 
-/// Noise of the process and of the samples.
+/// Parameters of the process noise and of the sample noise.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
-    /// Corner frequency of the smoother, rad/s: the noise of the process is q = ω_c^(2D) σ² h/(lever² slope²) for D
-    /// integrations from the white noise to θ.
+    /// Corner frequency ω_c of the smoother, rad/s: the spectral density of the process noise is q = ω_c^(2D) σ²
+    /// h/(lever² slope²) for sample spacing h and D integrations from the white noise to θ.
     pub corner: f64,
-    /// Corner frequency of a smoother of order one whose noise is in g, over the spread of the speed, where u follows the
-    /// speed, rad/s; 0 without.
+    /// Corner frequency, rad/s, of the Wiener process g in u = g ω: density of a prior of order one, over the squared
+    /// spread of the speed; 0 if g is constant or absent.
     pub drift: f64,
-    /// Variances of the harmonics of what repeats.
+    /// Variances of the harmonics of the periodic part.
     pub spectrum: Option<Spectrum>,
-    /// First-order autoregression of the samples' noise.
+    /// First-order autoregression in the noise of the samples.
     pub correlated: Option<Autoregression>,
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
@@ -44,7 +44,7 @@ pub(super) struct Noise {
 }
 
 impl Noise {
-    /// White noise of the samples, and a corner frequency.
+    /// Returns white sample noise with a corner frequency of the process noise, rad/s.
     pub fn white(corner: f64) -> Noise {
         Noise {
             corner,
@@ -57,12 +57,12 @@ impl Noise {
     }
 }
 
-/// Standard deviations of the start, in those that the first few samples alone would leave: so diffuse that they count for
-/// 1e-6 of one sample, and so narrow that rounding keeps ten digits.
+/// Standard deviations of the initial state over those left by the first few samples alone: diffuse enough to count for
+/// 1e-6 of one sample, narrow enough to keep ten digits under rounding.
 const DIFFUSE: f64 = 1e3;
 
 impl Scales {
-    /// Standard deviations of the state before the first sample, in σ.
+    /// Returns the standard deviations of the state before the first sample, in σ.
     pub fn spread(&self) -> State {
         let mut size = DIFFUSE / self.slope;
         std::array::from_fn(|k| {
@@ -76,32 +76,32 @@ impl Scales {
         })
     }
 
-    /// Least and largest corner frequency, rad/s.
+    /// Returns the least and largest corner frequency, rad/s.
     pub fn corners(&self) -> [f64; 2] {
         [0.1 / self.duration, 30.0 / self.spacing]
     }
 
-    /// Spectral density of the process noise over σ².
+    /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.
     pub fn density(&self, corner: f64, order: usize) -> f64 {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);
         corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
     }
 }
 
-/// Correlated noise: a first-order autoregression beside the white noise of the samples.
+/// Correlated sample noise: a first-order autoregression beside white noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Autoregression {
-    /// Rate at which the correlation decays, 1/s.
+    /// Decay rate of the correlation, 1/s.
     pub decay: f64,
-    /// White part of the variance of a sample.
+    /// White fraction of the variance of a sample.
     pub white: f64,
 }
 
-/// White part of the variance of correlated noise.
+/// White fraction of the variance of correlated noise, held fixed.
 const WHITE: f64 = 0.02;
 
 impl Autoregression {
-    /// First guesses for samples so far apart, s.
+    /// Returns first guesses for a sample spacing, s: correlation over 0.2, 1 and 5 samples.
     pub fn guesses(spacing: f64) -> [Autoregression; 3] {
         [0.2, 1.0, 5.0].map(|steps| Autoregression {
             decay: 1.0 / (steps * spacing),
@@ -110,22 +110,22 @@ impl Autoregression {
     }
 }
 
-/// A stretch of the record and the factor of the intensity of its noise.
+/// Stretch of the record with its factor of the process noise intensity.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
-    /// s
+    /// Start time, s.
     pub from: f64,
-    /// s
+    /// End time, s.
     pub to: f64,
     pub factor: f64,
 }
 
-/// How strong the noise of the process is along a record, beside its usual intensity.
+/// Intensity factors of the process noise along a record, over the usual intensity.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Intensities(pub Vec<Span>);
 
 impl Intensities {
-    /// The factor of the intensity at a time.
+    /// Returns the intensity factor at a time, s: the product over the stretches that contain it.
     pub fn at(&self, t: f64) -> f64 {
         let spans = self.0.iter().filter(|span| span.from < t && t < span.to);
         spans.map(|span| span.factor).product()

@@ -1,18 +1,18 @@
-//! Several sensors of one motion: each has a measurement equation and a noise of its own, and all samples of a time enter the
-//! same filter by their information about the crank angle, Σ h′²/σ².
+//! Fusion of several sensors of one motion: each has its own measurement equation and noise, and all samples of a time
+//! enter one filter by their information about the crank angle, Σ h′²/σ².
 
 use super::problem::Problem;
 use super::smoother::Smoothed;
 
-/// Rounds in which noise and path find each other.
+/// Number of rounds that alternate between noise and path.
 const SENSOR_ROUNDS: usize = 4;
 
-/// Part of the squares of residuals that is noise at least, where the path itself may have made them.
+/// Least fraction of the squared residuals that is noise, where the uncertainty of the path itself may explain them.
 const LEAST_NOISE: f64 = 0.1;
 
 impl Problem<'_> {
-    /// A smoothed motion by all sensors, from that by the record's own: the noise of each is that of its residuals, over the part
-    /// that the path has not taken (Förstner 1979).
+    /// Smooths the motion by all sensors, from the motion by the record's own: the variance of each is that of its
+    /// residuals over their redundancy, the part not absorbed by the path (Förstner 1979).
     pub fn by_all_sensors(&mut self, mut smoothed: Smoothed) -> Smoothed {
         if self.record.beside.is_empty() {
             return smoothed;
@@ -30,7 +30,7 @@ impl Problem<'_> {
         smoothed
     }
 
-    /// Standard deviation of a sensor's samples about a smoothed motion, and the mean of their residuals.
+    /// Returns the standard deviation of a sensor's samples about a smoothed motion, and their mean residual, rad or m.
     fn noise_beside(&self, which: usize, smoothed: &Smoothed) -> [f64; 2] {
         let other = &self.record.beside[which];
         let (mut squares, mut sum, mut free, mut of_path, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);

@@ -1,5 +1,5 @@
-//! Errors that all samples share: an uncertain value of the scene, the zero of an encoder. The force moves with each by the
-//! difference that a standard error makes in the fit and in the equation, with the noise of the fit as it is (GUM 5.1.3).
+//! Errors that all samples share: uncertain values of the scene, zero of an encoder. Standard errors of the force are
+//! its changes by one standard error of a source in fit and equation, with the noise of the fit held fixed (GUM 5.1.3).
 
 use serde::Serialize;
 
@@ -18,18 +18,18 @@ use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::scene::{Measurement, Scene, UncertainValue};
 
-/// Share of a source in the error of the slider force.
+/// Share of a source in the variance of the slider force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BudgetShare {
-    /// Key of the scene, or what else is uncertain.
+    /// Key of the scene, or name of another source.
     pub source: String,
-    /// Standard error of the slider force that it makes, N, root mean square over the rows with a force.
+    /// Standard error of the slider force by this source, N, root mean square over the rows with a force.
     pub force_se_n: f64,
-    /// Part of the variance.
+    /// Fraction of the variance.
     pub share: f64,
 }
 
-/// A source: the mechanism with its error in it, and what that adds to the samples, rad.
+/// Source of error: the mechanism changed by one standard error, and the shift of the samples, rad.
 #[derive(Debug)]
 pub(super) struct Source {
     name: String,
@@ -38,7 +38,7 @@ pub(super) struct Source {
     zero: f64,
 }
 
-/// What is uncertain: values of the scene, and by a standard error (rad) the zero of an encoder.
+/// Lists the sources: uncertain values of the scene, and the zero of an encoder by its standard error, rad.
 pub(super) fn sources(
     scene: &Scene,
     uncertain: &[UncertainValue],
@@ -93,7 +93,7 @@ impl Source {
         }
     }
 
-    /// The polynomial of a degree with this error.
+    /// Returns θ, ω, θ̈ of the polynomial of a degree under this error.
     pub fn polynomial(
         &self,
         record: &Record<'_>,
@@ -106,7 +106,7 @@ impl Source {
         found.iter().map(|state| state.value).collect()
     }
 
-    /// The motion that a smoother finds with this error, one step of Gauss and Newton off the one without.
+    /// Returns θ, ω, θ̈ of the smoothed motion under this error, one Gauss-Newton step from the motion without it.
     pub fn smoothed(
         &self,
         problem: &Problem<'_>,
@@ -142,7 +142,7 @@ pub(super) struct SharedErrors {
 }
 
 impl SharedErrors {
-    /// From the motion of the samples and the motions that the sources make of it.
+    /// Computes the errors from the motion of the samples and the motions under each source.
     pub fn new(
         sources: &[Source],
         backwards: &Backwards<'_>,
@@ -169,12 +169,12 @@ impl SharedErrors {
         }
     }
 
-    /// Standard errors of the force, N, and of the torque, N m, of a row.
+    /// Returns the standard errors of the force, N, and of the torque, N m, of a row.
     pub fn of_row(&self, row: usize) -> [f64; 2] {
         self.with(row, [0.0; 2])
     }
 
-    /// Standard error of the force, N, and of the torque, N m, of a row, with those of its noise.
+    /// Returns the standard errors of the force, N, and of the torque, N m, of a row, with those of its noise.
     pub fn with(&self, row: usize, noise: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             self.of
@@ -183,7 +183,7 @@ impl SharedErrors {
         })
     }
 
-    /// The sources with their shares in the error of the force, the largest first; nothing where there is but noise.
+    /// Returns the shares of the sources in the variance of the force, the largest first; empty if there is only noise.
     pub fn budget(&self, rows: &[InverseRow]) -> Vec<BudgetShare> {
         let errors = rows.iter().map(|row| row.slider_force_se);
         let known: Vec<(usize, f64)> = errors

@@ -52,11 +52,11 @@ impl Problem<'_> {
             ..found
         };
         for iteration in 0..ITERATIONS {
-            // About a path that moves where samples are curved, again.
+            // Repeated once where samples are curved, about a path that has moved.
             if iteration == 0 || iteration == 1 && !self.record.is_linear() {
                 whole.noise = self.by_all_samples(&motion, &path, whole.scales, &whole.noise);
             }
-            // The former ones take their memory.
+            // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
@@ -145,7 +145,7 @@ impl Problem<'_> {
             settled: false,
         };
         for iteration in 0..ITERATIONS {
-            // A path that has moved tells another noise, once.
+            // About a path that has moved the noise is estimated again, once.
             if iteration == 1 || iteration == 0 && prior.follows_speed {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
@@ -182,7 +182,7 @@ fn variances(estimates: &[Estimate]) -> Vec<f64> {
 }
 
 impl Path {
-    /// Moves to the smoothed states; root mean square change of the crank angles in their standard errors.
+    /// Moves to the smoothed states; returns the rms change of the crank angles in their standard errors.
     pub fn moved(&mut self, estimates: &[Estimate]) -> f64 {
         let change = change(estimates, self);
         self.states.clear();
@@ -194,7 +194,7 @@ impl Path {
     }
 }
 
-/// Root mean square change of the crank angles in their standard errors.
+/// Returns the root mean square change of the crank angles in their standard errors.
 pub(super) fn change(estimates: &[Estimate], path: &Path) -> f64 {
     let changes = estimates
         .iter()

@@ -1,4 +1,4 @@
-//! The deviations from a nominal path as a state-space model: u is an integrated Wiener process (Gauss-Newton; Bell 1994).
+//! State-space model of deviations from a nominal path, u an integrated Wiener process (Gauss-Newton; Bell 1994).
 
 #![allow(clippy::needless_range_loop)]
 
@@ -14,23 +14,23 @@ use super::scales::Autoregression;
 pub(super) struct Observed {
     /// Measured minus nominal, rad or m.
     pub residual: f64,
-    /// d measured/dθ
+    /// d measured/dθ, rad or m per rad.
     pub slope: f64,
     /// Variance over that of one sample; infinite without a sample.
     pub variance: f64,
 }
 
-/// The linear model of the deviations from a nominal path; N is 2 + order, and one more with correlated noise.
+/// Linear model of the deviations from a nominal path; N is 2 + order, one more with g, one more with correlated noise.
 #[derive(Clone, Debug)]
 pub(super) struct Deviations<'a> {
     pub steps: &'a [Linearised],
-    /// What the harmonics of what repeats add in each step.
+    /// Increments of the harmonics of the periodic part in each step.
     pub increments: &'a Increments,
     pub observed: &'a [Observed],
     pub prior: Prior,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
-    /// Spectral density of the white noise that g follows, over σ².
+    /// Spectral density of the white noise that g integrates, over σ².
     pub drift: f64,
     pub correlated: Option<Autoregression>,
     /// Standard deviations of the state before the first sample, in σ.
@@ -38,12 +38,12 @@ pub(super) struct Deviations<'a> {
 }
 
 impl Deviations<'_> {
-    /// Number of states, that of the noise with them.
+    /// Returns the number of states, with that of the correlated noise.
     pub fn dimension(&self) -> usize {
         self.prior.states() + usize::from(self.correlated.is_some())
     }
 
-    /// The step from a node to the next.
+    /// Returns the step from a node to the next.
     #[inline(always)]
     pub fn step<const N: usize>(&self, node: usize) -> Step<N> {
         let step = &self.steps[node];
@@ -68,7 +68,7 @@ impl Deviations<'_> {
         }
     }
 
-    /// Covariance of the noise of the process in a step.
+    /// Returns the covariance of the process noise in a step.
     #[inline(always)]
     pub fn process_noise<const N: usize>(&self, node: usize) -> Matrix<N> {
         let mut noise = [[0.0; N]; N];
@@ -76,7 +76,7 @@ impl Deviations<'_> {
         noise
     }
 
-    /// Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
+    /// Returns Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
     #[inline(always)]
     pub fn inverse<const N: usize>(&self, node: usize) -> Matrix<N> {
         let step = &self.steps[node];
@@ -103,7 +103,7 @@ impl Deviations<'_> {
         inverse
     }
 
-    /// What was measured at a node.
+    /// Returns the sample of a node; none without a measurement.
     #[inline(always)]
     pub fn sample<const N: usize>(&self, node: usize) -> Option<Sample<N>> {
         let observed = &self.observed[node];
@@ -124,7 +124,7 @@ impl Deviations<'_> {
         })
     }
 
-    /// Mean and covariance before the first sample.
+    /// Returns mean and covariance before the first sample.
     pub fn start<const N: usize>(&self) -> Gaussian<N> {
         let mut variances = [0.0; N];
         for k in 0..self.prior.states() {
@@ -139,7 +139,7 @@ impl Deviations<'_> {
         }
     }
 
-    /// What the derivatives of u and g add to u and to those below them over a time.
+    /// Sets the entries by which g and the derivatives of u add to u and the lower derivatives over a time, s.
     #[inline(always)]
     fn integrate<const N: usize>(&self, step: &Linearised, time: f64, matrix: &mut Matrix<N>) {
         if self.prior.order > 1 {
@@ -154,7 +154,7 @@ impl Deviations<'_> {
         }
     }
 
-    /// ∫ ψ ψᵀ ds of the responses ψ of the state to units of white noise.
+    /// Adds the process noise ∫ ψ ψᵀ ds of the responses ψ of the state to unit white noise.
     #[inline(always)]
     fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
@@ -190,8 +190,8 @@ const PER: [f64; 9] = [
     1.0 / 9.0,
 ];
 
-/// Adds to Q the noise whose unit, a time s before the end of a step h, becomes this response times (s/h)^p in some states, p from
-/// one less than their number down to 0.
+/// Adds to Q white noise of a density, whose unit at a time s before the end of a step h becomes `response` times
+/// (s/h)^p in `states`, p from R − 1 down to 0.
 #[inline(always)]
 fn add<const N: usize, const R: usize>(
     noise: &mut Matrix<N>,

@@ -1,4 +1,4 @@
-//! The result of an inverse computation in numbers.
+//! Summary of an inverse computation: plan, data, fit, ranges, bands and warnings.
 
 use serde::Serialize;
 
@@ -17,38 +17,38 @@ use crate::scene::{Measurement, Scene};
 pub struct InverseSummary {
     /// Title of the scene.
     pub scene: String,
-    /// What was computed, and how.
+    /// Plan of the computation.
     pub plan: Plan,
-    /// The samples.
+    /// Samples that were read.
     pub data: DataSummary,
-    /// The fit of the crank angle over time.
+    /// Fit of the crank angle over time.
     pub fit: FitSummary,
     /// Whether the slider force acts beside the forces of the scene; if not it is the whole force on the slider.
     pub beside_forces: bool,
-    /// Half of a 95 % band in standard errors: Student's factor for the degrees of freedom of the fit.
+    /// Half-width of a 95 % band in standard errors: Student's factor for the degrees of freedom of the fit.
     pub band_factor: f64,
     /// Range of the slider force; none if no sample has one.
     pub slider_force: Option<ForceRange>,
     /// Range of the crank torque.
     pub crank_torque: ForceRange,
-    /// Shares of uncertain values in the error of the slider force; empty where there is but noise.
+    /// Shares of the sources in the variance of the slider force; empty if noise is the only one.
     pub error_budget: Vec<BudgetShare>,
     /// Stretches in which the slider force is left empty.
     pub dead_centre_bands: Vec<DeadCentreBand>,
-    /// The rule by which it is.
+    /// Rule by which the slider force is left empty.
     pub dead_centre_rule: BandRule,
-    /// What the reader should know.
+    /// Warnings for the user, in words.
     pub warnings: Vec<String>,
 }
 
 /// The samples that were read.
 #[derive(Clone, Debug, Serialize)]
 pub struct DataSummary {
-    /// Name of the file, if they came from one.
+    /// Name of the file, if the samples came from one.
     pub file: Option<String>,
-    /// The measured column.
+    /// Name of the measured column.
     pub column: &'static str,
-    /// SI unit.
+    /// SI unit of the column.
     pub unit: &'static str,
     /// Number of samples.
     pub rows: usize,
@@ -60,66 +60,66 @@ pub struct DataSummary {
     pub revolutions: f64,
 }
 
-/// What was fitted, and how well.
+/// Kind, parameters and quality of a fit.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct FitSummary {
     /// `polynomial` or `smoother`.
     pub kind: &'static str,
-    /// Why this kind was taken, in words.
+    /// Reason for this kind, in words.
     pub reason: String,
-    /// What varies at random in the smoother's equation of motion; empty of a polynomial.
+    /// Random term of the smoother's equation of motion; empty for a polynomial.
     pub prior: &'static str,
     /// Priors that were compared, the likeliest first.
     pub candidates: Vec<CandidateSummary>,
-    /// Degree of the polynomial; of a smoother, that of the spline it is without mechanics.
+    /// Degree of the polynomial; for a smoother, of the smoothing spline that it is without mechanics.
     pub degree: usize,
-    /// The time from which the coefficients count theirs, s; other than 0 where times so far from zero lose digits.
+    /// Time at which the coefficients' time is 0, s; other than 0 where times far from zero lose digits.
     pub time_origin_s: f64,
-    /// Of the powers 1, t, t², ... (t in s, angle in rad); empty of a smoother. Null where plain time leaves no digits.
+    /// Coefficients of 1, t, t², ... (t in s, angle in rad), null where no digits are left; empty for a smoother.
     pub coefficients: Vec<Option<f64>>,
-    /// Their standard errors, for residuals that are noise.
+    /// Standard errors of the coefficients, for residuals that are noise.
     pub standard_errors: Vec<Option<f64>>,
-    /// 1 − squares of the residuals over squares about the mean, of what was measured.
+    /// Coefficient of determination: 1 − Σ residual² / Σ (value − mean)² of the measured quantity.
     pub r_squared: f64,
     /// Root mean square of the residuals, rad or m.
     pub rms: f64,
     /// Condition number (Frobenius norm) of the design matrix that belongs to the coefficients; none if it overflows.
     pub condition: Option<f64>,
-    /// Standard deviation of a sample, rad or m: rms corrected for the parameters, at least what the digits allow.
+    /// Standard deviation of a sample, rad or m: rms corrected for the parameters, at least the rounding of the digits.
     pub sigma: f64,
-    /// Number of parameters, of a smoother what they are worth.
+    /// Number of parameters; for a smoother, the effective number.
     pub parameters: f64,
     /// Corner frequency of the smoother, Hz: slower variations of the acceleration are followed.
     pub corner_hz: Option<f64>,
-    /// Stretches in which the noise of the smoother's process has another intensity.
+    /// Stretches with another intensity of the process noise.
     pub intensities: Vec<IntensitySummary>,
     /// Correlation time of the noise of the samples, s, where it is not white.
     pub noise_correlation_s: Option<f64>,
     /// Other sensors of the motion.
     pub beside: Vec<SensorSummary>,
-    /// Samples that hardly count because they are far off.
+    /// Number of outliers: samples with little weight.
     pub outliers: usize,
-    /// Correlation of each residual with the next; of a smoother, of each prediction error.
+    /// Lag-one autocorrelation of the residuals; for a smoother, of the prediction errors.
     pub residual_lag_one: f64,
-    /// Runs of one sign among them, in standard deviations from what noise has.
+    /// Runs of one sign among the residuals, in standard deviations from the number expected of noise.
     pub residual_runs: f64,
 }
 
-/// A stretch of the record in which the noise of the process has another intensity: a force that jumps, a machine at rest.
+/// Stretch of the record with another intensity of the process noise: a force that jumps, a machine at rest.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct IntensitySummary {
     /// First time, s.
     pub from_s: f64,
     /// Last time, s.
     pub to_s: f64,
-    /// Intensity over the usual one.
+    /// Intensity over the usual intensity.
     pub factor: f64,
 }
 
-/// A sensor beside that of the record.
+/// Sensor beside that of the record.
 #[derive(Clone, Debug, Serialize)]
 pub struct SensorSummary {
-    /// What it measures.
+    /// Name of the measured quantity.
     pub column: &'static str,
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
@@ -127,31 +127,31 @@ pub struct SensorSummary {
     pub mean_residual: f64,
 }
 
-/// A prior that was compared with others.
+/// Prior that was compared with others.
 #[derive(Clone, Debug, Serialize)]
 pub struct CandidateSummary {
-    /// What varies at random.
+    /// Random term of the prior, in words.
     pub prior: &'static str,
-    /// ln of its marginal likelihood.
+    /// ln of the marginal likelihood.
     pub log_likelihood: f64,
 }
 
-/// Smallest and largest value, and the median of the standard errors.
+/// Smallest and largest value, and median of the standard errors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ForceRange {
-    /// N or N m
+    /// Smallest value, N or N m.
     pub min: f64,
-    /// When, s
+    /// Time of the smallest value, s.
     pub min_t_s: f64,
-    /// Standard error, N or N m
+    /// Standard error of the smallest value, N or N m.
     pub min_se: f64,
-    /// N or N m
+    /// Largest value, N or N m.
     pub max: f64,
-    /// When, s
+    /// Time of the largest value, s.
     pub max_t_s: f64,
-    /// Standard error, N or N m
+    /// Standard error of the largest value, N or N m.
     pub max_se: f64,
-    /// Median of the standard errors, N or N m
+    /// Median of the standard errors, N or N m.
     pub median_se: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Typical sizes along a record: root mean squares over some of its nodes.
+//! Typical magnitudes along a record: root mean squares over at most 1000 of its nodes.
 
 use super::estimate::Estimate;
 use super::grid::Path;
@@ -9,7 +9,7 @@ use super::scales::Scales;
 use super::smoother::Smoothed;
 
 impl Problem<'_> {
-    /// Root mean square of d measured/dθ.
+    /// Returns the root mean square of d measured/dθ along a path.
     pub fn slope(&self, path: &Path) -> f64 {
         let stride = path.states.len().div_ceil(1000);
         let slopes = path.states.iter().step_by(stride);
@@ -20,14 +20,14 @@ impl Problem<'_> {
         (sum / f64::max(count, 1.0)).sqrt()
     }
 
-    /// Turns from one end of a path to the other.
+    /// Returns the turns from one end of a smoothed motion to the other, without sign.
     pub fn turns(&self, path: &Smoothed) -> f64 {
         let angle = |estimate: Option<&Estimate>| estimate.map_or(0.0, |e| e.state[0]);
         let way = angle(path.estimates.last()) - angle(path.estimates.first());
         way.abs() / std::f64::consts::TAU
     }
 
-    /// Way of the crank from sample to sample, rad, root mean square.
+    /// Estimates the root mean square crank rotation from sample to sample, rad.
     pub fn way(&self) -> f64 {
         let record = &self.record;
         let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
@@ -35,7 +35,7 @@ impl Problem<'_> {
         mean.sqrt() / record.sensor.size()
     }
 
-    /// Typical sizes along a path with a prior.
+    /// Returns the typical magnitudes along a path with a prior.
     pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
         let times = &self.grid.times;
         let duration = times[times.len() - 1] - times[0];
@@ -62,7 +62,7 @@ impl Problem<'_> {
     }
 }
 
-/// Standard deviation of numbers.
+/// Returns the standard deviation of numbers, at least the smallest positive double.
 fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
     let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
     for number in numbers {

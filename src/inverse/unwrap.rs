@@ -1,4 +1,4 @@
-//! Crank angles that were measured, as they are or reduced to one turn.
+//! Unwrapping of measured crank angles: samples of theta in, as they are or reduced to one turn, continuous angles out.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,13 +8,13 @@ use crate::error::Error;
 use crate::numeric::median::median;
 use crate::scene::Measurement;
 
-/// Part of a turn within which angles are that were reduced to one: noise and the scale of a sensor go beyond it.
+/// Largest range, in turns, of angles reduced to one turn: noise and the scale of a sensor exceed one.
 const ONE_TURN: f64 = 1.05;
 
-/// How many times as fast as usual the crank is where the angle jumps by more than half a turn.
+/// Ratio of the speed at a jump by more than half a turn to the median speed, above which the jump is reported.
 const JUMP: f64 = 10.0;
 
-/// A measured crank angle as it is, or continued over the turns if it was reduced to one.
+/// Returns a measured crank angle as it is, or continued over the turns if it was reduced to one.
 pub(super) fn unwrap<'a>(
     sensor: &Sensor<'a>,
     measurement: &Measurement,
@@ -82,7 +82,7 @@ pub(super) fn unwrap<'a>(
     })
 }
 
-/// What is said of an angle that jumps, as where a counter of turns was reset.
+/// Returns the warning about an angle that jumps, for example where a counter of turns was reset.
 fn jumping(measurement: &Measurement) -> Option<String> {
     let (times, values) = (measurement.elapsed(), measurement.values());
     let step = |i: usize| values[i] - values[i - 1];

@@ -1,4 +1,4 @@
-//! When a result is not to be trusted, and why.
+//! Warnings of an inverse computation: reasons, in words, not to trust its result.
 
 use std::f64::consts::TAU;
 
@@ -8,7 +8,7 @@ use super::row::InverseRow;
 use crate::numeric::median::median;
 use crate::scene::{Measured, Measurement, Scene};
 
-/// What is to be known of the scene's loads.
+/// Returns warnings about the forces and the friction of the scene.
 pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
     let reduced = scene.reduced();
     let forces = (!reduced.forces.is_empty()).then_some(if options.beside_forces {
@@ -26,13 +26,13 @@ pub(super) fn of_scene(scene: &Scene, options: &InverseOptions) -> Vec<String> {
         .collect()
 }
 
-/// Least factor by which a mistaken unit changes a speed: 2π, turns for radians; the rest is for speeds that vary.
+/// Least ratio of speeds that suggests a mistaken unit: 2π, turns for radians, less 20 % for speeds that vary.
 const MISTAKEN: f64 = 0.8 * TAU;
 
-/// Rows in a turn that the sampling theorem asks for: the inertia of the mechanism varies twice in a turn.
+/// Least number of rows per turn by the sampling theorem: the inertia of the mechanism varies twice per turn.
 const ROWS_IN_A_TURN: f64 = 4.0;
 
-/// Where a motion of whole turns contradicts the scene's `[motion] speed`, or has too few rows in a turn.
+/// Returns warnings of a motion over whole turns: against the scene's `[motion] speed`, or too few rows per turn.
 pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) -> Vec<String> {
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     let turns = (last.theta - first.theta) / TAU;
@@ -63,7 +63,7 @@ pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) 
     warnings
 }
 
-/// What is to be known of the estimated motion.
+/// Returns warnings about the estimated motion.
 pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> {
     let summary = &fitted.summary;
     let mut warnings = Vec::new();
@@ -137,13 +137,13 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     warnings
 }
 
-/// What is said where one sensor alone is taken of several.
+/// Returns the warning that one sensor alone is used of several.
 pub(super) fn alone(measurement: &Measurement) -> String {
     let name = measurement.measured().name();
     format!("{name} alone is taken, not the sensors beside it: only the smoother takes several")
 }
 
-/// What is said where the samples tell nothing of what happens within a turn.
+/// Returns a warning if the samples do not resolve the torque within a turn.
 fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
     let times = measurement.elapsed();
     let [first, last] = [0, times.len() - 1];

@@ -1,4 +1,4 @@
-//! Gauss-Newton iterations: values by the prediction errors, path by the smoother, noise by the marginal likelihood.
+//! Gauss-Newton iterations for free values (prediction errors), path (smoother) and noise (marginal likelihood).
 
 use super::super::grid::Path;
 use super::super::kalman;
@@ -15,45 +15,45 @@ use crate::error::Error;
 use crate::numeric::parallel;
 use crate::scene::Scene;
 
-/// Most iterations.
+/// Maximum number of Gauss-Newton iterations.
 const ITERATIONS: usize = 60;
 
-/// Way of a step over the scale of a value, where the record tells little of it.
+/// Initial step length over the scale of a value, in directions that the record hardly determines (Levenberg damping).
 const WIDTH: f64 = 0.3;
 
-/// Factor by which that way grows with each step that is taken whole (Marquardt).
+/// Growth factor of the step length `WIDTH` after each full step (Marquardt).
 const WIDENED: f64 = 3.0;
 
-/// Most halvings of a step.
+/// Maximum number of halvings of a step.
 const STEP_HALVINGS: usize = 20;
 
-/// Change of values and path, in standard errors, at which the iterations have come to rest.
+/// Change of values and path, in standard errors, below which the iterations have converged.
 const VALUES_AT_REST: f64 = 0.01;
 
-/// Step of differences in standard errors of a value that is free alone: prediction errors are linear along it, and their change is
-/// well above rounding.
+/// Difference step of a value, in the standard error that it has if free alone: prediction errors are linear along it,
+/// and their change is well above rounding.
 const STEP: f64 = 0.1;
 
-/// ln of the likelihood ratio from which on a missing torque is significant.
+/// ln of the likelihood ratio above which a missing torque, or a further free key, is significant.
 pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
 
-/// The search for the largest likelihood.
+/// Search for the maximum of the marginal likelihood.
 pub(super) struct Search<'a> {
     trials: Trials<'a>,
     path: Path,
 }
 
-/// Derivatives of the prediction errors, and the step to their minimum.
+/// Gauss-Newton step with the Fisher information at its start.
 struct Step {
     information: Information,
-    /// To the minimum of the linear model.
+    /// Undamped change of the values, to the minimum of the linear model.
     whole: Vec<f64>,
-    /// The step that is taken.
+    /// Damped change of the values, tried in full and then halved.
     change: Vec<f64>,
 }
 
 impl<'a> Search<'a> {
-    /// From a motion that was smoothed without mechanics.
+    /// Creates the search from a motion that was smoothed without mechanics.
     pub fn new(
         scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
         all: &'a [FreeValue],
@@ -81,8 +81,8 @@ impl<'a> Search<'a> {
         Search { trials, path }
     }
 
-    /// The largest likelihood: of the equation alone first, for beside a torque that follows every misfit of a first guess no
-    /// value is told, and from there with a torque beside it.
+    /// Maximises the likelihood without a missing torque first, and with one from the values found: beside a torque
+    /// that follows every misfit of a first guess the values are not determined.
     pub fn run(mut self) -> Result<Found, Error> {
         let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
         let first = self.path.clone();
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Iterates until values and path come to rest, with a torque beside the equation or without.
+    /// Iterates until values and path converge, with a missing torque beside the equation or without.
     fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
         let mut steps: Vec<f64> = self
             .trials
@@ -149,7 +149,7 @@ impl<'a> Search<'a> {
             }
             let (taken, part) = match self.taken(&values, &step, &base, &noise) {
                 Ok(taken) => taken,
-                // The equation alone is told by what it leaves there.
+                // Without a missing torque the iterations end at these values.
                 Err(_) if !with_torque => (values.clone(), 0.0),
                 Err(error) => return Err(error),
             };
@@ -178,7 +178,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Derivatives by central differences about a fixed path, one-sided where a value may not go further.
+    /// Computes a step from central differences about a fixed path, one-sided at the limit of a value's range.
     fn step(
         &self,
         values: &[f64],
@@ -207,7 +207,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The values after a step, which is halved until the prediction errors are no larger than before, and what part is left.
+    /// Halves a step until the squared prediction errors do not grow; returns the values and the fraction taken.
     fn taken(
         &self,
         values: &[f64],
@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Why no step can be taken: values that a scene may not have are the likeliest.
+    /// Returns the error of a step that fails at every fraction, and names the values that no scene may have.
     fn beyond(&self, values: &[f64], step: &Step, sigma: f64, error: &Error) -> Error {
         let mut words = Vec::new();
         for (k, free) in self.trials.free().iter().enumerate() {
@@ -268,8 +268,8 @@ impl<'a> Search<'a> {
         )
     }
 
-    /// Moves the path to the smoothed one; the root mean square of its way in standard errors, and the prediction errors in
-    /// their standard deviations.
+    /// Moves the path to the smoothed one; returns the root mean square change of the crank angle in standard errors,
+    /// and the standardised prediction errors.
     fn smooth(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
         match noise.correlated {
             None => self.smoothed::<3>(model, noise),

@@ -1,18 +1,18 @@
-//! Fisher information of the free values: standard errors, correlations, and what the record does not tell.
+//! Fisher information of the free values: standard errors, correlations, and refusal of undetermined values.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::values::FreeValue;
 use crate::error::Error;
 
-/// Least eigenvalue of the information scaled to a unit diagonal: differences of innovations are right to about 1e-6, and what is
-/// smaller than their squares is theirs.
+/// Least eigenvalue of the information scaled to a unit diagonal: differences of innovations are accurate to about
+/// 1e-6, and eigenvalues near the square of that are rounding.
 const LEAST_EIGENVALUE: f64 = 1e-11;
 
-/// Part to which changes of values of the weakest combination are one factor: that to which values count as in it.
+/// Relative bound: smaller components of the weakest eigenvector count as 0, and factors that differ less as equal.
 const ALIKE: f64 = 0.1;
 
-/// JᵀJ of standardised prediction errors, by its eigenvectors after scaling to a unit diagonal.
+/// Information matrix JᵀJ of standardised prediction errors, with eigenvectors after scaling to a unit diagonal.
 #[derive(Clone, Debug)]
 pub(super) struct Information {
     /// Norms of the columns of J.
@@ -24,10 +24,10 @@ pub(super) struct Information {
 }
 
 impl Information {
-    /// From the columns of J.
+    /// Computes the information from the columns of J.
     ///
     /// # Errors
-    /// [`Error::Refused`]: values that change nothing, or that the record cannot tell apart.
+    /// [`Error::Refused`] for values without effect or finite derivatives, or that the record cannot tell apart.
     pub fn new(
         columns: &[Vec<f64>],
         values: &[f64],
@@ -74,7 +74,7 @@ impl Information {
         Ok(found)
     }
 
-    /// The values of the weakest combination.
+    /// Returns the indices of the values in the eigenvector of the smallest eigenvalue.
     fn group(&self) -> Vec<usize> {
         let vector = self
             .eigen
@@ -85,7 +85,7 @@ impl Information {
         all.filter(|k| vector[*k].abs() > ALIKE * most).collect()
     }
 
-    /// Whether the values of the weakest combination all change by one factor: the equation is homogeneous in them.
+    /// True if the weakest combination changes all its values by one factor: the equation is homogeneous in them.
     fn is_scale(&self, values: &[f64]) -> bool {
         let vector = self
             .eigen
@@ -101,7 +101,7 @@ impl Information {
             .all(|part| (part - mean).abs() < ALIKE * mean.abs())
     }
 
-    /// Why the weakest combination is refused.
+    /// Returns the refusal of the weakest combination.
     fn alike(&self, values: &[f64], free: &[FreeValue]) -> Error {
         let names: Vec<String> = self
             .group()
@@ -125,7 +125,7 @@ impl Information {
         }
     }
 
-    /// Refuses values that have errors larger than themselves because of each other.
+    /// Refuses values whose standard errors exceed the values because of their mutual correlation.
     pub fn is_told(&self, values: &[f64], sigma: f64, free: &[FreeValue]) -> Result<(), Error> {
         let group = self.group();
         let unclear = |k: &usize| {
@@ -139,17 +139,17 @@ impl Information {
         }
     }
 
-    /// Standard error of a value over σ.
+    /// Returns the standard error of a value over σ.
     pub fn error(&self, k: usize) -> f64 {
         self.covariance[(k, k)].sqrt()
     }
 
-    /// Standard error of a value over σ if it were the only one.
+    /// Returns the standard error of a value over σ if no other value were free.
     pub fn error_alone(&self, k: usize) -> f64 {
         1.0 / self.norms[k]
     }
 
-    /// Correlation of two values.
+    /// Returns the correlation coefficient of two values.
     pub fn correlation(&self, i: usize, j: usize) -> f64 {
         if i == j {
             return 1.0;
@@ -157,7 +157,7 @@ impl Information {
         self.covariance[(i, j)] / (self.error(i) * self.error(j))
     }
 
-    /// (JᵀJ + σ² diag(1/w²))⁻¹ g: a step that goes about as far as w in what the record tells little of (Levenberg).
+    /// Returns the damped step (JᵀJ + σ² diag(1/w²))⁻¹ g, of length about w where the record says little (Levenberg).
     pub fn damped(&self, g: &[f64], sigma: f64, widths: &[f64]) -> Vec<f64> {
         let norms = &self.norms;
         let mut matrix = self.scaled.clone();
@@ -174,7 +174,7 @@ impl Information {
         }
     }
 
-    /// (JᵀJ)⁻¹ g
+    /// Returns (JᵀJ)⁻¹ g.
     pub fn solved(&self, g: &[f64]) -> Vec<f64> {
         let found = &self.covariance * DVector::from_column_slice(g);
         found.as_slice().to_vec()

@@ -1,5 +1,5 @@
-//! What the equation leaves of a record that it does not describe, and score tests (Lagrange multiplier tests, Rao 1948) of the
-//! keys that are not free.
+//! Misfit of the equation to a record that it does not describe, and score tests (Lagrange multiplier tests, Rao 1948)
+//! of the keys that are not free.
 
 use nalgebra::DVector;
 
@@ -9,26 +9,26 @@ use super::trial::Trials;
 use crate::error::Error;
 use crate::inverse::residual_tests::{Runs, Whiteness};
 
-/// What the equation with the free keys leaves without a torque beside it.
+/// Misfit of the equation with the free keys and without a torque beside it.
 #[derive(Clone, Debug)]
 pub(super) struct Misfit {
     /// Standard deviation of the residuals over that of the noise.
     ratio: f64,
     runs: Runs,
-    /// Whether the samples are likelier with a torque beside the equation.
+    /// Whether the samples are significantly likelier with a torque beside the equation.
     pub misses_torque: bool,
-    /// The other key with which the largest likelihood is expected, and those as good, with the ratio that is expected.
+    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` expected then.
     helpers: Vec<(String, f64)>,
 }
 
-/// Part of a derivative that rounding of differences may leave beside those of other keys.
+/// Relative norm below which the part of a derivative orthogonal to those of other keys is rounding.
 const SCORE_ROUNDING: f64 = 1e-5;
 
 impl Misfit {
-    /// The misfit at an optimum; none where the samples are no likelier with a torque beside the equation, and its residuals are white noise.
+    /// Returns the misfit at an optimum; none if no torque is significant and the residuals are white (not for codes).
     ///
     /// # Errors
-    /// [`Error::Interrupted`], and what a scene may not have.
+    /// [`Error::Interrupted`], and the errors of values that a scene may not have.
     pub fn of(trials: &Trials<'_>, at: &Optimum) -> Result<Option<Misfit>, Error> {
         let model = trials.model(&at.values, &at.path, at.noise.sigma)?;
         let noise = trials.at(&model, trials.lowest());
@@ -63,7 +63,7 @@ impl Misfit {
         };
         let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
         helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
-        // As good as the best, and better than none.
+        // Keys nearly as good as the best, and significantly better than none.
         let least = helpers
             .first()
             .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
@@ -80,7 +80,7 @@ impl Misfit {
         }))
     }
 
-    /// What is so, in words.
+    /// Describes the misfit in words.
     pub fn words(&self) -> String {
         let Runs {
             found, expected, ..
@@ -91,7 +91,7 @@ impl Misfit {
         )
     }
 
-    /// What would help, in words.
+    /// Describes remedies in words.
     pub fn help(&self) -> String {
         let load =
             "check that the scene has all loads of the rig, and that its other values are right";
@@ -106,13 +106,13 @@ impl Misfit {
         )
     }
 
-    /// A refusal for this reason.
+    /// Returns the misfit as a refusal.
     pub fn refused(&self) -> Error {
         Error::refused(self.words(), self.help())
     }
 }
 
-/// The unit vector along what is left of a vector beside an orthonormal basis; none where that is rounding.
+/// Returns the unit vector along the part of a vector orthogonal to an orthonormal basis; none if that is rounding.
 fn beside(basis: &[DVector<f64>], vector: DVector<f64>) -> Option<DVector<f64>> {
     let size = vector.norm();
     let mut rest = vector;

@@ -1,9 +1,9 @@
-//! Values of a scene from a measured motion: maximum of the marginal likelihood of the equation of motion, by Gauss-Newton on
-//! the prediction errors of a Kalman filter (Särkkä and Svensson, Bayesian Filtering and Smoothing, 2nd ed. 2023, chapter 16).
+//! Identification of scene values from a measured motion by maximum marginal likelihood, with Gauss-Newton steps on
+//! Kalman prediction errors (Särkkä and Svensson, Bayesian Filtering and Smoothing, 2nd ed. 2023, chapter 16).
 //!
-//! The motion obeys the equation of the scene; what the scene misses is a torque u that begins at 0 and varies as a Wiener
-//! process, du = √q dW. q, the standard deviation σ of the samples, and the angle and speed at the begin are free as well.
-//! Standard errors are those of the curvature, σ² (JᵀJ)⁻¹ with the standardised prediction errors' derivatives J.
+//! The motion obeys the equation of the scene with a missing torque u that begins at 0 and varies as a Wiener process,
+//! du = √q dW. Further unknowns are q, the standard deviation σ of the samples, and the initial angle and speed. The
+//! covariance of the values is σ² (JᵀJ)⁻¹, J the derivatives of the standardised prediction errors.
 
 mod gauss_newton;
 mod information;
@@ -31,38 +31,38 @@ use crate::mechanism::Equation;
 use crate::numeric::student;
 use crate::scene::{Measured, Measurement, Scene};
 
-/// Values of a scene from a measured motion.
+/// Values of a scene identified from a measured motion.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Identification {
     /// Title of the scene.
     pub scene: String,
     /// Number of samples.
     pub samples: usize,
-    /// Column of the data.
+    /// Name of the measured column.
     pub column: String,
-    /// The values, in the order in which they were asked for.
+    /// Identified values, in the order of the free keys.
     pub values: Vec<IdentifiedValue>,
-    /// Correlation of each value with each.
+    /// Correlation matrix of the values.
     pub correlations: Vec<Vec<f64>>,
-    /// Half of a 95 % band over the standard error.
+    /// Half-width of a 95 % band over the standard error.
     pub band_factor: f64,
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
-    /// Torque that the scene misses, N m, root mean square; the errors of the values have it in them.
+    /// Root mean square of the torque that the scene misses, N m; the standard errors of the values account for it.
     pub missing_torque_rms_nm: f64,
-    /// Gauss-Newton iterations.
+    /// Number of Gauss-Newton iterations.
     pub iterations: usize,
-    /// What the reader should know.
+    /// Warnings for the user, in words.
     pub warnings: Vec<String>,
 }
 
-/// Largest way of the crank from node to node, rad: Simpson's rule then errs by less than 1e-9 of the motion.
+/// Largest crank rotation from node to node, rad: Simpson's rule then errs by less than 1e-9 of the motion.
 const LONGEST: f64 = 0.03;
 
-/// Free values of a scene from a measured motion; `scene_at` gives the scene for values in the order of `free`.
+/// Identifies free values of a scene from a measured motion; `scene_at` maps values in the order of `free` to a scene.
 ///
 /// # Errors
-/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what the record does not tell.
+/// [`Error::Scene`] for impossible values of scene or data, [`Error::Refused`] for what the record does not determine.
 pub fn identify(
     scene_at: &(dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
     free: &[FreeValue],
@@ -71,8 +71,8 @@ pub fn identify(
     identify_among(scene_at, free, free.len(), measurement)
 }
 
-/// Values of a scene of which the first `count` are free; score tests tell which others would help, where the equation does not
-/// describe the record.
+/// Identifies the first `count` of the values; where the equation does not describe the record, score tests suggest
+/// which of the others to free.
 fn identify_among(
     scene_at: &(dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
     all: &[FreeValue],
@@ -110,7 +110,7 @@ fn identify_among(
         smooth.noise = likeliest.noise;
     }
     let search = Search::new(scene_at, all, count, &problem, &smooth);
-    // A crank that was read backwards is a reason why the equation does not describe the record.
+    // A crank read backwards is a possible reason why the equation does not describe the record.
     let found = search.run();
     let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
     let mut warnings = measurement.notes().to_vec();
@@ -136,7 +136,7 @@ fn identify_among(
     })
 }
 
-/// Refuses a list that names nothing, or something twice.
+/// Refuses an empty list of free values, and duplicate keys.
 fn check(free: &[FreeValue]) -> Result<(), Error> {
     let help = "name keys of the scene, like --free torque[1].coefficient,crank.inertia";
     if free.is_empty() {
@@ -150,7 +150,7 @@ fn check(free: &[FreeValue]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses what the equation of the smoother does not model.
+/// Refuses clearance and Coulomb friction at the guide, which the smoother's equation does not model.
 fn modelled(scene: &Scene) -> Result<(), Error> {
     let reduced = scene.reduced();
     let what = match (reduced.clearance, reduced.friction) {

@@ -1,4 +1,4 @@
-//! Values of a scene file from a measured motion.
+//! Identification of keys of a scene file from a measured motion.
 
 use std::str::FromStr;
 
@@ -7,18 +7,18 @@ use crate::error::Error;
 use crate::numeric::stop::Stop;
 use crate::scene::{Assigned, Draft, Measured, Measurement, NumberKey, Scene};
 
-/// What is free.
+/// Free quantity of an identification.
 #[derive(Clone, Copy, Debug)]
 pub enum FreeKey {
     /// A key of the scene.
     Key(NumberKey),
-    /// What the sensor shows where it should show 0.
+    /// Zero error of the sensor: its reading, rad or m, where 0 is true.
     SensorZero,
 }
 
 const SENSOR_ZERO: &str = "sensor.zero";
 
-/// Keys that score tests look at, those of a list for each of its tables.
+/// Keys examined by score tests: of the scene, and of each table in its lists of torques and forces.
 const TESTED: [&str; 12] = [
     "geometry.crank",
     "geometry.rod",
@@ -86,10 +86,10 @@ impl FreeKey {
     }
 }
 
-/// Free keys of a scene file from a measured motion; `complete` makes of the file's scene what is modelled.
+/// Identifies free keys of a scene file from a measured motion; `complete` makes the file's scene the modelled one.
 ///
 /// # Errors
-/// The errors of [`identify`](super::identify()); [`Error::Scene`] for keys that the scene has not; [`Error::Interrupted`].
+/// The errors of [`identify`](super::identify()); [`Error::Scene`] for keys not in the scene; [`Error::Interrupted`].
 pub fn identify_keys(
     draft: &Draft,
     complete: &(dyn Fn(Scene) -> Scene + Sync),
@@ -137,7 +137,7 @@ pub fn identify_keys(
     }
 }
 
-/// Keys at which score tests look, of a scene with so many loads.
+/// Lists the keys for score tests of a scene with these numbers of torques and forces.
 fn tested(loads: [(&str, usize); 2]) -> Vec<FreeKey> {
     let mut list = vec![FreeKey::SensorZero];
     list.extend(TESTED.iter().filter_map(|key| key.parse::<FreeKey>().ok()));

@@ -1,4 +1,4 @@
-//! Where the likelihood is largest.
+//! Maximum of the marginal likelihood over the free values.
 
 use super::information::Information;
 use super::misfit::Misfit;
@@ -7,7 +7,7 @@ use super::values::IdentifiedValue;
 use crate::inverse::grid::Path;
 use crate::inverse::scales::Noise;
 
-/// An optimum of the likelihood.
+/// Maximum of the likelihood, with or without a missing torque.
 #[derive(Debug)]
 pub(super) struct Optimum {
     pub values: Vec<f64>,
@@ -19,18 +19,18 @@ pub(super) struct Optimum {
     pub settled: bool,
 }
 
-/// What the search has found.
+/// Result of the search.
 #[derive(Debug)]
 pub(super) struct Found {
     pub best: Optimum,
     /// Root mean square of the missing torque, N m.
     pub missing: f64,
-    /// What the equation leaves without a torque beside it, where such a torque is significant.
+    /// Misfit of the equation without a torque beside it; none if the equation describes the record.
     pub misfit: Option<Misfit>,
 }
 
 impl Optimum {
-    /// The values with their errors.
+    /// Returns the values with their standard errors and 95 % bands.
     pub fn values(&self, free: &[FreeValue], band_factor: f64) -> Vec<IdentifiedValue> {
         let value = |(k, free): (usize, &FreeValue)| {
             let standard_error = self.noise.sigma * self.information.error(k);
@@ -46,7 +46,7 @@ impl Optimum {
         free.iter().enumerate().map(value).collect()
     }
 
-    /// Correlation of each value with each.
+    /// Returns the correlation matrix of the values.
     pub fn correlations(&self) -> Vec<Vec<f64>> {
         let all = 0..self.values.len();
         let row = |i: usize| {

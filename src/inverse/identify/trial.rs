@@ -1,4 +1,4 @@
-//! The linear model of the record for trial values, and its prediction errors.
+//! Linear model of a record for trial values of the scene, and its prediction errors.
 
 use std::borrow::Cow;
 
@@ -17,25 +17,25 @@ use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::Scene;
 
-/// What the scene misses: a torque as a Wiener process.
+/// Prior of the torque that the scene misses: a Wiener process.
 pub(super) const MISSING: Prior = Prior::new(Unknown::Torque, 1);
 
-/// The scene with its free values, and the record.
+/// Scene as a function of its free values, and the record.
 pub(super) struct Trials<'a> {
     pub scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-    /// The free values, and after them those that might be.
+    /// Free values, followed by the candidates of score tests.
     pub all: &'a [FreeValue],
-    /// Number of the free ones.
+    /// Number of free values, the first of `all`.
     pub count: usize,
     pub problem: &'a Problem<'a>,
     pub scales: Scales,
-    /// Standard deviation of a sample about the motion without mechanics; infinite of codes, which have a noise of their own.
+    /// Standard deviation of a sample about the motion without mechanics, rad or m; infinite for codes (known noise).
     pub noise: f64,
-    /// First-order autoregression of that noise, where the smoothed motion says so.
+    /// First-order autoregression of the sample noise, if the smoothed motion has one.
     pub correlated: Option<Autoregression>,
 }
 
-/// Prediction errors with their variances in units of σ².
+/// Prediction errors, rad or m, with their variances in units of σ².
 #[derive(Clone, Debug, Default)]
 pub(super) struct Innovations {
     pub errors: Vec<f64>,
@@ -43,13 +43,13 @@ pub(super) struct Innovations {
 }
 
 impl Innovations {
-    /// Sum of squares of errors over these variances, which stay along a step: they are no part of its gradient.
+    /// Returns Σ e²/S with these variances S, which are held fixed along a step and do not enter its gradient.
     pub fn squares(&self, errors: &[f64]) -> f64 {
         let pairs = errors.iter().zip(&self.variances);
         pairs.map(|(e, s)| e * e / s).sum()
     }
 
-    /// The errors over their standard deviations, in units of σ.
+    /// Returns the errors over their standard deviations, in units of σ.
     pub fn standardised(&self) -> Vec<f64> {
         let pairs = self.errors.iter().zip(&self.variances);
         pairs.map(|(e, s)| e / s.sqrt()).collect()
@@ -64,12 +64,12 @@ impl<const N: usize> Companion<N> for Innovations {
 }
 
 impl<'a> Trials<'a> {
-    /// The free values.
+    /// Returns the free values.
     pub fn free(&self) -> &'a [FreeValue] {
         &self.all[..self.count]
     }
 
-    /// The linear model about a path, for these values.
+    /// Returns the linear model about a path for these values.
     pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
@@ -103,7 +103,7 @@ impl<'a> Trials<'a> {
         Ok(problem.stretch(&motion, path, 0..problem.grid.len(), sigma))
     }
 
-    /// The deviations from the path; u begins at 0.
+    /// Returns the state-space model of the deviations from the path; u begins at 0.
     pub fn deviations<'b>(&self, model: &'b Stretch, noise: &Noise) -> Deviations<'b> {
         let linear = Linear {
             stretches: &[],
@@ -115,7 +115,7 @@ impl<'a> Trials<'a> {
         deviations
     }
 
-    /// Prediction errors of a model.
+    /// Returns the prediction errors of a model.
     pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
         let mut found = Innovations::default();
         let deviations = self.deviations(model, noise);
@@ -126,7 +126,7 @@ impl<'a> Trials<'a> {
         found
     }
 
-    /// Marginal likelihood and σ for a corner frequency of the missing torque.
+    /// Evaluates the marginal likelihood and σ at a corner frequency, rad/s, of the missing torque.
     pub fn at(&self, model: &Stretch, corner: f64) -> Noise {
         let mut noise = Noise {
             correlated: self.correlated,
@@ -147,12 +147,12 @@ impl<'a> Trials<'a> {
         noise
     }
 
-    /// Corner frequency, rad/s, at which the missing torque leaves nothing in the samples.
+    /// Returns the corner frequency, rad/s, at which the missing torque has no effect on the samples.
     pub fn lowest(&self) -> f64 {
         0.1 / self.scales.duration
     }
 
-    /// The largest likelihood over the corner frequency.
+    /// Maximises the likelihood over the corner frequency, from the best point of a grid.
     pub fn likeliest(&self, model: &Stretch) -> Noise {
         let (low, high) = (self.lowest().ln(), (30.0 / self.scales.spacing).ln());
         let count = (high - low).ceil().max(1.0);
@@ -164,7 +164,7 @@ impl<'a> Trials<'a> {
         climb(|log| self.at(model, log.exp()), guess, first, [low, high])
     }
 
-    /// A likelier corner frequency near this one, or this one where none is worth another iteration.
+    /// Maximises the likelihood near this corner frequency, rad/s; keeps it where the gain is below `ENOUGH_RISE`.
     pub fn likelier(&self, model: &Stretch, corner: f64) -> Noise {
         let (low, high) = (self.lowest().ln(), (30.0 / self.scales.spacing).ln());
         let here = self.at(model, corner);
@@ -180,8 +180,8 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Derivatives of the standardised prediction errors by one value: central differences about a fixed path, one-sided where
-    /// the value may not go further.
+    /// Computes the derivatives of the standardised prediction errors by one value: central differences about a fixed
+    /// path, one-sided at the limit of the value's range.
     pub fn derivatives(
         &self,
         values: &[f64],

@@ -1,42 +1,42 @@
-//! Values that are free, and what is found of them.
+//! Free values and identified values.
 
-/// A value that is free.
+/// Free value of an identification.
 #[derive(Clone, Debug)]
 pub struct FreeValue {
-    /// Name, as `crank.inertia`.
+    /// Key, for example `crank.inertia`.
     pub key: String,
     /// SI unit.
     pub unit: String,
-    /// Value from which the search sets out.
+    /// Start value of the search.
     pub start: f64,
-    /// Size of a change that matters where the start is 0.
+    /// Size of a significant change, in `unit`: sets damping, and the first difference step where the start is 0.
     pub scale: f64,
-    /// Whether it is what the sensor shows where it should show 0 (rad or m): the index mark of an angle, the zero of x.
+    /// Whether the value is the zero error of the sensor, rad or m: the index mark of an angle, the zero of x.
     pub is_sensor_zero: bool,
 }
 
-/// A value with its error.
+/// Identified value with its standard error.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct IdentifiedValue {
-    /// Name, as `crank.inertia`.
+    /// Key, for example `crank.inertia`.
     pub key: String,
     /// SI unit.
     pub unit: String,
-    /// Value from which the search set out.
+    /// Start value of the search.
     pub start: f64,
-    /// Value found.
+    /// Identified value.
     pub value: f64,
     /// Standard error.
     pub standard_error: f64,
-    /// Half of the 95 % band.
+    /// Half-width of the 95 % band.
     pub half_band: f64,
 }
 
-/// First step of differences over a value.
+/// First difference step relative to the start value, or to the scale where the start is 0.
 const FIRST: f64 = 1e-4;
 
 impl FreeValue {
-    /// First step of differences.
+    /// Returns the first difference step.
     pub(super) fn first_step(&self) -> f64 {
         FIRST
             * match self.start {
