@@ -87,11 +87,16 @@ function scatter({ x, y, colour: depth, log, lines, kind, within }) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 }
 
-/** Ticks of logarithmic axes at whole powers of ten. */
-const decades = (() => {
-  const filter = (_, ticks) => ticks.map((tick) => (tick !== null && Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6 ? tick : null));
-  return { filter, grid: { filter, stroke: colourOf("--line"), width: 1 }, ticks: { filter, stroke: colourOf("--line") } };
-})();
+/** Ticks of logarithmic axes: powers of ten, with 2 and 5 where there are few. The ticks of uPlot never end on some ranges. */
+const decades = {
+  filter: (_, ticks) => ticks,
+  splits: (u, index, low, high) => {
+    const ticks = [];
+    for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++)
+      for (const step of high < 100 * low ? [1, 2, 5] : [1]) ticks.push(Number(`${step}e${power}`));
+    return ticks.filter((tick) => tick >= low && tick <= high);
+  },
+};
 
 /** Points of a kind, each kind with a shape of its own, and lines between them. */
 function mark(u, members, across, up, kind, lines) {
