@@ -82,7 +82,7 @@ impl Trajectory {
     }
 
     /// Maps a trajectory of another coordinate to the crank; `view` gives crank angle and speed.
-    pub fn seen_as(mut self, view: Arc<CrankOf>) -> Trajectory {
+    pub fn mapped_to_crank(mut self, view: Arc<CrankOf>) -> Trajectory {
         self.view = Some(View(view));
         self
     }

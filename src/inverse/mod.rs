@@ -103,7 +103,7 @@ use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::stop::Stop;
 use crate::numeric::student;
-use crate::scene::{Measured, Measurement, Scene, UncertainValue};
+use crate::scene::{Measured, Measurement, MovedScene, Scene};
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]
@@ -158,7 +158,7 @@ pub fn inverse(
 /// As [`inverse`].
 pub fn inverse_of_uncertain(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
@@ -172,7 +172,7 @@ pub fn inverse_of_uncertain(
 
 fn recovered(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {

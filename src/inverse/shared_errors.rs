@@ -16,7 +16,7 @@ use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::scene::{Measurement, Scene, UncertainValue};
+use crate::scene::{Measurement, MovedScene, Scene};
 
 /// Share of a source in the error of the slider force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,7 +41,7 @@ pub(super) struct Source {
 /// What is uncertain: values of the scene, and by a standard error (rad) the zero of an encoder.
 pub(super) fn sources(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     zero: Option<f64>,
 ) -> Result<Vec<Source>, Error> {

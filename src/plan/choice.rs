@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::cycle::{self, named};
+use super::cycle::{cycle_over_angle, named};
 use super::{Candidate, Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
@@ -18,7 +18,7 @@ pub(super) struct Choice {
 
 impl Choice {
     /// Creates the choice of an engine without a stepper.
-    fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
+    fn without_stepper(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine,
             stepper: None,
@@ -72,7 +72,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         return for_all(
             method,
             &[Method::Auto],
-            Choice::of(
+            Choice::without_stepper(
                 Engine::Contact,
                 "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart",
             ),
@@ -84,7 +84,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         return for_all(
             method,
             &[Method::Auto, Method::ClosedForm],
-            Choice::of(
+            Choice::without_stepper(
                 Engine::ClosedForm,
                 "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
             ),
@@ -127,7 +127,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             "a load of kind \"dry\", which turns round with the motion",
             IN_TIME,
         ),
-        _ => over_angle(method, scene, class),
+        _ => energy_angle_or_time(method, scene, class),
     }
 }
 
@@ -150,7 +150,7 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 }
 
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
-fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
+fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     let rubs = scene.friction.is_some();
     let (without_energy, scene_is) = match rubs {
         true => (
@@ -163,13 +163,13 @@ fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Err
         ),
     };
     match (method, without_energy) {
-        (Method::Auto | Method::Energy, None) => Ok(Choice::of(
+        (Method::Auto | Method::Energy, None) => Ok(Choice::without_stepper(
             Engine::Energy,
             "every load depends on the position alone: omega from the energy, time from one quadrature",
         )),
         (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
         _ => match why_not_angle(scene, class) {
-            None => Ok(Choice::of(
+            None => Ok(Choice::without_stepper(
                 Engine::Angle,
                 match rubs {
                     true => {
@@ -219,7 +219,7 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     if scene.motion.speed == 0.0 {
         return Some("the crank starts at rest".to_owned());
     }
-    let why = why_corners(scene).or_else(|| cycle::over_angle(scene).err());
+    let why = why_corners(scene).or_else(|| cycle_over_angle(scene).err());
     let jams = || "the slider jams in its guide at an angle of the turn".to_owned();
     why.or_else(|| (rubs && self::jams(scene)).then(jams))
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::terms::shown;
-use crate::scene::{Load, LoadKey, LoadOf, Period, Repeats, Scene, Variable, Variables};
+use crate::scene::{Load, LoadKey, LoadOf, Period, Periodicity, Scene, Variable, Variables};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, Serialize)]
@@ -28,7 +28,7 @@ pub struct LoadPeriod {
     pub name: LoadName,
     /// Period of the load, or why there is none.
     #[serde(serialize_with = "shown")]
-    pub repeats: LoadRepeats,
+    pub repeats: LoadPeriodicity,
     /// Warning that the load is not known between the nodes of panels and steps, if it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
@@ -43,8 +43,8 @@ pub struct LoadName {
 
 /// Period of a load over the crank angle and whether it reads the time; displayed in words.
 #[derive(Clone, Copy, Debug)]
-pub struct LoadRepeats {
-    over_angle: Repeats,
+pub struct LoadPeriodicity {
+    over_angle: Periodicity,
     reads_time: bool,
 }
 
@@ -52,7 +52,7 @@ impl Cycle {
     /// Computes the cycle of a scene; loads that depend on the time have none.
     pub fn of(scene: &Scene) -> Cycle {
         let named: Vec<Named> = named(scene).collect();
-        let mut turns = over_angle(scene);
+        let mut turns = cycle_over_angle(scene);
         for load in named.iter().filter(|load| load.reads_time()) {
             turns = turns.and(Err(format!("{load} {OF_TIME}")));
         }
@@ -65,16 +65,16 @@ impl Cycle {
 }
 
 /// Computes the cycle of a scene at fixed time, in whole turns; else names the load that does not repeat, and why.
-pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
-    let mut cycle = Repeats::Always;
+pub(crate) fn cycle_over_angle(scene: &Scene) -> Result<u32, String> {
+    let mut cycle = Periodicity::Always;
     for load in named(scene) {
-        cycle = cycle.with(load.repeats);
-        if let Repeats::Never(why) = cycle {
+        cycle = cycle.common(load.repeats);
+        if let Periodicity::Never(why) = cycle {
             return Err(format!("{load} does not repeat: {why}"));
         }
     }
     Ok(match cycle {
-        Repeats::After(period) => period.whole_turns(),
+        Periodicity::After(period) => period.whole_turns(),
         _ => 1,
     })
 }
@@ -82,7 +82,7 @@ pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
 /// Load with its period over the crank angle.
 pub(super) struct Named<'a> {
     pub of: LoadOf<'a>,
-    repeats: Repeats,
+    repeats: Periodicity,
 }
 
 impl Named<'_> {
@@ -120,14 +120,14 @@ impl fmt::Display for LoadName {
     }
 }
 
-impl fmt::Display for LoadRepeats {
+impl fmt::Display for LoadPeriodicity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.over_angle {
             _ if self.reads_time => write!(f, "not: it {OF_TIME}"),
-            Repeats::Always => f.write_str("at every angle"),
-            Repeats::After(Period::TURN) => f.write_str("each turn"),
-            Repeats::After(period) => write!(f, "after {period}"),
-            Repeats::Never(why) => write!(f, "not: {why}"),
+            Periodicity::Always => f.write_str("at every angle"),
+            Periodicity::After(Period::TURN) => f.write_str("each turn"),
+            Periodicity::After(period) => write!(f, "after {period}"),
+            Periodicity::Never(why) => write!(f, "not: {why}"),
         }
     }
 }
@@ -139,7 +139,7 @@ impl LoadPeriod {
                 key: load.of.key(),
                 load: load.of.load.clone(),
             },
-            repeats: LoadRepeats {
+            repeats: LoadPeriodicity {
                 over_angle: load.repeats,
                 reads_time: load.reads_time(),
             },

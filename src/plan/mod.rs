@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use choice::{after, choose};
-pub(crate) use cycle::over_angle as cycle_over_angle;
+pub(crate) use cycle::cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
 pub use refusal::refuse;
@@ -120,7 +120,7 @@ impl Plan {
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
         let reduced = scene.reduced();
-        scene.refused(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
+        scene.placed_errors(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
         Plan::of_modelled(scene, reduced, method)
     }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Expression, Instant, Period, Repeats, Table, Variable, Variables, WhyNot};
+use super::{Expression, Instant, Period, Periodicity, Table, Variable, Variables, WhyNot};
 
 type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 
@@ -147,7 +147,7 @@ impl Load {
     }
 
     /// Returns the period of the load over the crank angle, at equal time and crank speed.
-    pub fn repeats(&self, on_slider: bool) -> Repeats {
+    pub fn repeats(&self, on_slider: bool) -> Periodicity {
         let of_position = match self {
             Load::Table(table)
             | Load::Gas {
@@ -158,19 +158,19 @@ impl Load {
             Load::Function {
                 period: Some(period),
                 ..
-            } => Repeats::After(*period),
+            } => Periodicity::After(*period),
             Load::Function { reads, .. } if reads.has(Variable::Theta) => {
-                Repeats::Never(WhyNot::Unstated)
+                Periodicity::Never(WhyNot::Unstated)
             }
-            _ => Repeats::Always,
+            _ => Periodicity::Always,
         };
         let turns = !self
             .reads(on_slider)
             .disjoint(Variables::X.or(Variables::V));
-        of_position.with(if turns {
-            Repeats::After(Period::TURN)
+        of_position.common(if turns {
+            Periodicity::After(Period::TURN)
         } else {
-            Repeats::Always
+            Periodicity::Always
         })
     }
 
@@ -229,7 +229,7 @@ impl Load {
             Load::Viscous(coefficient) => *coefficient == 0.0,
             Load::Motor { stall, .. } => *stall == 0.0,
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
-            Load::Table(table) => table.largest() == 0.0,
+            Load::Table(table) => table.farthest_from_zero() == 0.0,
             Load::Gas { area, .. } => *area == 0.0,
             Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),

@@ -36,14 +36,14 @@ pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schem
 pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
-pub use model::{LoadKey, LoadOf, Scene, UncertainValue};
+pub use model::{LoadKey, LoadOf, MovedScene, Scene};
 pub use motion::{Every, Extent, Motion, MotionKind, Run};
 pub use parts::{Branch, Friction, Geometry, Gravity};
-pub use period::{Period, Repeats, WhyNot};
+pub use period::{Period, Periodicity, WhyNot};
 pub use places::Places;
 pub use problem::{Problem, Problems};
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub(crate) use validate::{LEAST_TOLERANCE, MOST_ROWS};
+pub(crate) use validate::{LEAST_TOLERANCE, MOST_OUTPUT_ROWS};
 pub use variable::{Instant, Variable, Variables};

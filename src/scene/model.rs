@@ -45,7 +45,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Problems`] unless the list is empty.
-    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
+    pub fn placed_errors(&self, problems: Vec<Problem>) -> Result<(), Problems> {
         let places = &self.places;
         Check { problems, places }.result()
     }
@@ -123,7 +123,7 @@ impl fmt::Display for LoadKey {
 
 /// Scene with one of its values moved by the standard error.
 #[derive(Clone, Debug)]
-pub struct UncertainValue {
+pub struct MovedScene {
     /// Name of the value, as `geometry.rod`.
     pub key: String,
     /// Scene with the value one standard error higher, or lower where the higher one is impossible.

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys::SECTIONS;
-use super::loads::keys_fit;
+use super::loads::check_keys;
 use super::part::Part;
 use super::read::{Contents, Values};
 use super::{bodies, loads};
@@ -22,7 +22,7 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     let geometry = tables
         .iter()
         .find(|values| values.section.name == "geometry");
-    if geometry.is_none() && check.sound(["geometry"]) {
+    if geometry.is_none() && check.has_no_problem(["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
     }
@@ -79,7 +79,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
 fn required(check: &mut Check, values: &Values) {
     let section = values.section;
     let required = section.required.iter();
-    let missing = required.filter(|name| !check.met(values, name));
+    let missing = required.filter(|name| !check.is_present(values, name));
     let missing: Vec<_> = missing.filter_map(|name| section.key(name)).collect();
     for key in missing {
         let what = format!("`{}` is missing in {}", key.name, section.name);
@@ -129,7 +129,7 @@ fn clearance(values: &Values) -> Option<Clearance> {
 
 fn motion(check: &mut Check, values: &Values) -> Motion {
     let kind = values.text("kind").unwrap_or("free");
-    keys_fit(check, values, kind);
+    check_keys(check, values, kind);
     Motion {
         kind: match kind {
             "constant-speed" => MotionKind::ConstantSpeed,

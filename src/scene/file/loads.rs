@@ -16,7 +16,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
         _ => Quantity::Force,
     };
     let kind = values.text("kind")?;
-    keys_fit(check, values, kind)?;
+    check_keys(check, values, kind)?;
     match kind {
         "constant" => constant(check, values, quantity),
         "viscous" => values.number("coefficient").map(Load::Viscous),
@@ -39,7 +39,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
 }
 
 /// Reports the keys that the kind needs and the table lacks, and keys of other kinds; none if a needed key is missing.
-pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
+pub(super) fn check_keys(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
     let section = values.section;
     let kind = section.kinds().iter().find(|one| one.name == kind)?;
     for name in values.names().filter(|name| *name != "kind") {
@@ -96,7 +96,7 @@ fn magnitude(check: &mut Check, values: &Values, quantity: Quantity) -> Option<L
         return constant(check, values, quantity);
     }
     let fields = ["value", "file"].map(|key| values.field(key));
-    if value || check.sound(fields.each_ref().map(String::as_str)) {
+    if value || check.has_no_problem(fields.each_ref().map(String::as_str)) {
         let what = match value {
             true => "kind \"dry\" has both `value` and `file`",
             false => "`value` is missing for kind \"dry\"",

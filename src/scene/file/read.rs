@@ -237,16 +237,16 @@ impl Check<'_> {
         key: &str,
         problem: impl FnOnce() -> [String; 2],
     ) {
-        if !self.met(values, key) {
+        if !self.is_present(values, key) {
             let [what, help] = problem();
             self.add(values.field(key), what, help);
         }
     }
 
     /// Whether a key is present, even if unreadable.
-    pub(super) fn met(&self, values: &Values, key: &str) -> bool {
+    pub(super) fn is_present(&self, values: &Values, key: &str) -> bool {
         // Shortcut for sweeps, which read thousands of scenes, most without a problem.
-        values.has(key) || !self.problems.is_empty() && !self.sound([&values.field(key)])
+        values.has(key) || !self.problems.is_empty() && !self.has_no_problem([&values.field(key)])
     }
 
     /// Adds a problem at byte `at` of a text value.

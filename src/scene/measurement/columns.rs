@@ -88,7 +88,7 @@ impl Named {
         if header.name.is_empty() {
             header.name.clone_from(&self.raw);
         }
-        header.column(quantity).map_err(|what| {
+        header.into_column(quantity).map_err(|what| {
             let unit = quantity.usual_unit();
             let help = format!("{HELP}; or here: {option} \"{}[{unit}]\"", self.at + 1);
             self.wrong(what, help)

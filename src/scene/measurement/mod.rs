@@ -50,7 +50,7 @@ pub struct Measurement {
     /// Time from which `elapsed` counts, s.
     origin: f64,
     /// Relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
-    spacing: f64,
+    period_uncertainty: f64,
     values: Vec<f64>,
     resolution: f64,
     beside: Vec<BesideColumn>,
@@ -124,7 +124,7 @@ impl Measurement {
             times,
             elapsed: None,
             origin: 0.0,
-            spacing: 0.0,
+            period_uncertainty: 0.0,
             values,
             resolution: 0.0,
             beside: Vec::new(),
@@ -188,8 +188,8 @@ impl Measurement {
     }
 
     /// Returns the relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
-    pub fn time_uncertainty(&self) -> f64 {
-        self.spacing
+    pub fn period_uncertainty(&self) -> f64 {
+        self.period_uncertainty
     }
 
     /// Returns the measured values, rad or m.

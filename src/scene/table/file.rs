@@ -132,9 +132,9 @@ fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], 
         header::Header { name, .. } if name != of_name => Err(format!(
             "the first column is `{name}` where `{of_name}` is expected"
         )),
-        first => first.column(of.quantity()),
+        first => first.into_column(of.quantity()),
     };
-    let columns = columns.and_then(|first| Ok([first, second.column(value)?]));
+    let columns = columns.and_then(|first| Ok([first, second.into_column(value)?]));
     columns.map_err(|what| pairs.at(cells[0], &what))
 }
 
@@ -165,7 +165,7 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     };
     let [first, second] = cells.map(header::split);
     let mut loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure].into_iter();
-    let load = loads.find(|load| second.clone().column(*load).is_ok());
+    let load = loads.find(|load| second.clone().into_column(*load).is_ok());
     let (Some(of), Some(load)) = (Variable::named(&first.name), load) else {
         return Ok(None);
     };
@@ -193,7 +193,7 @@ pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
     let text = text.map_err(|what| wrong(format!("{name}: {what}")))?;
     let pairs = Pairs::new(&name, &text);
     let [load, _] = pairs.header("load [N],reading").map_err(wrong)?;
-    let unit = header::split(load).column(Quantity::Force);
+    let unit = header::split(load).into_column(Quantity::Force);
     let unit = unit.map_err(|what| wrong(pairs.at(load, &what)))?;
     let points = pairs.numbers().map_err(wrong)?;
     let point = |(_, [load, reading]): (&str, [f64; 2])| (load * unit.factor, reading);

@@ -46,7 +46,7 @@ impl fmt::Display for UnitError {
 /// assert!(parse("47 kg", Quantity::Length).is_err());
 /// ```
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
-    let measured = measure(text).map_err(|what| {
+    let measured = number_with_unit(text).map_err(|what| {
         let has_unit = split(text).is_ok_and(|(_, unit)| !unit.is_empty());
         wrong(what, quantity, has_unit)
     })?;
@@ -133,7 +133,7 @@ impl Scale {
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
 #[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
-    let measured = measure(text).and_then(|measured| {
+    let measured = number_with_unit(text).and_then(|measured| {
         let time = measured.of(Quantity::Time).map(Every::Time);
         let angle = || measured.of(Quantity::Angle).map(Every::Angle);
         time.or_else(angle).ok_or_else(|| match measured.unit {
@@ -158,7 +158,7 @@ fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
 }
 
 /// Number with a unit.
-struct Measured<'a> {
+struct NumberWithUnit<'a> {
     digits: String,
     /// Value, SI.
     value: f64,
@@ -166,7 +166,7 @@ struct Measured<'a> {
     unit: &'a str,
 }
 
-impl Measured<'_> {
+impl NumberWithUnit<'_> {
     /// Returns the value, SI, if it is one of this quantity; a bare zero is one of every quantity.
     fn of(&self, quantity: Quantity) -> Option<f64> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
@@ -188,14 +188,14 @@ impl Factor {
     }
 }
 
-fn measure(text: &str) -> Result<Measured<'_>, String> {
+fn number_with_unit(text: &str) -> Result<NumberWithUnit<'_>, String> {
     let (digits, unit) = split(text)?;
     let factor = grammar::unit_factor(unit)?;
     let value = factor
         .apply(&digits)
         .filter(|value| value.is_finite())
         .ok_or_else(|| format!("`{text}` is not a finite number"))?;
-    Ok(Measured {
+    Ok(NumberWithUnit {
         digits,
         value,
         factor,
@@ -217,7 +217,7 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
 /// Fault of a unit, in words.
 pub fn ratio(of: &str, to: &str) -> Result<f64, String> {
     let [one, other] = [of, to].map(|unit| format!("1 {unit}"));
-    let (one, other) = (measure(&one)?, measure(&other)?);
+    let (one, other) = (number_with_unit(&one)?, number_with_unit(&other)?);
     match one.factor.dimension == other.factor.dimension {
         true => Ok(one.value / other.value),
         false => Err(format!("`{to}` is no unit of what is shown in {of}")),
