@@ -136,7 +136,7 @@ impl Trajectory {
             Stored::Orbit(orbit) => Some(orbit.state(t - self.begin)),
             Stored::Pieces(pieces) => {
                 let after = pieces.partition_point(|piece| piece.end < t);
-                pieces.get(after)?.coordinate(t)
+                pieces.get(after)?.state(t)
             }
             Stored::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);

@@ -176,7 +176,7 @@ fn recovered(
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
-    let scene = &measurement.known_in(scene);
+    let scene = &measurement.known_in(scene)?;
     let plan = refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;

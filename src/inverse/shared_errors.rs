@@ -55,7 +55,7 @@ pub(super) fn sources(
     };
     let of_scene = uncertain
         .iter()
-        .map(|one| source(&one.key, &measurement.known_in(&one.moved), 0.0));
+        .map(|one| source(&one.key, &measurement.known_in(&one.moved)?, 0.0));
     let of_zero = zero.map(|zero| source("zero of the encoder", scene, zero));
     of_scene.chain(of_zero).collect()
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::cycle::{cycle_over_angle, named};
+use super::cycle::{cycle_over_angle, non_zero};
 use super::{Candidate, Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
@@ -152,59 +152,61 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
 fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     let rubs = scene.friction.is_some();
-    let (without_energy, scene_is) = match rubs {
-        true => (
-            Some("Coulomb friction, whose work depends on the speed".to_owned()),
-            "this motion with Coulomb friction",
-        ),
-        false => (
-            why_not_energy(scene).map(|why| format!("this scene: {why}")),
-            "this scene",
-        ),
+    let without_energy = match rubs {
+        true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
+        false => why_not_energy(scene).map(|why| format!("this scene: {why}")),
     };
     match (method, without_energy) {
-        (Method::Auto | Method::Energy, None) => Ok(Choice::without_stepper(
-            Engine::Energy,
-            "every load depends on the position alone: omega from the energy, time from one quadrature",
+        (Method::Auto | Method::Energy, None) => {
+            return Ok(Choice::without_stepper(
+                Engine::Energy,
+                "every load depends on the position alone: omega from the energy, time from one quadrature",
+            ));
+        }
+        (Method::Energy, Some(what)) => return Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
+        _ => {}
+    }
+    match (why_not_angle(scene, class), rubs) {
+        (None, true) => Ok(Choice::without_stepper(
+            Engine::Angle,
+            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
         )),
-        (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
-        _ => match why_not_angle(scene, class) {
-            None => Ok(Choice::without_stepper(
-                Engine::Angle,
-                match rubs {
-                    true => {
-                        "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over"
-                    }
-                    false => {
-                        "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over"
-                    }
-                },
-            )),
-            Some(why) if method == Method::Angle => {
-                Err(cannot_serve(method, &format!("{scene_is}: {why}"), IN_TIME))
-            }
-            Some(why) if rubs => Ok(Choice::in_time(
-                Stepper::Picard,
-                format!(
-                    "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
-                ),
-            )),
-            Some(why) => Ok(Choice::in_time(
-                Stepper::Picard,
-                format!("{why}: integration in time, by sweeps over Gauss nodes"),
-            )),
-        },
+        (None, false) => Ok(Choice::without_stepper(
+            Engine::Angle,
+            "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+        )),
+        (Some(why), _) if method == Method::Angle => {
+            let with = if rubs {
+                "motion with Coulomb friction"
+            } else {
+                "scene"
+            };
+            Err(cannot_serve(
+                method,
+                &format!("this {with}: {why}"),
+                IN_TIME,
+            ))
+        }
+        (Some(why), true) => Ok(Choice::in_time(
+            Stepper::Picard,
+            format!(
+                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+            ),
+        )),
+        (Some(why), false) => Ok(Choice::in_time(
+            Stepper::Picard,
+            format!("{why}: integration in time, by sweeps over Gauss nodes"),
+        )),
     }
 }
 
 /// Returns why omega does not follow from the position: a load depends on more, or its corners are not known.
 fn why_not_energy(scene: &Scene) -> Option<String> {
     let position = Variables::THETA.or(Variables::X);
-    let more = named(scene).find_map(|load| {
-        let reads = load.reads();
+    let more = non_zero(scene).find_map(|of| {
+        let reads = of.reads();
         let depends = reads.or(position) != position;
-        depends
-            .then(|| format!("{load} depends on {reads}, and its work on more than the position"))
+        depends.then(|| format!("{of} depends on {reads}, and its work on more than the position"))
     });
     more.or_else(|| why_corners(scene))
 }
@@ -240,22 +242,16 @@ fn jams(scene: &Scene) -> bool {
 
 /// Returns the first load whose corners are not known as crank angles, and why.
 fn why_corners(scene: &Scene) -> Option<String> {
-    named(scene).find_map(|load| {
-        let why = why_rough(load.of.load)?;
-        Some(format!("{load} {why}"))
-    })
-}
-
-/// Returns why the corners of a load are not known as crank angles.
-fn why_rough(load: &Load) -> Option<String> {
-    match load {
-        Load::Table(table) if table.of() != Variable::Theta => Some(format!(
-            "has its rows over {}, not over theta",
-            table.of().name()
-        )),
-        Load::Expression(expression) if expression.jumps() => {
-            Some("may jump: step, sign, floor or mod stands in it".to_owned())
+    non_zero(scene).find_map(|of| match of.load {
+        Load::Table(table) if table.of() != Variable::Theta => {
+            let rows_over = table.of().name();
+            Some(format!(
+                "{of} has its rows over {rows_over}, not over theta"
+            ))
         }
+        Load::Expression(expression) if expression.jumps() => Some(format!(
+            "{of} may jump: step, sign, floor or mod stands in it"
+        )),
         _ => None,
-    }
+    })
 }

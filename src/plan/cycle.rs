@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::terms::shown;
-use crate::scene::{Load, LoadKey, LoadOf, Period, Periodicity, Scene, Variable, Variables};
+use crate::scene::{Load, LoadKey, LoadOf, Period, Periodicity, Scene, Variable};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, Serialize)]
@@ -51,15 +51,14 @@ pub struct LoadPeriodicity {
 impl Cycle {
     /// Computes the cycle of a scene; loads that depend on the time have none.
     pub fn of(scene: &Scene) -> Cycle {
-        let named: Vec<Named> = named(scene).collect();
         let mut turns = cycle_over_angle(scene);
-        for load in named.iter().filter(|load| load.reads_time()) {
-            turns = turns.and(Err(format!("{load} {OF_TIME}")));
+        for of in non_zero(scene).filter(reads_time) {
+            turns = turns.and(Err(format!("{of} {OF_TIME}")));
         }
         Cycle {
             turns: turns.as_ref().ok().copied(),
             why_not: turns.err(),
-            loads: named.iter().map(LoadPeriod::of).collect(),
+            loads: non_zero(scene).map(LoadPeriod::of).collect(),
         }
     }
 }
@@ -67,10 +66,10 @@ impl Cycle {
 /// Computes the cycle of a scene at fixed time, in whole turns; else names the load that does not repeat, and why.
 pub(crate) fn cycle_over_angle(scene: &Scene) -> Result<u32, String> {
     let mut cycle = Periodicity::Always;
-    for load in named(scene) {
-        cycle = cycle.common(load.repeats);
+    for of in non_zero(scene) {
+        cycle = cycle.common(of.repeats());
         if let Periodicity::Never(why) = cycle {
-            return Err(format!("{load} does not repeat: {why}"));
+            return Err(format!("{of} does not repeat: {why}"));
         }
     }
     Ok(match cycle {
@@ -79,39 +78,16 @@ pub(crate) fn cycle_over_angle(scene: &Scene) -> Result<u32, String> {
     })
 }
 
-/// Load with its period over the crank angle.
-pub(super) struct Named<'a> {
-    pub of: LoadOf<'a>,
-    repeats: Periodicity,
-}
-
-impl Named<'_> {
-    /// Returns the variables the load depends on.
-    pub fn reads(&self) -> Variables {
-        self.of.load.reads(self.of.on_slider)
-    }
-
-    fn reads_time(&self) -> bool {
-        self.reads().has(Variable::T)
-    }
-}
-
 const OF_TIME: &str = "depends on the time t";
 const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
 
-/// Returns the loads of a scene that are not zero, with their numbers in the scene.
-pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
-    let loads = scene.loads().filter(|of| !of.load.is_zero());
-    loads.map(|of| Named {
-        repeats: of.load.repeats(of.on_slider),
-        of,
-    })
+/// Iterates over the loads of a scene that are not zero.
+pub(super) fn non_zero(scene: &Scene) -> impl Iterator<Item = LoadOf<'_>> {
+    scene.loads().filter(|of| !of.load.is_zero())
 }
 
-impl fmt::Display for Named<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.of.key(), self.of.load)
-    }
+fn reads_time(of: &LoadOf<'_>) -> bool {
+    of.reads().has(Variable::T)
 }
 
 impl fmt::Display for LoadName {
@@ -133,17 +109,17 @@ impl fmt::Display for LoadPeriodicity {
 }
 
 impl LoadPeriod {
-    fn of(load: &Named<'_>) -> LoadPeriod {
+    fn of(of: LoadOf<'_>) -> LoadPeriod {
         LoadPeriod {
             name: LoadName {
-                key: load.of.key(),
-                load: load.of.load.clone(),
+                key: of.key(),
+                load: of.load.clone(),
             },
             repeats: LoadPeriodicity {
-                over_angle: load.repeats,
-                reads_time: load.reads_time(),
+                over_angle: of.repeats(),
+                reads_time: reads_time(&of),
             },
-            between_nodes: load.of.load.is_only_sampled().then_some(SAMPLED),
+            between_nodes: of.load.is_only_sampled().then_some(SAMPLED),
         }
     }
 }

@@ -153,8 +153,7 @@ impl Plan {
 
     /// Whether an engine may compute a part of a run.
     pub(crate) fn has(&self, engine: Engine) -> bool {
-        let then = self.then.iter().map(|candidate| candidate.engine);
-        self.engine == engine || then.into_iter().any(|then| then == engine)
+        self.engine == engine || self.then.iter().any(|candidate| candidate.engine == engine)
     }
 }
 

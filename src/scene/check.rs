@@ -23,16 +23,13 @@ impl Check<'_> {
 
     /// Returns the problems found, with their places, as the error.
     pub fn result(self) -> Result<(), Problems> {
-        match self.problems {
-            list if list.is_empty() => Ok(()),
-            list => Err(self.places.problems(list)),
-        }
+        self.places.result(self.problems)
     }
 
     /// Whether none of these fields has a problem.
-    pub fn has_no_problem<const N: usize>(&self, fields: [&str; N]) -> bool {
-        let mut named = self.problems.iter().map(|problem| problem.field.as_str());
-        !named.any(|field| fields.contains(&field))
+    pub fn has_no_problem(&self, fields: &[impl AsRef<str>]) -> bool {
+        let is_one = |problem: &Problem| fields.iter().any(|field| field.as_ref() == problem.field);
+        !self.problems.iter().any(is_one)
     }
 
     pub fn finite(&mut self, field: impl Display, value: f64) -> bool {
@@ -48,7 +45,9 @@ impl Check<'_> {
 
     pub fn positive(&mut self, field: impl Display, value: f64, unit: &str) {
         if !self.finite(&field, value) {
-        } else if value <= 0.0 {
+            return;
+        }
+        if value <= 0.0 {
             let what = format!("{} is not positive", with_unit(value, unit));
             self.add(field, what, "give a value above zero");
         } else if value < 1.0 / LARGEST_VALUE {

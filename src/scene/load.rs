@@ -164,13 +164,10 @@ impl Load {
             }
             _ => Periodicity::Always,
         };
-        let turns = !self
-            .reads(on_slider)
-            .disjoint(Variables::X.or(Variables::V));
-        of_position.common(if turns {
-            Periodicity::After(Period::TURN)
-        } else {
-            Periodicity::Always
+        let of_slider = Variables::X.or(Variables::V);
+        of_position.common(match self.reads(on_slider).disjoint(of_slider) {
+            true => Periodicity::Always,
+            false => Periodicity::After(Period::TURN),
         })
     }
 
@@ -191,15 +188,19 @@ impl Load {
 
     /// Returns the variables the load depends on, as a torque (`on_slider` false) or as a force.
     pub fn reads(&self, on_slider: bool) -> Variables {
+        let speed = if on_slider {
+            Variables::V
+        } else {
+            Variables::OMEGA
+        };
         match self {
             Load::Constant(_) => Variables::NONE,
-            Load::Viscous(_) if on_slider => Variables::V,
-            Load::Viscous(_) | Load::Motor { .. } => Variables::OMEGA,
+            Load::Viscous(_) => speed,
+            Load::Motor { .. } => Variables::OMEGA,
             Load::Spring { .. } => Variables::X,
             Load::Table(table) => Variables::NONE.with(table.of()),
             Load::Gas { .. } => Variables::THETA,
-            Load::Dry(magnitude) if on_slider => magnitude.reads(true).or(Variables::V),
-            Load::Dry(magnitude) => magnitude.reads(false).or(Variables::OMEGA),
+            Load::Dry(magnitude) => magnitude.reads(on_slider).or(speed),
             Load::Expression(expression) => expression.reads(),
             Load::Function { reads, .. } => *reads,
         }

@@ -3,10 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use super::check::Check;
 use super::{
-    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Places, Problem, Problems, Rod,
-    RodModel, Run, Slider, Table,
+    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Periodicity, Places, Problem,
+    Problems, Rod, RodModel, Run, Slider, Table, Variables,
 };
 
 /// A complete scene.
@@ -46,8 +45,7 @@ impl Scene {
     /// # Errors
     /// [`Problems`] unless the list is empty.
     pub fn placed_errors(&self, problems: Vec<Problem>) -> Result<(), Problems> {
-        let places = &self.places;
-        Check { problems, places }.result()
+        self.places.result(problems)
     }
 
     /// Iterates over the torques, then the forces.
@@ -111,6 +109,23 @@ impl LoadOf<'_> {
             on_slider: self.on_slider,
             number: self.number,
         }
+    }
+
+    /// Returns the variables the load depends on.
+    pub fn reads(&self) -> Variables {
+        self.load.reads(self.on_slider)
+    }
+
+    /// Returns the period of the load over the crank angle, at equal time and crank speed.
+    pub fn repeats(&self) -> Periodicity {
+        self.load.repeats(self.on_slider)
+    }
+}
+
+/// Writes the name of the load, then its description in brackets.
+impl fmt::Display for LoadOf<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.key(), self.load)
     }
 }
 

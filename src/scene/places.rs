@@ -29,6 +29,14 @@ impl Places {
         Some((&source.text, source.spans.get(field)?.clone()))
     }
 
+    /// Returns problems of the scene, with their places, as the error; no error for an empty list.
+    pub(super) fn result(&self, list: Vec<Problem>) -> Result<(), Problems> {
+        match list.is_empty() {
+            true => Ok(()),
+            false => Err(self.problems(list)),
+        }
+    }
+
     /// Returns problems of the scene, each with the place of its key, or of the table the key belongs to.
     pub(super) fn problems(&self, mut list: Vec<Problem>) -> Problems {
         let Some(source) = &self.0 else {

@@ -22,7 +22,7 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     let geometry = tables
         .iter()
         .find(|values| values.section.name == "geometry");
-    if geometry.is_none() && check.has_no_problem(["geometry"]) {
+    if geometry.is_none() && check.has_no_problem(&["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
     }
@@ -43,7 +43,10 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
             .filter(|values| values.section.name == section.name);
         for values in of_section {
             let known = values.part.get().cloned();
-            let part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            if let Part::Force(Load::Gas { towards_crank, .. }) = &mut part {
+                *towards_crank = -scene.geometry.branch.sign();
+            }
             part.enter(&mut scene);
         }
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::keys::{self, Key, Kind, Section};
+use super::keys::{self, Key, Section};
 use crate::scene::unit::Quantity;
 
 /// Path of a value in a scene, as `geometry.offset` or `torque[2].value`.
@@ -16,17 +16,9 @@ pub(super) struct KeyPath {
 }
 
 impl KeyPath {
-    /// Returns the quantity of the key, if the key takes one.
-    pub fn quantity(&self) -> Option<Quantity> {
-        match self.key.kind {
-            Kind::Of(quantity) | Kind::Formula(quantity) => Some(quantity),
-            _ => None,
-        }
-    }
-
     /// Returns the SI unit in the form of scene files; empty for numbers and words.
     pub fn unit(&self) -> &'static str {
-        self.quantity().map_or("", Quantity::si)
+        self.key.kind.quantity().map_or("", Quantity::si)
     }
 
     /// Returns the path as the name of a column, as `torque_2_value`.
@@ -111,7 +103,7 @@ impl FromStr for NumberKey {
 
     fn from_str(text: &str) -> Result<NumberKey, String> {
         let path: KeyPath = text.trim().parse()?;
-        match path.quantity() {
+        match path.key.kind.quantity() {
             Some(_) => Ok(NumberKey(path)),
             None => Err(format!("`{path}` holds no quantity")),
         }

@@ -28,12 +28,7 @@ impl Part {
             Part::Slider(slider) => scene.slider = Some(slider),
             Part::Gravity(gravity) => scene.gravity = gravity,
             Part::Torque(load) => scene.torques.push(load),
-            Part::Force(mut load) => {
-                if let Load::Gas { towards_crank, .. } = &mut load {
-                    *towards_crank = -scene.geometry.branch.sign();
-                }
-                scene.forces.push(load);
-            }
+            Part::Force(load) => scene.forces.push(load),
             Part::Friction(friction) => scene.friction = friction,
             Part::Clearance(clearance) => scene.clearance = clearance,
             Part::Motion(motion) => scene.motion = motion,

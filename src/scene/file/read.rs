@@ -246,7 +246,7 @@ impl Check<'_> {
     /// Whether a key is present, even if unreadable.
     pub(super) fn is_present(&self, values: &Values, key: &str) -> bool {
         // Shortcut for sweeps, which read thousands of scenes, most without a problem.
-        values.has(key) || !self.problems.is_empty() && !self.has_no_problem([&values.field(key)])
+        values.has(key) || !self.problems.is_empty() && !self.has_no_problem(&[&values.field(key)])
     }
 
     /// Adds a problem at byte `at` of a text value.

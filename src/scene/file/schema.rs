@@ -92,10 +92,7 @@ fn property(key: &Key) -> Value {
         Kind::Formula(quantity) => {
             json!({"type": ["string", "number"], "examples": examples(&[quantity])})
         }
-        Kind::Choice(words) => json!({"enum": words}),
-        Kind::Kinds(kinds) => {
-            json!({"enum": kinds.iter().map(|kind| kind.name).collect::<Vec<_>>()})
-        }
+        Kind::Choice(_) | Kind::Kinds(_) => json!({"enum": key.kind.words()}),
         Kind::Text => json!({"type": "string"}),
     };
     value["description"] = json!(key.meaning);

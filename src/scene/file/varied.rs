@@ -102,7 +102,7 @@ impl Varied {
     /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
         let name = self.path.column();
-        match self.path.quantity().map(Quantity::column) {
+        match self.path.key.kind.quantity().map(Quantity::column) {
             Some(unit) if self.has_numbers && !unit.is_empty() => format!("{name}_{unit}"),
             _ => name,
         }
@@ -115,7 +115,10 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Values::Listed(list) => list[index].clone(),
-            Values::Spread(spread) => VariedValue::in_spread(spread, index),
+            Values::Spread(spread) => {
+                let (text, number) = spread.value(index);
+                VariedValue { text, number }
+            }
             Values::Uniform(_) | Values::Normal(_) => self.quantile(0.5),
         }
     }
@@ -134,11 +137,6 @@ impl Varied {
 }
 
 impl VariedValue {
-    fn in_spread(spread: &Spread, index: usize) -> VariedValue {
-        let (text, number) = spread.value(index);
-        VariedValue { text, number }
-    }
-
     fn read(key: &Key, text: String) -> Result<VariedValue, String> {
         let number = number(key, &text)?.map(|number| number.value);
         Ok(VariedValue { text, number })

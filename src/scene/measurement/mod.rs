@@ -103,18 +103,41 @@ impl Measurement {
     }
 
     /// Returns a scene with the known torques and forces of the record, linear between the samples.
-    pub(crate) fn known_in(&self, scene: &Scene) -> Scene {
+    ///
+    /// # Errors
+    /// [`Problems`] for a known torque or force over times that are equal in double precision.
+    pub(crate) fn known_in(&self, scene: &Scene) -> Result<Scene, Problems> {
         let mut scene = scene.clone();
         for BesideColumn { beside, values } in &self.beside {
-            let times = &self.times;
-            let table = || Table::new(Variable::T, times, values, Interpolation::Linear, None);
-            match (beside, table()) {
-                (Beside::Torque, Ok(table)) => scene = scene.torque(Load::Table(table)),
-                (Beside::Force, Ok(table)) => scene = scene.force(Load::Table(table)),
-                _ => {}
-            }
+            let list = match beside {
+                Beside::Sensor(_) => continue,
+                Beside::Torque => &mut scene.torques,
+                Beside::Force => &mut scene.forces,
+            };
+            let table = Table::new(
+                Variable::T,
+                &self.times,
+                values,
+                Interpolation::Linear,
+                None,
+            );
+            list.push(Load::Table(table.map_err(|what| self.no_table(what))?));
         }
-        scene
+        Ok(scene)
+    }
+
+    /// Creates the problem of a known torque or force that makes no table, with the first time that does not rise.
+    fn no_table(&self, what: String) -> Problems {
+        let falls = self.times.windows(2).position(|pair| pair[1] <= pair[0]);
+        let what = format!("a known torque or force is no function of these times: {what}");
+        let help =
+            "times so far from zero are equal in double precision: let the time begin near 0";
+        self.refused(vec![self.problem(
+            falls.map_or(0, |before| before + 1),
+            0,
+            what,
+            help.to_owned(),
+        )])
     }
 
     /// Creates samples without checks.

@@ -8,6 +8,7 @@ use super::heading::Heading;
 use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, Source};
 use crate::numeric::parallel;
+use crate::scene::csv::Column;
 use crate::scene::csv::cell::{self, NotANumber};
 use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
 use crate::scene::number::counted;
@@ -69,8 +70,7 @@ pub(super) fn measurement(
     let mut next = |factor: f64, zero: f64| scaled(lists.next().unwrap_or_default(), factor, zero);
     let times = next(columns.time.factor, 0.0);
     let values = next(columns.value.factor, zero(columns.measured));
-    let of_beside = |(beside, column): &(Beside, _)| {
-        let column: &crate::scene::csv::Column = column;
+    let of_beside = |(beside, column): &(Beside, Column)| {
         let zero = match beside {
             Beside::Sensor(measured) => zero(*measured),
             _ => 0.0,

@@ -128,11 +128,12 @@ fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], 
     let of_name = of.name();
     let cells = pairs.header(&format!("{of_name} [unit],value [unit]"))?;
     let [first, second] = cells.map(header::split);
-    let columns = match first {
-        header::Header { name, .. } if name != of_name => Err(format!(
-            "the first column is `{name}` where `{of_name}` is expected"
+    let columns = match first.name == of_name {
+        true => first.into_column(of.quantity()),
+        false => Err(format!(
+            "the first column is `{}` where `{of_name}` is expected",
+            first.name
         )),
-        first => first.into_column(of.quantity()),
     };
     let columns = columns.and_then(|first| Ok([first, second.into_column(value)?]));
     columns.map_err(|what| pairs.at(cells[0], &what))

@@ -14,7 +14,7 @@ use super::number;
 #[cfg(feature = "cli")]
 pub(super) use pattern::pattern;
 pub use quantity::Quantity;
-use symbol::Factor;
+pub(super) use symbol::Factor;
 
 /// Reason why a text is not the requested quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -111,23 +111,10 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
     Ok(found)
 }
 
-/// Unit of a quantity, for the conversion of many numbers.
+/// Returns the factor of a unit, for the conversion of many numbers; none if `unit` is no unit of `quantity`.
 #[cfg(feature = "cli")]
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scale(Factor);
-
-#[cfg(feature = "cli")]
-impl Scale {
-    /// Creates a scale; none if `unit` is no unit of `quantity`.
-    pub fn new(unit: &str, quantity: Quantity) -> Option<Scale> {
-        let factor = grammar::unit_factor(unit).ok()?;
-        factor.of(quantity).map(Scale)
-    }
-
-    /// Returns the value of these digits in SI units and radians.
-    pub fn value(self, digits: &str) -> Option<f64> {
-        self.0.apply(digits)
-    }
+pub(super) fn exact_factor(unit: &str, quantity: Quantity) -> Option<Factor> {
+    grammar::unit_factor(unit).ok()?.of(quantity)
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.

@@ -51,7 +51,7 @@ fn journal_fits(list: &mut Check, clearance: &Clearance) {
     let radial = clearance.radial;
     if let Some(bearing) = clearance.bearing_radius
         && radial >= bearing
-        && list.has_no_problem(["clearance.radial", "clearance.bearing_radius"])
+        && list.has_no_problem(&["clearance.radial", "clearance.bearing_radius"])
     {
         let (radial, bearing) = apart(radial, bearing);
         list.add(
@@ -68,7 +68,7 @@ fn journal_fits(list: &mut Check, clearance: &Clearance) {
     list.not_negative("clearance.eccentricity", eccentricity, "m");
     let linked = clearance.law == ContactLaw::MasslessLink;
     let impossible = eccentricity > radial || (linked && eccentricity != radial);
-    if impossible && list.has_no_problem(["clearance.radial", "clearance.eccentricity"]) {
+    if impossible && list.has_no_problem(&["clearance.radial", "clearance.eccentricity"]) {
         let (shown, radial) = apart(eccentricity, radial);
         let (what, help) = if linked {
             (
