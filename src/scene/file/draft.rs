@@ -12,7 +12,7 @@ use super::read::Contents;
 use super::{NumberKey, Varied, VariedValue, assemble};
 use crate::error::Error;
 use crate::scene::check::Check;
-use crate::scene::places::Source;
+use crate::scene::problem::Source;
 use crate::scene::unit::Uncertain;
 use crate::scene::{MovedScene, Places, Problem, Problems, Scene, text, validate};
 

@@ -287,24 +287,3 @@ pub const SECTIONS: &[Section] = sections! {
 pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.name == name)
 }
-
-/// Returns the help for an unknown `name`: the most similar known name, or all names that `owner` has.
-pub fn did_you_mean<'a>(
-    name: &str,
-    owner: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
-) -> String {
-    match nearest(name, known.clone()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("{owner} has {}", known.collect::<Vec<_>>().join(", ")),
-    }
-}
-
-/// Returns the candidate most similar to `name`, if its Jaro-Winkler similarity is above 0.75.
-pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
-}

@@ -7,12 +7,12 @@ use std::sync::{Arc, OnceLock};
 use toml::de::{DeTable, DeValue};
 
 use super::VariedValue;
-use super::key_path::KeyPath;
+use super::key_path::{KeyPath, did_you_mean};
 use super::keys::{self, Key, Kind, Section};
 use super::part::Part;
 use super::value::{self, Value};
 use crate::scene::check::Check;
-use crate::scene::places::Spans;
+use crate::scene::problem::Spans;
 use crate::scene::unit::Uncertain;
 use crate::scene::{Every, Problem};
 
@@ -120,7 +120,7 @@ impl Contents {
                 found.section(section, value.get_ref());
             } else {
                 let known = keys::SECTIONS.iter().map(|s| s.name).chain(["title"]);
-                let help = keys::did_you_mean(name, "a scene", known);
+                let help = did_you_mean(name, "a scene", known);
                 found.problem(name, format!("`{name}` is not part of a scene"), help);
             }
         }
@@ -167,7 +167,7 @@ impl Contents {
                 let name = name.get_ref();
                 let what = format!("`{name}` is not a key of {}", section.name);
                 let known = section.keys.iter().map(|key| key.name);
-                self.problem(&field, what, keys::did_you_mean(name, section.name, known));
+                self.problem(&field, what, did_you_mean(name, section.name, known));
                 continue;
             };
             match value::read(key, value.get_ref()) {

@@ -2,7 +2,8 @@
 
 use toml::de::DeValue;
 
-use super::keys::{self, Key, Kind};
+use super::key_path::nearest;
+use super::keys::{Key, Kind};
 use crate::scene::Every;
 use crate::scene::unit::{self, Uncertain, UnitError};
 
@@ -73,7 +74,7 @@ fn choice(key: &Key, text: &str) -> Result<Value, UnitError> {
     if let Some(word) = words.iter().find(|word| **word == text) {
         return Ok(Value::Choice(word));
     }
-    let help = match keys::nearest(text, words.iter().copied()) {
+    let help = match nearest(text, words.iter().copied()) {
         Some(near) => format!("did you mean \"{near}\"? It may be {}", quoted(&words)),
         None => expected(key.kind),
     };
