@@ -222,8 +222,10 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
         return Some("the crank starts at rest".to_owned());
     }
     let why = why_corners(scene).or_else(|| cycle_over_angle(scene).err());
-    let jams = || "the slider jams in its guide at an angle of the turn".to_owned();
-    why.or_else(|| (rubs && self::jams(scene)).then(jams))
+    if why.is_none() && rubs && jams(scene) {
+        return Some("the slider jams in its guide at an angle of the turn".to_owned());
+    }
+    why
 }
 
 /// Number of equally spaced crank angles of a turn at which `jams` tests the guide.

@@ -136,10 +136,9 @@ impl Load {
     pub fn is_only_sampled(&self) -> bool {
         match self {
             Load::Function { reads, scales, .. } => {
-                let stated = |variable| scales.iter().any(|(of, _)| *of == variable);
-                Variable::ALL
-                    .into_iter()
-                    .any(|variable| reads.has(variable) && !stated(variable))
+                let stated = scales.iter().map(|(of, _)| *of);
+                let stated = stated.fold(Variables::NONE, Variables::with);
+                stated.or(*reads) != stated
             }
             Load::Dry(magnitude) => magnitude.is_only_sampled(),
             _ => false,

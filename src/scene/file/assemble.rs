@@ -16,12 +16,10 @@ use crate::scene::{
 /// Assembles the scene of these tables. A value that is missing or could not be read gets one that raises no further
 /// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
-    let tables = &contents.tables;
-    let unknown = tables.iter().filter(|values| values.part.get().is_none());
+    let mut tables = contents.tables.iter();
+    let unknown = tables.clone().filter(|values| values.part.get().is_none());
     unknown.for_each(|values| required(check, values));
-    let geometry = tables
-        .iter()
-        .find(|values| values.section.name == "geometry");
+    let geometry = tables.find(|values| values.section.name == "geometry");
     if geometry.is_none() && check.has_no_problem(&["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
@@ -31,17 +29,13 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
         length.unwrap_or(default)
     };
     let mut scene = Scene::new(length("crank", 1.0), length("rod", 2.0));
-    scene.title = contents.title;
     scene.geometry.offset = length("offset", 0.0);
     if geometry.and_then(|values| values.text("branch")) == Some("left") {
         scene.geometry.branch = Branch::Left;
     }
     // The order of the sections is that of the problems.
     for section in SECTIONS {
-        let of_section = tables
-            .iter()
-            .filter(|values| values.section.name == section.name);
-        for values in of_section {
+        for values in contents.of_section(section) {
             let known = values.part.get().cloned();
             let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
             if let Part::Force(Load::Gas { towards_crank, .. }) = &mut part {
@@ -50,6 +44,7 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
             part.enter(&mut scene);
         }
     }
+    scene.title = contents.title;
     scene
 }
 
@@ -81,13 +76,11 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
 /// Adds a problem for each key that every table of the section needs and this one lacks.
 fn required(check: &mut Check, values: &Values) {
     let section = values.section;
-    let required = section.required.iter();
-    let missing = required.filter(|name| !check.is_present(values, name));
-    let missing: Vec<_> = missing.filter_map(|name| section.key(name)).collect();
-    for key in missing {
-        let what = format!("`{}` is missing in {}", key.name, section.name);
-        let help = format!("add {}: {}", key.example(), key.meaning);
-        check.add(values.field(key.name), what, help);
+    for key in section.required.iter().filter_map(|name| section.key(name)) {
+        check.missing(values, key.name, || {
+            let what = format!("`{}` is missing in {}", key.name, section.name);
+            [what, format!("add {}: {}", key.example(), key.meaning)]
+        });
     }
 }
 

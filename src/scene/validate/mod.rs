@@ -142,13 +142,8 @@ fn rod(list: &mut Check, rod: &Rod, length: f64) {
     let cg = [rod.cg, rod.cg_lateral];
     body(list, "rod", rod.mass, rod.inertia, cg);
     if rod.inertia_about == InertiaAbout::CrankPin && rod.model == RodModel::Rigid {
-        inertia(
-            list,
-            "rod",
-            "the crank pin",
-            rod.inertia,
-            rod.mass * square(cg),
-        );
+        let least = rod.mass * square(cg);
+        inertia(list, "rod", "the crank pin", rod.inertia, least);
     }
     if rod.model != RodModel::TwoMass || rod.mass == 0.0 {
         return;
