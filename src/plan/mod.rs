@@ -120,7 +120,9 @@ impl Plan {
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
         let reduced = scene.reduced();
-        scene.placed_errors(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
+        scene
+            .places
+            .reject_any(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
         Plan::of_modelled(scene, reduced, method)
     }
 

@@ -4,8 +4,8 @@ use std::fmt;
 use std::path::Path;
 
 use super::{
-    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Periodicity, Places, Problem,
-    Problems, Rod, RodModel, Run, Slider, Table, Variables,
+    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Periodicity, Places, Rod,
+    RodModel, Run, Slider, Table, Variables,
 };
 
 /// A complete scene.
@@ -40,14 +40,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns problems, with their places in the file of the scene, as the error.
-    ///
-    /// # Errors
-    /// [`Problems`] unless the list is empty.
-    pub fn placed_errors(&self, problems: Vec<Problem>) -> Result<(), Problems> {
-        self.places.result(problems)
-    }
-
     /// Iterates over the torques, then the forces.
     pub fn loads(&self) -> impl Iterator<Item = LoadOf<'_>> {
         let lists = [(&self.torques, false), (&self.forces, true)];

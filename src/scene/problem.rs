@@ -137,8 +137,8 @@ impl Places {
         Some((&source.text, source.spans.get(field)?.clone()))
     }
 
-    /// Returns problems of the scene, with their places, as the error; no error for an empty list.
-    pub(super) fn result(&self, list: Vec<Problem>) -> Result<(), Problems> {
+    /// Returns problems of the scene, with their places, as the error, unless the list is empty.
+    pub(crate) fn reject_any(&self, list: Vec<Problem>) -> Result<(), Problems> {
         match list.is_empty() {
             true => Ok(()),
             false => Err(self.problems(list)),

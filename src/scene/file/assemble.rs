@@ -9,31 +9,27 @@ use super::read::{Contents, Values};
 use super::{bodies, loads};
 use crate::scene::check::Check;
 use crate::scene::{
-    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
-    Scene,
+    Branch, Clearance, ContactLaw, Extent, Friction, Geometry, Gravity, Joint, Load, Motion,
+    MotionKind, Run, Scene,
 };
+
+/// Lengths, m, in place of those that could not be read.
+const CRANK: f64 = 1.0;
+const ROD: f64 = 2.0;
 
 /// Assembles the scene of these tables. A value that is missing or could not be read gets one that raises no further
 /// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
-    let mut tables = contents.tables.iter();
+    let tables = contents.tables.iter();
     let unknown = tables.clone().filter(|values| values.part.get().is_none());
     unknown.for_each(|values| required(check, values));
-    let geometry = tables.find(|values| values.section.name == "geometry");
-    if geometry.is_none() && check.has_no_problem(&["geometry"]) {
+    let mut names = tables.map(|values| values.section.name);
+    if !names.any(|name| name == "geometry") && check.has_no_problem(&["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
     }
-    let length = |key: &str, default: f64| {
-        let length = geometry.and_then(|values| values.number(key));
-        length.unwrap_or(default)
-    };
-    let mut scene = Scene::new(length("crank", 1.0), length("rod", 2.0));
-    scene.geometry.offset = length("offset", 0.0);
-    if geometry.and_then(|values| values.text("branch")) == Some("left") {
-        scene.geometry.branch = Branch::Left;
-    }
-    // The order of the sections is that of the problems.
+    let mut scene = Scene::new(CRANK, ROD);
+    // The geometry comes first; the order of the sections is that of the problems.
     for section in SECTIONS {
         for values in contents.of_section(section) {
             let known = values.part.get().cloned();
@@ -53,6 +49,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
     // A load that could not be read keeps its place, because problems of the others count the loads.
     let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
     let part = match values.section.name {
+        "geometry" => Part::Geometry(geometry(values)),
         "crank" => Part::Crank(bodies::crank(check, values)),
         "rod" => Part::Rod(bodies::rod(check, values, rod)),
         "slider" => Part::Slider(bodies::slider(check, values)),
@@ -62,8 +59,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
         "friction" => Part::Friction(friction(values)),
         "clearance" => Part::Clearance(clearance(values)),
         "motion" => Part::Motion(motion(check, values)),
-        "run" => Part::Run(run(check, values)),
-        _ => Part::Geometry,
+        _ => Part::Run(run(check, values)),
     };
     // Without `cg` a rod takes it from the rod length of another table, which may change: the part is not kept.
     let is_alone = !matches!(part, Part::Rod(_)) || values.has("cg");
@@ -81,6 +77,18 @@ fn required(check: &mut Check, values: &Values) {
             let what = format!("`{}` is missing in {}", key.name, section.name);
             [what, format!("add {}: {}", key.example(), key.meaning)]
         });
+    }
+}
+
+fn geometry(values: &Values) -> Geometry {
+    Geometry {
+        crank: values.number("crank").unwrap_or(CRANK),
+        rod: values.number("rod").unwrap_or(ROD),
+        offset: values.number("offset").unwrap_or(0.0),
+        branch: match values.text("branch") {
+            Some("left") => Branch::Left,
+            _ => Branch::Right,
+        },
     }
 }
 

@@ -42,7 +42,7 @@ impl Scene {
             places: &self.places,
         };
         problems(self, &mut check);
-        check.result()
+        self.places.reject_any(check.problems)
     }
 }
 
