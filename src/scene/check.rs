@@ -33,7 +33,8 @@ impl Check<'_> {
             self.add(field, what, "give a finite value");
         } else if value.abs() > LARGEST_VALUE {
             let what = format!("{value:e} is too large to be computed with");
-            self.add(field, what, "give a value below 1e50 in SI units");
+            let help = format!("give a value below {LARGEST_VALUE:e} in SI units");
+            self.add(field, what, help);
         }
         value.abs() <= LARGEST_VALUE
     }

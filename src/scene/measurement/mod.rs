@@ -22,7 +22,7 @@ pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
 
 /// File of the samples, in which messages find lines and cells.
 #[derive(Clone, Debug)]
-struct Source {
+struct SampleFile {
     file: PathBuf,
     text: String,
     /// Beginning of the rows of numbers, and their delimiter.
@@ -33,7 +33,7 @@ struct Source {
     value: Column,
 }
 
-impl Source {
+impl SampleFile {
     fn row(&self, sample: usize) -> &str {
         let mut rows = self.dialect.rows(&self.text);
         rows.nth(sample).unwrap_or_default()
@@ -55,7 +55,7 @@ pub struct Measurement {
     resolution: f64,
     beside: Vec<BesideColumn>,
     notes: Vec<String>,
-    source: Option<Source>,
+    source: Option<SampleFile>,
 }
 
 impl Measurement {

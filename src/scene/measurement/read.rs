@@ -6,7 +6,7 @@ use super::columns::{Columns, MOST_COLUMNS};
 use super::digits::Digits;
 use super::heading::Heading;
 use super::listed::Listed;
-use super::{Beside, BesideColumn, Measured, Measurement, Reading, Source};
+use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
 use crate::numeric::parallel;
 use crate::scene::csv::Column;
 use crate::scene::csv::cell::{self, NotANumber};
@@ -42,7 +42,7 @@ pub(super) fn measurement(
         start: heading.start,
         ..dialect
     };
-    let rows = Rows {
+    let rows = SampleRows {
         text: &text,
         dialect,
         columns: &columns,
@@ -78,7 +78,7 @@ pub(super) fn measurement(
         resolution: columns.value.factor * step,
         beside: columns.beside.iter().map(of_beside).collect(),
         notes: columns.notes,
-        source: Some(Source {
+        source: Some(SampleFile {
             file: file.to_owned(),
             dialect,
             at: [columns.at[0], columns.at[1]],
@@ -108,7 +108,7 @@ impl Samples {
 }
 
 /// Rows of numbers of a file.
-struct Rows<'a> {
+struct SampleRows<'a> {
     text: &'a str,
     dialect: Dialect,
     columns: &'a Columns,
@@ -116,7 +116,7 @@ struct Rows<'a> {
     decimal_comma: bool,
 }
 
-impl Rows<'_> {
+impl SampleRows<'_> {
     /// Reads the samples of all rows, in pieces of whole lines in parallel.
     fn samples(&self) -> Samples {
         let mut rest = &self.text[self.dialect.start..];

@@ -5,7 +5,7 @@ use std::path::Path;
 #[cfg(feature = "cli")]
 use super::{
     Interpolation, Table,
-    rows::{Rows, columns_error},
+    rows::{TableRows, columns_error},
 };
 use crate::error::Error;
 #[cfg(feature = "cli")]
@@ -106,7 +106,7 @@ impl Table {
         let columns = columns(&pairs, of, value).map_err(wrong)?;
         let list = pairs.numbers().map_err(wrong)?;
         let [x, y] = [columns[0].factor, columns[1].factor];
-        let rows = Rows {
+        let rows = TableRows {
             of,
             points: list
                 .iter()

@@ -14,7 +14,7 @@ pub use crate::numeric::interpolate::Interpolation;
 pub use file::calibration_points;
 #[cfg(feature = "cli")]
 pub use file::{LoadTable, load_table};
-use rows::Rows;
+use rows::TableRows;
 
 /// Interpolated values over one variable, SI and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl Table {
             ));
         }
         let arguments = arguments.iter().copied();
-        let rows = Rows {
+        let rows = TableRows {
             of,
             points: arguments.zip(values.iter().copied()).collect(),
             columns: [Column::si(of.quantity().si()), Column::si("")],

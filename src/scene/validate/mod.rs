@@ -16,6 +16,9 @@ use crate::numeric::exact::sum3;
 /// Least local error target that can be met in double precision.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
+/// Largest local error target.
+const LARGEST_TOLERANCE: f64 = 0.1;
+
 /// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
 pub(crate) const MOST_OUTPUT_ROWS: f64 = 1e9;
 
@@ -218,12 +221,13 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
             "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
         );
     }
-    if !(LEAST_TOLERANCE..=0.1).contains(&run.tolerance) {
-        list.add(
-            "run.tolerance",
-            format!("a tolerance of {} cannot be used", show(run.tolerance)),
-            "give one from 1e-14 to 0.1; 1e-10 is the default",
+    if !(LEAST_TOLERANCE..=LARGEST_TOLERANCE).contains(&run.tolerance) {
+        let what = format!("a tolerance of {} cannot be used", show(run.tolerance));
+        let usual = Run::default().tolerance;
+        let help = format!(
+            "give one from {LEAST_TOLERANCE:e} to {LARGEST_TOLERANCE}; {usual:e} is the default"
         );
+        list.add("run.tolerance", what, help);
     }
 }
 
