@@ -51,13 +51,7 @@ pub(super) fn friction_at(
             FromRest::Jam(_) => None,
         };
         let band = Statics::new(scene, mu_static)?.crank_torque(theta).band;
-        (
-            found,
-            [
-                band.and_then(|band| band.min),
-                band.and_then(|band| band.max),
-            ],
-        )
+        (found, band.map_or([None; 2], |band| [band.min, band.max]))
     };
     let at = FrictionAt {
         force_n: found.map(|(_, force)| force),

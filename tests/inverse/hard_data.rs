@@ -149,7 +149,7 @@ fn known_loads_need_times_that_doubles_tell_apart() {
     let motion = Measurement::parse(Path::new("data.csv"), text, &reading).expect("samples");
     let scene = Scene::load(hard("12-polynomial.toml")).expect("a scene");
     let found = inverse(&scene, &motion, &InverseOptions::default());
-    let wrong = found.err().expect("equal times").to_string();
+    let wrong = found.expect_err("equal times").to_string();
     for part in ["data.csv:3:1", "let the time begin near 0"] {
         assert!(wrong.contains(part), "{wrong}");
     }

@@ -53,7 +53,8 @@ fn table(section: &Section) -> Value {
     }
 }
 
-/// Returns each kind with its required keys (for `dry` a value or a table), and the units of keys that are formulas in another kind.
+/// Returns each kind with its required keys (for `dry` a value or a table), and the units of keys that are formulas in
+/// another kind.
 fn kinds(section: &Section) -> Value {
     let kinds = section.kinds();
     kinds
