@@ -181,7 +181,7 @@ impl Draft {
         }
         let mut scene = assemble::scene(&mut check, contents);
         validate::problems(&scene, &mut check);
-        self.places.reject_any(check.problems)?;
+        check.result()?;
         scene.places = self.places.clone();
         Ok(scene)
     }

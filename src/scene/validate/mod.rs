@@ -45,7 +45,7 @@ impl Scene {
             places: &self.places,
         };
         problems(self, &mut check);
-        self.places.reject_any(check.problems)
+        check.result()
     }
 }
 
