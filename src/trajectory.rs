@@ -82,7 +82,7 @@ impl Trajectory {
     }
 
     /// Maps a trajectory of another coordinate to the crank; `view` gives crank angle and speed.
-    pub fn seen_as(mut self, view: Arc<CrankOf>) -> Trajectory {
+    pub fn mapped_to_crank(mut self, view: Arc<CrankOf>) -> Trajectory {
         self.view = Some(View(view));
         self
     }
@@ -136,7 +136,7 @@ impl Trajectory {
             Stored::Orbit(orbit) => Some(orbit.state(t - self.begin)),
             Stored::Pieces(pieces) => {
                 let after = pieces.partition_point(|piece| piece.end < t);
-                pieces.get(after)?.coordinate(t)
+                pieces.get(after)?.state(t)
             }
             Stored::Steps(steps) => {
                 let after = steps.partition_point(|step| step.end.t < t);

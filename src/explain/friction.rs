@@ -39,28 +39,24 @@ pub(super) fn friction_at(
         let (alpha, touch) = free.sliding(free.opposing(mu, sgn_v));
         (free.clear_of_jam(mu) > 0.0).then_some((alpha, touch.friction))
     };
-    if omega != 0.0 {
-        let found = sliding(omega.signum());
+    let (found, holding) = if omega != 0.0 {
         let driven = guide.driven(0.0, angle, omega, 0.0);
         let without = equation.driving_torque(0.0, theta, omega, 0.0);
         let holding = driven.map(|touch| without - touch.friction * dx);
-        let at = FrictionAt {
-            force_n: found.map(|(_, force)| force),
-            holding_min_nm: holding,
-            holding_max_nm: holding,
+        (sliding(omega.signum()), [holding; 2])
+    } else {
+        let found = match guide.at_rest(angle).held(0.0).free.from_rest(mu, mu_static) {
+            FromRest::Hold(touch) => Some((0.0, touch.friction)),
+            FromRest::Move(direction) => sliding(direction),
+            FromRest::Jam(_) => None,
         };
-        return Ok(Some((found.map(|(alpha, _)| alpha), at)));
-    }
-    let found = match guide.at_rest(angle).held(0.0).free.from_rest(mu, mu_static) {
-        FromRest::Hold(touch) => Some((0.0, touch.friction)),
-        FromRest::Move(direction) => sliding(direction),
-        FromRest::Jam(_) => None,
+        let band = Statics::new(scene, mu_static)?.crank_torque(theta).band;
+        (found, band.map_or([None; 2], |band| [band.min, band.max]))
     };
-    let band = Statics::new(scene, mu_static)?.crank_torque(theta).band;
     let at = FrictionAt {
         force_n: found.map(|(_, force)| force),
-        holding_min_nm: band.and_then(|band| band.min),
-        holding_max_nm: band.and_then(|band| band.max),
+        holding_min_nm: holding[0],
+        holding_max_nm: holding[1],
     };
     Ok(Some((found.map(|(alpha, _)| alpha), at)))
 }

@@ -159,9 +159,11 @@ fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
             let mut theta = 0.1;
             for _ in 0..COUNT {
                 let alpha = equation.acceleration(0.0, theta, speed);
+                if theta > 6.0 {
+                    theta = 0.0;
+                }
                 // The next angle depends on this result, as in an integration.
-                theta =
-                    0.1 + 0.003 * f64::from(alpha > 0.0) + if theta > 6.0 { 0.0 } else { theta };
+                theta += 0.1 + 0.003 * f64::from(alpha > 0.0);
             }
             std::hint::black_box(theta);
             begun.elapsed().as_secs_f64() * 1e9 / f64::from(COUNT)
@@ -230,10 +232,8 @@ fn written_out(scene: &Scene) -> Vec<String> {
         _ => lines.push("V = 0".to_owned()),
     }
     let arm = |of: &LoadOf<'_>| if of.on_slider { " x'" } else { "" };
-    let work = scene.loads();
-    let work = work.map(|of| format!("[{}]{}", of.load, arm(&of)));
-    let work: Vec<String> = work.collect();
-    lines.push(format!("Q = {}", joined(&work)));
+    let work = scene.loads().map(|of| format!("[{}]{}", of.load, arm(&of)));
+    lines.push(format!("Q = {}", joined(&work.collect::<Vec<_>>())));
     lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));
     lines
 }
@@ -245,9 +245,8 @@ fn short(value: f64) -> f64 {
 }
 
 fn joined(parts: &[String]) -> String {
-    if parts.is_empty() {
-        "0".to_owned()
-    } else {
-        parts.join(" + ")
+    match parts {
+        [] => "0".to_owned(),
+        _ => parts.join(" + "),
     }
 }

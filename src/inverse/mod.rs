@@ -103,7 +103,7 @@ use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::stop::Stop;
 use crate::numeric::student;
-use crate::scene::{Measured, Measurement, Scene, UncertainValue};
+use crate::scene::{Measured, Measurement, MovedScene, Scene};
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]
@@ -158,7 +158,7 @@ pub fn inverse(
 /// The errors of [`inverse`].
 pub fn inverse_of_uncertain(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
@@ -172,11 +172,11 @@ pub fn inverse_of_uncertain(
 
 fn recovered(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
-    let scene = &measurement.known_in(scene);
+    let scene = &measurement.known_in(scene)?;
     let plan = refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;

@@ -29,7 +29,7 @@ fn demanded(
     let times = measurement.times();
     let r = backwards.equation.linkage().r;
     parallel::pairs(times.len(), |i| {
-        let state = fitted.motion[i].stretched(measurement.time_uncertainty());
+        let state = fitted.motion[i].stretched(measurement.period_uncertainty());
         let mut demand = backwards.demand(times[i], &state);
         [demand.force_se, demand.torque_se] = shared.with(i, [demand.force_se, demand.torque_se]);
         let row = InverseRow::new(times[i], &state, &demand);

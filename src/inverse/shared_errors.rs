@@ -16,7 +16,7 @@ use super::smoother::Smoothed;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::scene::{Measurement, Scene, UncertainValue};
+use crate::scene::{Measurement, MovedScene, Scene};
 
 /// Share of a source in the variance of the slider force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -41,7 +41,7 @@ pub(super) struct Source {
 /// Lists the sources: uncertain values of the scene, and the zero of an encoder by its standard error, rad.
 pub(super) fn sources(
     scene: &Scene,
-    uncertain: &[UncertainValue],
+    uncertain: &[MovedScene],
     measurement: &Measurement,
     zero: Option<f64>,
 ) -> Result<Vec<Source>, Error> {
@@ -55,7 +55,7 @@ pub(super) fn sources(
     };
     let of_scene = uncertain
         .iter()
-        .map(|one| source(&one.key, &measurement.known_in(&one.moved), 0.0));
+        .map(|one| source(&one.key, &measurement.known_in(&one.moved)?, 0.0));
     let of_zero = zero.map(|zero| source("zero of the encoder", scene, zero));
     of_scene.chain(of_zero).collect()
 }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::cycle::{self, named};
+use super::cycle::{cycle_over_angle, non_zero};
 use super::{Candidate, Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
@@ -18,7 +18,7 @@ pub(super) struct Choice {
 
 impl Choice {
     /// Creates the choice of an engine without a stepper.
-    fn of(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
+    fn without_stepper(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
         Choice {
             engine,
             stepper: None,
@@ -72,7 +72,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         return for_all(
             method,
             &[Method::Auto],
-            Choice::of(
+            Choice::without_stepper(
                 Engine::Contact,
                 "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart",
             ),
@@ -84,7 +84,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         return for_all(
             method,
             &[Method::Auto, Method::ClosedForm],
-            Choice::of(
+            Choice::without_stepper(
                 Engine::ClosedForm,
                 "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
             ),
@@ -127,7 +127,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             "a load of kind \"dry\", which turns round with the motion",
             IN_TIME,
         ),
-        _ => over_angle(method, scene, class),
+        _ => energy_angle_or_time(method, scene, class),
     }
 }
 
@@ -150,61 +150,63 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 }
 
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
-fn over_angle(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
+fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
     let rubs = scene.friction.is_some();
-    let (without_energy, scene_is) = match rubs {
-        true => (
-            Some("Coulomb friction, whose work depends on the speed".to_owned()),
-            "this motion with Coulomb friction",
-        ),
-        false => (
-            why_not_energy(scene).map(|why| format!("this scene: {why}")),
-            "this scene",
-        ),
+    let without_energy = match rubs {
+        true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
+        false => why_not_energy(scene).map(|why| format!("this scene: {why}")),
     };
     match (method, without_energy) {
-        (Method::Auto | Method::Energy, None) => Ok(Choice::of(
-            Engine::Energy,
-            "every load depends on the position alone: omega from the energy, time from one quadrature",
+        (Method::Auto | Method::Energy, None) => {
+            return Ok(Choice::without_stepper(
+                Engine::Energy,
+                "every load depends on the position alone: omega from the energy, time from one quadrature",
+            ));
+        }
+        (Method::Energy, Some(what)) => return Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
+        _ => {}
+    }
+    match (why_not_angle(scene, class), rubs) {
+        (None, true) => Ok(Choice::without_stepper(
+            Engine::Angle,
+            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
         )),
-        (Method::Energy, Some(what)) => Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
-        _ => match why_not_angle(scene, class) {
-            None => Ok(Choice::of(
-                Engine::Angle,
-                match rubs {
-                    true => {
-                        "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over"
-                    }
-                    false => {
-                        "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over"
-                    }
-                },
-            )),
-            Some(why) if method == Method::Angle => {
-                Err(cannot_serve(method, &format!("{scene_is}: {why}"), IN_TIME))
-            }
-            Some(why) if rubs => Ok(Choice::in_time(
-                Stepper::Picard,
-                format!(
-                    "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
-                ),
-            )),
-            Some(why) => Ok(Choice::in_time(
-                Stepper::Picard,
-                format!("{why}: integration in time, by sweeps over Gauss nodes"),
-            )),
-        },
+        (None, false) => Ok(Choice::without_stepper(
+            Engine::Angle,
+            "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
+        )),
+        (Some(why), _) if method == Method::Angle => {
+            let with = if rubs {
+                "motion with Coulomb friction"
+            } else {
+                "scene"
+            };
+            Err(cannot_serve(
+                method,
+                &format!("this {with}: {why}"),
+                IN_TIME,
+            ))
+        }
+        (Some(why), true) => Ok(Choice::in_time(
+            Stepper::Picard,
+            format!(
+                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+            ),
+        )),
+        (Some(why), false) => Ok(Choice::in_time(
+            Stepper::Picard,
+            format!("{why}: integration in time, by sweeps over Gauss nodes"),
+        )),
     }
 }
 
 /// Returns why omega does not follow from the position: a load depends on more, or its corners are not known.
 fn why_not_energy(scene: &Scene) -> Option<String> {
     let position = Variables::THETA.or(Variables::X);
-    let more = named(scene).find_map(|load| {
-        let reads = load.reads();
+    let more = non_zero(scene).find_map(|of| {
+        let reads = of.reads();
         let depends = reads.or(position) != position;
-        depends
-            .then(|| format!("{load} depends on {reads}, and its work on more than the position"))
+        depends.then(|| format!("{of} depends on {reads}, and its work on more than the position"))
     });
     more.or_else(|| why_corners(scene))
 }
@@ -219,9 +221,11 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     if scene.motion.speed == 0.0 {
         return Some("the crank starts at rest".to_owned());
     }
-    let why = why_corners(scene).or_else(|| cycle::over_angle(scene).err());
-    let jams = || "the slider jams in its guide at an angle of the turn".to_owned();
-    why.or_else(|| (rubs && self::jams(scene)).then(jams))
+    let why = why_corners(scene).or_else(|| cycle_over_angle(scene).err());
+    if why.is_none() && rubs && jams(scene) {
+        return Some("the slider jams in its guide at an angle of the turn".to_owned());
+    }
+    why
 }
 
 /// Number of equally spaced crank angles of a turn at which `jams` tests the guide.
@@ -240,22 +244,16 @@ fn jams(scene: &Scene) -> bool {
 
 /// Returns the first load whose corners are not known as crank angles, and why.
 fn why_corners(scene: &Scene) -> Option<String> {
-    named(scene).find_map(|load| {
-        let why = why_rough(load.of.load)?;
-        Some(format!("{load} {why}"))
-    })
-}
-
-/// Returns why the corners of a load are not known as crank angles.
-fn why_rough(load: &Load) -> Option<String> {
-    match load {
-        Load::Table(table) if table.of() != Variable::Theta => Some(format!(
-            "has its rows over {}, not over theta",
-            table.of().name()
-        )),
-        Load::Expression(expression) if expression.jumps() => {
-            Some("may jump: step, sign, floor or mod stands in it".to_owned())
+    non_zero(scene).find_map(|of| match of.load {
+        Load::Table(table) if table.of() != Variable::Theta => {
+            let rows_over = table.of().name();
+            Some(format!(
+                "{of} has its rows over {rows_over}, not over theta"
+            ))
         }
+        Load::Expression(expression) if expression.jumps() => Some(format!(
+            "{of} may jump: step, sign, floor or mod stands in it"
+        )),
         _ => None,
-    }
+    })
 }

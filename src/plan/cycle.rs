@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::terms::shown;
-use crate::scene::{Load, LoadKey, LoadOf, Period, Repeats, Scene, Variable, Variables};
+use crate::scene::{Load, LoadKey, LoadOf, Period, Periodicity, Scene, Variable};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, Serialize)]
@@ -28,7 +28,7 @@ pub struct LoadPeriod {
     pub name: LoadName,
     /// Period of the load, or why there is none.
     #[serde(serialize_with = "shown")]
-    pub repeats: LoadRepeats,
+    pub repeats: LoadPeriodicity,
     /// Warning that the load is not known between the nodes of panels and steps, if it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
@@ -43,75 +43,51 @@ pub struct LoadName {
 
 /// Period of a load over the crank angle and whether it reads the time; displayed in words.
 #[derive(Clone, Copy, Debug)]
-pub struct LoadRepeats {
-    over_angle: Repeats,
+pub struct LoadPeriodicity {
+    over_angle: Periodicity,
     reads_time: bool,
 }
 
 impl Cycle {
     /// Computes the cycle of a scene; loads that depend on the time have none.
     pub fn of(scene: &Scene) -> Cycle {
-        let named: Vec<Named> = named(scene).collect();
-        let mut turns = over_angle(scene);
-        for load in named.iter().filter(|load| load.reads_time()) {
-            turns = turns.and(Err(format!("{load} {OF_TIME}")));
+        let mut turns = cycle_over_angle(scene);
+        for of in non_zero(scene).filter(reads_time) {
+            turns = turns.and(Err(format!("{of} {OF_TIME}")));
         }
         Cycle {
             turns: turns.as_ref().ok().copied(),
             why_not: turns.err(),
-            loads: named.iter().map(LoadPeriod::of).collect(),
+            loads: non_zero(scene).map(LoadPeriod::of).collect(),
         }
     }
 }
 
 /// Computes the cycle of a scene at fixed time, in whole turns; else names the load that does not repeat, and why.
-pub(crate) fn over_angle(scene: &Scene) -> Result<u32, String> {
-    let mut cycle = Repeats::Always;
-    for load in named(scene) {
-        cycle = cycle.with(load.repeats);
-        if let Repeats::Never(why) = cycle {
-            return Err(format!("{load} does not repeat: {why}"));
+pub(crate) fn cycle_over_angle(scene: &Scene) -> Result<u32, String> {
+    let mut cycle = Periodicity::Always;
+    for of in non_zero(scene) {
+        cycle = cycle.common(of.repeats());
+        if let Periodicity::Never(why) = cycle {
+            return Err(format!("{of} does not repeat: {why}"));
         }
     }
     Ok(match cycle {
-        Repeats::After(period) => period.whole_turns(),
+        Periodicity::After(period) => period.whole_turns(),
         _ => 1,
     })
-}
-
-/// Load with its period over the crank angle.
-pub(super) struct Named<'a> {
-    pub of: LoadOf<'a>,
-    repeats: Repeats,
-}
-
-impl Named<'_> {
-    /// Returns the variables the load depends on.
-    pub fn reads(&self) -> Variables {
-        self.of.load.reads(self.of.on_slider)
-    }
-
-    fn reads_time(&self) -> bool {
-        self.reads().has(Variable::T)
-    }
 }
 
 const OF_TIME: &str = "depends on the time t";
 const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
 
-/// Returns the loads of a scene that are not zero, with their numbers in the scene.
-pub(super) fn named(scene: &Scene) -> impl Iterator<Item = Named<'_>> {
-    let loads = scene.loads().filter(|of| !of.load.is_zero());
-    loads.map(|of| Named {
-        repeats: of.load.repeats(of.on_slider),
-        of,
-    })
+/// Iterates over the loads of a scene that are not zero.
+pub(super) fn non_zero(scene: &Scene) -> impl Iterator<Item = LoadOf<'_>> {
+    scene.loads().filter(|of| !of.load.is_zero())
 }
 
-impl fmt::Display for Named<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.of.key(), self.of.load)
-    }
+fn reads_time(of: &LoadOf<'_>) -> bool {
+    of.reads().has(Variable::T)
 }
 
 impl fmt::Display for LoadName {
@@ -120,30 +96,30 @@ impl fmt::Display for LoadName {
     }
 }
 
-impl fmt::Display for LoadRepeats {
+impl fmt::Display for LoadPeriodicity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.over_angle {
             _ if self.reads_time => write!(f, "not: it {OF_TIME}"),
-            Repeats::Always => f.write_str("at every angle"),
-            Repeats::After(Period::TURN) => f.write_str("each turn"),
-            Repeats::After(period) => write!(f, "after {period}"),
-            Repeats::Never(why) => write!(f, "not: {why}"),
+            Periodicity::Always => f.write_str("at every angle"),
+            Periodicity::After(Period::TURN) => f.write_str("each turn"),
+            Periodicity::After(period) => write!(f, "after {period}"),
+            Periodicity::Never(why) => write!(f, "not: {why}"),
         }
     }
 }
 
 impl LoadPeriod {
-    fn of(load: &Named<'_>) -> LoadPeriod {
+    fn of(of: LoadOf<'_>) -> LoadPeriod {
         LoadPeriod {
             name: LoadName {
-                key: load.of.key(),
-                load: load.of.load.clone(),
+                key: of.key(),
+                load: of.load.clone(),
             },
-            repeats: LoadRepeats {
-                over_angle: load.repeats,
-                reads_time: load.reads_time(),
+            repeats: LoadPeriodicity {
+                over_angle: of.repeats(),
+                reads_time: reads_time(&of),
             },
-            between_nodes: load.of.load.is_only_sampled().then_some(SAMPLED),
+            between_nodes: of.load.is_only_sampled().then_some(SAMPLED),
         }
     }
 }

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use choice::{after, choose};
-pub(crate) use cycle::over_angle as cycle_over_angle;
+pub(crate) use cycle::cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
 pub use refusal::refuse;
@@ -120,7 +120,9 @@ impl Plan {
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
         let reduced = scene.reduced();
-        scene.refused(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
+        scene
+            .places
+            .reject_any(not_modelled(&reduced, &Linkage::new(&scene.geometry)))?;
         Plan::of_modelled(scene, reduced, method)
     }
 
@@ -153,8 +155,7 @@ impl Plan {
 
     /// Whether an engine may compute a part of a run.
     pub(crate) fn has(&self, engine: Engine) -> bool {
-        let then = self.then.iter().map(|candidate| candidate.engine);
-        self.engine == engine || then.into_iter().any(|then| then == engine)
+        self.engine == engine || self.then.iter().any(|candidate| candidate.engine == engine)
     }
 }
 

@@ -103,62 +103,64 @@ impl fmt::Display for TermReason {
 }
 
 #[derive(Default)]
-struct Notes {
+struct Terms {
     kept: Vec<Term>,
     left_out: Vec<Term>,
 }
 
-impl Notes {
+impl Terms {
+    /// Lists a term under the reason to keep it, or under the reason, as the error, to leave it out.
+    fn list(&mut self, name: TermName, reason: Result<TermReason, TermReason>) {
+        let (list, reason) = match reason {
+            Ok(reason) => (&mut self.kept, reason),
+            Err(reason) => (&mut self.left_out, reason),
+        };
+        list.push(Term { name, reason });
+    }
+
     /// Lists a part as kept, with the reason; else as left out: of zero strength if `is_given`, otherwise absent.
-    fn take(&mut self, word: &'static str, kept: Option<TermReason>, is_given: bool) {
+    fn part(&mut self, word: &'static str, kept: Option<TermReason>, is_given: bool) {
         let absent = match is_given {
             true => TermReason::Zero,
             false => TermReason::Absent,
         };
-        let (list, reason) = match kept {
-            Some(reason) => (&mut self.kept, reason),
-            None => (&mut self.left_out, absent),
-        };
-        let name = TermName { word, number: None };
-        list.push(Term { name, reason });
+        self.list(TermName { word, number: None }, kept.ok_or(absent));
+    }
+
+    /// Lists torques or forces, each by its number.
+    fn loads(&mut self, word: &'static str, loads: &[Load], on_slider: bool) {
+        if loads.is_empty() {
+            self.part(word, None, false);
+        }
+        for (number, load) in (1..).zip(loads) {
+            let reason = match load.is_zero() {
+                true => Err(TermReason::NoLoad(load.clone())),
+                false => Ok(TermReason::Load(load.clone(), load.reads(on_slider))),
+            };
+            let number = Some(number);
+            self.list(TermName { word, number }, reason);
+        }
     }
 }
 
 /// Returns the terms kept and the terms left out; `reduced` is `scene` without parts of zero strength.
 pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
-    let mut notes = Notes::default();
+    let mut terms = Terms::default();
     let kept = reduced.crank.map(|crank| TermReason::Crank(crank.inertia));
-    notes.take("crank inertia", kept, scene.crank.is_some());
+    terms.part("crank inertia", kept, scene.crank.is_some());
     let kept = reduced.rod.map(|rod| TermReason::Rod(rod.mass, rod.model));
-    notes.take("connecting rod inertia", kept, scene.rod.is_some());
+    terms.part("connecting rod inertia", kept, scene.rod.is_some());
     let kept = reduced.slider.map(|slider| TermReason::Slider(slider.mass));
-    notes.take("slider inertia", kept, scene.slider.is_some());
+    terms.part("slider inertia", kept, scene.slider.is_some());
     let kept = reduced
         .gravity
         .map(|gravity| TermReason::Gravity(gravity.vector()));
-    notes.take("gravity", kept, scene.gravity.is_some());
-    for (word, loads) in [("torque", &scene.torques), ("force", &scene.forces)] {
-        if loads.is_empty() {
-            notes.take(word, None, false);
-        }
-        for (i, load) in loads.iter().enumerate() {
-            let (list, reason) = match load.is_zero() {
-                true => (&mut notes.left_out, TermReason::NoLoad(load.clone())),
-                false => {
-                    let reads = load.reads(word == "force");
-                    (&mut notes.kept, TermReason::Load(load.clone(), reads))
-                }
-            };
-            let name = TermName {
-                word,
-                number: Some(i + 1),
-            };
-            list.push(Term { name, reason });
-        }
-    }
+    terms.part("gravity", kept, scene.gravity.is_some());
+    terms.loads("torque", &scene.torques, false);
+    terms.loads("force", &scene.forces, true);
     let kept = reduced.friction.map(TermReason::Friction);
-    notes.take("Coulomb friction", kept, scene.friction.is_some());
+    terms.part("Coulomb friction", kept, scene.friction.is_some());
     let kept = reduced.clearance.map(TermReason::Clearance);
-    notes.take("joint clearance", kept, scene.clearance.is_some());
-    (notes.kept, notes.left_out)
+    terms.part("joint clearance", kept, scene.clearance.is_some());
+    (terms.kept, terms.left_out)
 }

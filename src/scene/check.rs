@@ -7,7 +7,7 @@ use super::{Places, Problem, Problems};
 
 /// Largest magnitude of a value, SI; the reciprocal is the least positive one. The product of five such values, an
 /// energy, neither overflows nor vanishes in double precision.
-const LARGEST: f64 = 1e50;
+const LARGEST_VALUE: f64 = 1e50;
 
 /// Problems found, and the places of the scene's keys.
 pub(super) struct Check<'a> {
@@ -23,35 +23,35 @@ impl Check<'_> {
 
     /// Returns the problems found, with their places, as the error.
     pub fn result(self) -> Result<(), Problems> {
-        match self.problems {
-            list if list.is_empty() => Ok(()),
-            list => Err(self.places.problems(list)),
-        }
+        self.places.reject_any(self.problems)
     }
 
     /// Whether none of these fields has a problem.
-    pub fn sound<const N: usize>(&self, fields: [&str; N]) -> bool {
-        let mut named = self.problems.iter().map(|problem| problem.field.as_str());
-        !named.any(|field| fields.contains(&field))
+    pub fn has_no_problem(&self, fields: &[impl AsRef<str>]) -> bool {
+        let is_one = |problem: &Problem| fields.iter().any(|field| field.as_ref() == problem.field);
+        !self.problems.iter().any(is_one)
     }
 
     pub fn finite(&mut self, field: impl Display, value: f64) -> bool {
         if !value.is_finite() {
             let what = format!("{value} is not a finite number");
             self.add(field, what, "give a finite value");
-        } else if value.abs() > LARGEST {
+        } else if value.abs() > LARGEST_VALUE {
             let what = format!("{value:e} is too large to be computed with");
-            self.add(field, what, "give a value below 1e50 in SI units");
+            let help = format!("give a value below {LARGEST_VALUE:e} in SI units");
+            self.add(field, what, help);
         }
-        value.abs() <= LARGEST
+        value.abs() <= LARGEST_VALUE
     }
 
     pub fn positive(&mut self, field: impl Display, value: f64, unit: &str) {
         if !self.finite(&field, value) {
-        } else if value <= 0.0 {
+            return;
+        }
+        if value <= 0.0 {
             let what = format!("{} is not positive", with_unit(value, unit));
             self.add(field, what, "give a value above zero");
-        } else if value < 1.0 / LARGEST {
+        } else if value < 1.0 / LARGEST_VALUE {
             let what = format!("{value:e} is too small to be computed with");
             self.add(field, what, "give a value above 1e-50 in SI units");
         }

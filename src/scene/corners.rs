@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::iter::successors;
 
-use super::{Load, Repeats, Table, Variable};
+use super::{Load, Periodicity, Table, Variable};
 
 /// Largest number of table rows in a turn whose corners are listed; with more, corners are looked up row by row.
-const MOST_ROWS: f64 = 1e5;
+const MOST_CORNERS_OF_TURN: f64 = 1e5;
 
 impl Load {
     /// Returns the crank angles, rad, at which the load is not smooth, from its table: all rows if the table has no
@@ -82,10 +82,10 @@ impl Load {
 
 /// Returns the whole turns after which a table over the crank angle repeats, if it has few enough rows in a turn.
 fn turns_in_step(table: &Table) -> Option<f64> {
-    let Repeats::After(period) = table.repeats() else {
+    let Periodicity::After(period) = table.repeats() else {
         return None;
     };
     let turns = f64::from(period.whole_turns());
     let periods = turns * TAU / period.radians();
-    (table.rows().len() as f64 * periods <= MOST_ROWS * turns).then_some(turns)
+    (table.rows().len() as f64 * periods <= MOST_CORNERS_OF_TURN * turns).then_some(turns)
 }

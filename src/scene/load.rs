@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Expression, Instant, Period, Repeats, Table, Variable, Variables, WhyNot};
+use super::{Expression, Instant, Period, Periodicity, Table, Variable, Variables, WhyNot};
 
 type LoadFunction = Arc<dyn Fn(&Instant) -> f64 + Send + Sync>;
 
@@ -136,10 +136,9 @@ impl Load {
     pub fn is_only_sampled(&self) -> bool {
         match self {
             Load::Function { reads, scales, .. } => {
-                let stated = |variable| scales.iter().any(|(of, _)| *of == variable);
-                Variable::ALL
-                    .into_iter()
-                    .any(|variable| reads.has(variable) && !stated(variable))
+                let stated = scales.iter().map(|(of, _)| *of);
+                let stated = stated.fold(Variables::NONE, Variables::with);
+                stated.or(*reads) != stated
             }
             Load::Dry(magnitude) => magnitude.is_only_sampled(),
             _ => false,
@@ -147,7 +146,7 @@ impl Load {
     }
 
     /// Returns the period of the load over the crank angle, at equal time and crank speed.
-    pub fn repeats(&self, on_slider: bool) -> Repeats {
+    pub fn repeats(&self, on_slider: bool) -> Periodicity {
         let of_position = match self {
             Load::Table(table)
             | Load::Gas {
@@ -158,19 +157,16 @@ impl Load {
             Load::Function {
                 period: Some(period),
                 ..
-            } => Repeats::After(*period),
+            } => Periodicity::After(*period),
             Load::Function { reads, .. } if reads.has(Variable::Theta) => {
-                Repeats::Never(WhyNot::Unstated)
+                Periodicity::Never(WhyNot::Unstated)
             }
-            _ => Repeats::Always,
+            _ => Periodicity::Always,
         };
-        let turns = !self
-            .reads(on_slider)
-            .disjoint(Variables::X.or(Variables::V));
-        of_position.with(if turns {
-            Repeats::After(Period::TURN)
-        } else {
-            Repeats::Always
+        let of_slider = Variables::X.or(Variables::V);
+        of_position.common(match self.reads(on_slider).disjoint(of_slider) {
+            true => Periodicity::Always,
+            false => Periodicity::After(Period::TURN),
         })
     }
 
@@ -191,15 +187,19 @@ impl Load {
 
     /// Returns the variables the load depends on, as a torque (`on_slider` false) or as a force.
     pub fn reads(&self, on_slider: bool) -> Variables {
+        let speed = if on_slider {
+            Variables::V
+        } else {
+            Variables::OMEGA
+        };
         match self {
             Load::Constant(_) => Variables::NONE,
-            Load::Viscous(_) if on_slider => Variables::V,
-            Load::Viscous(_) | Load::Motor { .. } => Variables::OMEGA,
+            Load::Viscous(_) => speed,
+            Load::Motor { .. } => Variables::OMEGA,
             Load::Spring { .. } => Variables::X,
             Load::Table(table) => Variables::NONE.with(table.of()),
             Load::Gas { .. } => Variables::THETA,
-            Load::Dry(magnitude) if on_slider => magnitude.reads(true).or(Variables::V),
-            Load::Dry(magnitude) => magnitude.reads(false).or(Variables::OMEGA),
+            Load::Dry(magnitude) => magnitude.reads(on_slider).or(speed),
             Load::Expression(expression) => expression.reads(),
             Load::Function { reads, .. } => *reads,
         }
@@ -229,7 +229,7 @@ impl Load {
             Load::Viscous(coefficient) => *coefficient == 0.0,
             Load::Motor { stall, .. } => *stall == 0.0,
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
-            Load::Table(table) => table.largest() == 0.0,
+            Load::Table(table) => table.farthest_from_zero() == 0.0,
             Load::Gas { area, .. } => *area == 0.0,
             Load::Dry(magnitude) => magnitude.is_zero(),
             Load::Expression(_) => self.fixed() == Some(0.0),

@@ -3,7 +3,6 @@
 //! A scene comes from a file ([`Scene::load`]) or from code ([`Scene::new`] and the methods that add
 //! parts). [`Scene::check`] returns all problems of either.
 
-mod body;
 mod builder;
 mod check;
 mod clearance;
@@ -15,11 +14,9 @@ mod file;
 mod load;
 mod measurement;
 mod model;
-mod motion;
 mod number;
 mod parts;
 mod period;
-mod places;
 mod problem;
 mod table;
 mod text;
@@ -27,7 +24,6 @@ pub mod unit;
 mod validate;
 mod variable;
 
-pub use body::{Crank, InertiaAbout, Rod, RodModel, Slider};
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
 #[cfg(feature = "cli")]
@@ -36,14 +32,15 @@ pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schem
 pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
-pub use model::{LoadKey, LoadOf, Scene, UncertainValue};
-pub use motion::{Every, Extent, Motion, MotionKind, Run};
-pub use parts::{Branch, Friction, Geometry, Gravity};
-pub use period::{Period, Repeats, WhyNot};
-pub use places::Places;
-pub use problem::{Problem, Problems};
+pub use model::{LoadKey, LoadOf, MovedScene, Scene};
+pub use parts::{
+    Branch, Crank, Every, Extent, Friction, Geometry, Gravity, InertiaAbout, Motion, MotionKind,
+    Rod, RodModel, Run, Slider,
+};
+pub use period::{Period, Periodicity, WhyNot};
+pub use problem::{Places, Problem, Problems};
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub(crate) use validate::{LEAST_TOLERANCE, MOST_ROWS};
+pub(crate) use validate::{LEAST_TOLERANCE, MOST_OUTPUT_ROWS};
 pub use variable::{Instant, Variable, Variables};

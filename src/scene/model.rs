@@ -3,10 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use super::check::Check;
 use super::{
-    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Places, Problem, Problems, Rod,
-    RodModel, Run, Slider, Table,
+    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Periodicity, Places, Rod,
+    RodModel, Run, Slider, Table, Variables,
 };
 
 /// A complete scene.
@@ -41,15 +40,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns problems, with their places in the file of the scene, as the error.
-    ///
-    /// # Errors
-    /// [`Problems`] unless the list is empty.
-    pub fn refused(&self, problems: Vec<Problem>) -> Result<(), Problems> {
-        let places = &self.places;
-        Check { problems, places }.result()
-    }
-
     /// Iterates over the torques, then the forces.
     pub fn loads(&self) -> impl Iterator<Item = LoadOf<'_>> {
         let lists = [(&self.torques, false), (&self.forces, true)];
@@ -112,6 +102,23 @@ impl LoadOf<'_> {
             number: self.number,
         }
     }
+
+    /// Returns the variables the load depends on.
+    pub fn reads(&self) -> Variables {
+        self.load.reads(self.on_slider)
+    }
+
+    /// Returns the period of the load over the crank angle, at equal time and crank speed.
+    pub fn repeats(&self) -> Periodicity {
+        self.load.repeats(self.on_slider)
+    }
+}
+
+/// Writes the name of the load, then its description in brackets.
+impl fmt::Display for LoadOf<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({})", self.key(), self.load)
+    }
 }
 
 impl fmt::Display for LoadKey {
@@ -123,7 +130,7 @@ impl fmt::Display for LoadKey {
 
 /// Scene with one of its values moved by the standard error.
 #[derive(Clone, Debug)]
-pub struct UncertainValue {
+pub struct MovedScene {
     /// Name of the value, as `geometry.rod`.
     pub key: String,
     /// Scene with the value one standard error higher, or lower where the higher one is impossible.

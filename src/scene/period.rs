@@ -11,7 +11,7 @@ const LONGEST_CYCLE: u32 = 120;
 const CHANCE: f64 = 1e-3;
 
 /// Relative rounding error of a number that was computed from exact ones in a few steps.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const ANGLE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Positive rational number of turns of the crank, in lowest terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,17 +83,17 @@ impl Period {
 
     /// Returns the fraction of a turn that equals an angle (rad) up to rounding.
     pub(super) fn of_angle(angle: f64) -> Result<Period, WhyNot> {
-        Period::near(angle / TAU, ROUNDED)
+        Period::near(angle / TAU, ANGLE_ROUNDING)
     }
 
     /// Returns the period of an angle (rad) as written, rounded or cut off at its last digit, like a turn on a
     /// calculator, 6.283185307 rad.
     pub(super) fn as_written(angle: f64) -> Result<Period, WhyNot> {
-        Period::near(angle / TAU, (last_unit(angle) / angle).max(ROUNDED))
+        Period::near(angle / TAU, (last_unit(angle) / angle).max(ANGLE_ROUNDING))
     }
 
     /// Returns the least common multiple of two periods.
-    fn with(self, other: Period) -> Result<Period, WhyNot> {
+    fn common(self, other: Period) -> Result<Period, WhyNot> {
         let [a, b] = [self.turns, other.turns].map(u64::from);
         let turns = a / gcd(a, b) * b;
         if turns > LONGEST_CYCLE.into() {
@@ -119,7 +119,7 @@ impl fmt::Display for Period {
 
 /// Periodicity of a load over the crank angle, all other variables of the load being equal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Repeats {
+pub enum Periodicity {
     /// The load does not depend on the crank angle.
     Always,
     /// The load repeats after this period.
@@ -128,22 +128,22 @@ pub enum Repeats {
     Never(WhyNot),
 }
 
-impl Repeats {
+impl Periodicity {
     /// Returns the periodicity of a load that depends on both.
-    pub(crate) fn with(self, other: Repeats) -> Repeats {
+    pub(crate) fn common(self, other: Periodicity) -> Periodicity {
         match (self, other) {
-            (Repeats::Never(why), _) | (_, Repeats::Never(why)) => Repeats::Never(why),
-            (Repeats::Always, other) | (other, Repeats::Always) => other,
-            (Repeats::After(a), Repeats::After(b)) => a.with(b).into(),
+            (Periodicity::Never(why), _) | (_, Periodicity::Never(why)) => Periodicity::Never(why),
+            (Periodicity::Always, other) | (other, Periodicity::Always) => other,
+            (Periodicity::After(a), Periodicity::After(b)) => a.common(b).into(),
         }
     }
 }
 
-impl From<Result<Period, WhyNot>> for Repeats {
-    fn from(period: Result<Period, WhyNot>) -> Repeats {
+impl From<Result<Period, WhyNot>> for Periodicity {
+    fn from(period: Result<Period, WhyNot>) -> Periodicity {
         match period {
-            Ok(period) => Repeats::After(period),
-            Err(why) => Repeats::Never(why),
+            Ok(period) => Periodicity::After(period),
+            Err(why) => Periodicity::Never(why),
         }
     }
 }

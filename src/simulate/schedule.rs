@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::Error;
-use crate::scene::{Every, Extent, MOST_ROWS};
+use crate::scene::{Every, Extent, MOST_OUTPUT_ROWS};
 
 /// Number of rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
@@ -29,12 +29,12 @@ pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
 
 /// Refuses more rows until a time (s) than a run may have.
 pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
-    if rows <= MOST_ROWS {
+    if rows <= MOST_OUTPUT_ROWS {
         return Ok(());
     }
     Err(Error::refused(
         format!(
-            "run.output_every: more than {MOST_ROWS} output rows would be written, for the run has {rows:.0} of them until t = {until} s"
+            "run.output_every: more than {MOST_OUTPUT_ROWS} output rows would be written, for the run has {rows:.0} of them until t = {until} s"
         ),
         "give a larger step, leave it out for 500 rows, or shorten the run",
     ))

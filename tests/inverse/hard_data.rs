@@ -1,6 +1,6 @@
 //! Measured motions of `data/hard/`: compared with the polynomial that they sample, or refused with line and column.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use slider_crank::inverse::{Inverse, InverseOptions, inverse};
@@ -132,5 +132,26 @@ fn data_that_are_no_motion_are_refused_with_their_place() {
             "{message}"
         );
         assert!(output.stdout.is_empty());
+    }
+}
+
+/// A known torque is no function of times that are equal in double precision.
+#[test]
+fn known_loads_need_times_that_doubles_tell_apart() {
+    let rows = (0..40).map(|i| format!("1700000000.0000000{i:02},0.{i:02},2\n"));
+    let text = format!(
+        "t [s],theta [rad],motor [N m]\n{}",
+        rows.collect::<String>()
+    );
+    let reading = Reading {
+        known: vec!["motor".to_owned()],
+        ..Reading::default()
+    };
+    let motion = Measurement::parse(Path::new("data.csv"), text, &reading).expect("samples");
+    let scene = Scene::load(hard("12-polynomial.toml")).expect("a scene");
+    let found = inverse(&scene, &motion, &InverseOptions::default());
+    let wrong = found.expect_err("equal times").to_string();
+    for part in ["data.csv:3:1", "let the time begin near 0"] {
+        assert!(wrong.contains(part), "{wrong}");
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use slider_crank::numeric::enclosure::{Enclosed, Interval, Rectangle};
-use slider_crank::scene::{Expression, Instant, Period, Repeats, WhyNot};
+use slider_crank::scene::{Expression, Instant, Period, Periodicity, WhyNot};
 
 #[test]
 fn the_usual_mathematical_reading() {
@@ -219,7 +219,7 @@ const PLANE: [(&str, f64, f64); 11] = [
     ("(t + 2)^t", 1.4857938764326848, 0.4274890522557546),
 ];
 
-fn repeats(text: &str) -> Repeats {
+fn repeats(text: &str) -> Periodicity {
     Expression::parse(text).unwrap().repeats()
 }
 
@@ -247,11 +247,11 @@ fn periods_follow_from_the_tree() {
         ("atan2(sin(theta), cos(theta))", 1, 1),
         ("(theta + sin(theta/2)) - theta", 2, 1),
     ] {
-        let expected = Repeats::After(Period::fraction(turns, parts).unwrap());
+        let expected = Periodicity::After(Period::fraction(turns, parts).unwrap());
         assert_eq!(repeats(text), expected, "{text}");
     }
     for text in ["3", "omega*2 - t", "sin(omega)", "0*theta", "theta - theta"] {
-        assert_eq!(repeats(text), Repeats::Always, "{text}");
+        assert_eq!(repeats(text), Periodicity::Always, "{text}");
     }
 }
 
@@ -269,7 +269,7 @@ fn what_the_tree_does_not_prove_does_not_repeat() {
         "atan2(theta, 1)",
         "floor(theta/3)",
     ] {
-        assert_eq!(repeats(text), Repeats::Never(WhyNot::Outside), "{text}");
+        assert_eq!(repeats(text), Periodicity::Never(WhyNot::Outside), "{text}");
     }
     for text in [
         "sin(1.4142135623730951*theta)",
@@ -278,14 +278,14 @@ fn what_the_tree_does_not_prove_does_not_repeat() {
         "mod(theta, 0)",
         "sin(theta/0)",
     ] {
-        let never = Repeats::Never(WhyNot::Incommensurable);
+        let never = Periodicity::Never(WhyNot::Incommensurable);
         assert_eq!(repeats(text), never, "{text}");
     }
     for (text, turns) in [
         ("sin(0.3333*theta)", 10000.0),
         ("sin(theta/11) + cos(theta/13)", 143.0),
     ] {
-        let never = Repeats::Never(WhyNot::TooLong(turns));
+        let never = Periodicity::Never(WhyNot::TooLong(turns));
         assert_eq!(repeats(text), never, "{text}");
     }
 }

@@ -1,9 +1,11 @@
 //! Periods of tables and formulas over the crank angle.
 
-use slider_crank::scene::{Expression, Interpolation, Period, Repeats, Table, Variable, WhyNot};
+use slider_crank::scene::{
+    Expression, Interpolation, Period, Periodicity, Table, Variable, WhyNot,
+};
 
 /// Returns the repetition of a table over the crank angle with this period (rad).
-fn of_table(period: f64) -> Repeats {
+fn of_table(period: f64) -> Periodicity {
     let arguments = [0.0, 0.5 * period];
     let table = Table::new(
         Variable::Theta,
@@ -15,12 +17,12 @@ fn of_table(period: f64) -> Repeats {
     table.expect("a table").repeats()
 }
 
-fn of_formula(text: &str) -> Repeats {
+fn of_formula(text: &str) -> Periodicity {
     Expression::parse(text).expect("a formula").repeats()
 }
 
-fn after(turns: u32, parts: u32) -> Repeats {
-    Repeats::After(Period::fraction(turns, parts).expect("a period"))
+fn after(turns: u32, parts: u32) -> Periodicity {
+    Periodicity::After(Period::fraction(turns, parts).expect("a period"))
 }
 
 /// A period in degrees is the exact fraction as written.
@@ -41,7 +43,7 @@ fn degrees_are_exact() {
     }
     for (degrees, turns) in [(361.0, 361.0), (359.9, 3599.0)] {
         let found = of_table(f64::to_radians(degrees));
-        assert_eq!(found, Repeats::Never(WhyNot::TooLong(turns)));
+        assert_eq!(found, Periodicity::Never(WhyNot::TooLong(turns)));
     }
 }
 
@@ -65,11 +67,15 @@ fn radians_are_fractions_as_far_as_their_digits_tell() {
         1e-3, 1e-300, 1.0, 3.0, 6.0, 6.3, 4.27, 4.269881, 2.5, 0.1, 6.2833,
     ] {
         let found = of_table(angle);
-        assert_eq!(found, Repeats::Never(WhyNot::Incommensurable), "{angle}");
+        assert_eq!(
+            found,
+            Periodicity::Never(WhyNot::Incommensurable),
+            "{angle}"
+        );
     }
     // A formula means exactly the number written in it.
     let found = of_formula("mod(theta, 6.283185307)");
-    assert_eq!(found, Repeats::Never(WhyNot::Incommensurable));
+    assert_eq!(found, Periodicity::Never(WhyNot::Incommensurable));
 }
 
 #[test]
@@ -83,5 +89,5 @@ fn both_repeat_after_the_least_common_multiple() {
         assert_eq!(of_formula(text), after(turns, parts), "{text}");
     }
     let found = of_formula("sin(theta/11) + sin(theta/13)");
-    assert_eq!(found, Repeats::Never(WhyNot::TooLong(143.0)));
+    assert_eq!(found, Periodicity::Never(WhyNot::TooLong(143.0)));
 }

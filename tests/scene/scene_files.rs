@@ -9,7 +9,7 @@ use serde_json::Value;
 use slider_crank::mechanism::single;
 use slider_crank::scene::{
     Branch, ContactLaw, Every, Extent, InertiaAbout, Instant, Joint, Load, MotionKind, Period,
-    Repeats, RodModel, Scene, Table, Variable, schema,
+    Periodicity, RodModel, Scene, Table, Variable, schema,
 };
 use tempfile::TempDir;
 
@@ -269,7 +269,7 @@ fn the_pressure_of_the_four_strokes_is_its_formulas() {
     };
     assert_eq!(
         pressure.repeats(),
-        Repeats::After(Period::turns(2).unwrap())
+        Periodicity::After(Period::turns(2).unwrap())
     );
     let (r, l) = (43.0f64, 143.5f64);
     let h = |degrees: f64| {

@@ -81,7 +81,7 @@ fn identify_among(
 ) -> Result<Identification, Error> {
     let free = &all[..count];
     check(free)?;
-    let scene_at = &|values: &[f64]| Ok(measurement.known_in(&scene_at(values)?));
+    let scene_at = &|values: &[f64]| Ok(measurement.known_in(&scene_at(values)?)?);
     let start: Vec<f64> = free.iter().map(|one| one.start).collect();
     let scene = scene_at(&start)?;
     modelled(&scene)?;

@@ -30,6 +30,6 @@ pub(super) fn modelled(scene: &Scene) -> Result<Scene, Problems> {
     }
     let starts = list.is_empty();
     run::problems(&reduced, &linkage, starts, &mut list);
-    scene.refused(list)?;
+    scene.places.reject_any(list)?;
     Ok(reduced)
 }

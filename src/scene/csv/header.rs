@@ -62,7 +62,7 @@ pub(in crate::scene) fn bare(unit: &str) -> &str {
 
 impl Header {
     /// Returns the column of the header, whose unit must be one of `quantity`.
-    pub(in crate::scene) fn column(self, quantity: Quantity) -> Result<Column, String> {
+    pub(in crate::scene) fn into_column(self, quantity: Quantity) -> Result<Column, String> {
         if self.unit.is_empty() {
             return Err(format!(
                 "the column `{}` has no unit: write it like `{} [{}]`",

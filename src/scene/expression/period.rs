@@ -8,34 +8,34 @@ use std::f64::consts::{PI, TAU};
 use super::Expression;
 use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op, Operand};
 use crate::scene::Variable;
-use crate::scene::period::{Period, Repeats, WhyNot};
+use crate::scene::period::{Period, Periodicity, WhyNot};
 
 /// Relative rounding error of the constants of a formula, which may be quotients and products of a few others.
-const ROUNDED: f64 = 16.0 * f64::EPSILON;
+const CONSTANT_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Subexpression as slope·theta plus a periodic rest.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     slope: f64,
-    rest: Repeats,
+    rest: Periodicity,
     /// Value of a subexpression that reads no variable.
     value: Option<f64>,
 }
 
 impl Expression {
     /// Returns the period of the expression over the crank angle, at equal t and omega.
-    pub fn repeats(&self) -> Repeats {
+    pub fn repeats(&self) -> Periodicity {
         let part = self.evaluate(|variable| match variable {
-            Variable::Theta => Part::new(1.0, Repeats::Always),
-            Variable::X | Variable::V => Part::new(0.0, Repeats::After(Period::TURN)),
-            Variable::T | Variable::Omega => Part::new(0.0, Repeats::Always),
+            Variable::Theta => Part::new(1.0, Periodicity::Always),
+            Variable::X | Variable::V => Part::new(0.0, Periodicity::After(Period::TURN)),
+            Variable::T | Variable::Omega => Part::new(0.0, Periodicity::Always),
         });
         part.repeating().rest
     }
 }
 
 impl Part {
-    fn new(slope: f64, rest: Repeats) -> Part {
+    fn new(slope: f64, rest: Periodicity) -> Part {
         Part {
             slope,
             rest,
@@ -49,15 +49,15 @@ impl Part {
 
     fn plus(self, other: Part) -> Part {
         let sum = self.slope + other.slope;
-        let rounding = ROUNDED * self.slope.abs().max(other.slope.abs());
+        let rounding = CONSTANT_ROUNDING * self.slope.abs().max(other.slope.abs());
         let slope = if sum.abs() <= rounding { 0.0 } else { sum };
-        Part::new(slope, self.rest.with(other.rest))
+        Part::new(slope, self.rest.common(other.rest))
     }
 
     /// Returns the period of a function that repeats only if the part has no slope.
     fn repeating(self) -> Part {
         let moves = self.slope != 0.0;
-        let outside = Repeats::Never(WhyNot::Outside);
+        let outside = Periodicity::Never(WhyNot::Outside);
         Part::new(0.0, if moves { outside } else { self.rest })
     }
 
@@ -66,8 +66,8 @@ impl Part {
         if self.slope == 0.0 {
             return self;
         }
-        let own = Period::near((length / self.slope).abs() / TAU, ROUNDED);
-        Part::new(0.0, self.rest.with(own.into()))
+        let own = Period::near((length / self.slope).abs() / TAU, CONSTANT_ROUNDING);
+        Part::new(0.0, self.rest.common(own.into()))
     }
 }
 
@@ -75,7 +75,7 @@ impl Operand for Part {
     fn constant(value: f64) -> Part {
         Part {
             value: Some(value),
-            ..Part::new(0.0, Repeats::Always)
+            ..Part::new(0.0, Periodicity::Always)
         }
     }
 

@@ -3,50 +3,44 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys::SECTIONS;
-use super::loads::keys_fit;
+use super::loads::check_keys;
 use super::part::Part;
 use super::read::{Contents, Values};
 use super::{bodies, loads};
 use crate::scene::check::Check;
 use crate::scene::{
-    Branch, Clearance, ContactLaw, Extent, Friction, Gravity, Joint, Load, Motion, MotionKind, Run,
-    Scene,
+    Branch, Clearance, ContactLaw, Extent, Friction, Geometry, Gravity, Joint, Load, Motion,
+    MotionKind, Run, Scene,
 };
+
+/// Lengths, m, in place of those that could not be read.
+const CRANK: f64 = 1.0;
+const ROD: f64 = 2.0;
 
 /// Assembles the scene of these tables. A value that is missing or could not be read gets one that raises no further
 /// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
-    let tables = &contents.tables;
-    let unknown = tables.iter().filter(|values| values.part.get().is_none());
+    let tables = contents.tables.iter();
+    let unknown = tables.clone().filter(|values| values.part.get().is_none());
     unknown.for_each(|values| required(check, values));
-    let geometry = tables
-        .iter()
-        .find(|values| values.section.name == "geometry");
-    if geometry.is_none() && check.sound(["geometry"]) {
+    let mut names = tables.map(|values| values.section.name);
+    if !names.any(|name| name == "geometry") && check.has_no_problem(&["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
     }
-    let length = |key: &str, default: f64| {
-        let length = geometry.and_then(|values| values.number(key));
-        length.unwrap_or(default)
-    };
-    let mut scene = Scene::new(length("crank", 1.0), length("rod", 2.0));
-    scene.title = contents.title;
-    scene.geometry.offset = length("offset", 0.0);
-    if geometry.and_then(|values| values.text("branch")) == Some("left") {
-        scene.geometry.branch = Branch::Left;
-    }
-    // The order of the sections is that of the problems.
+    let mut scene = Scene::new(CRANK, ROD);
+    // The geometry comes first; the order of the sections is that of the problems.
     for section in SECTIONS {
-        let of_section = tables
-            .iter()
-            .filter(|values| values.section.name == section.name);
-        for values in of_section {
+        for values in contents.of_section(section) {
             let known = values.part.get().cloned();
-            let part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            if let Part::Force(Load::Gas { towards_crank, .. }) = &mut part {
+                *towards_crank = -scene.geometry.branch.sign();
+            }
             part.enter(&mut scene);
         }
     }
+    scene.title = contents.title;
     scene
 }
 
@@ -55,6 +49,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
     // A load that could not be read keeps its place, because problems of the others count the loads.
     let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
     let part = match values.section.name {
+        "geometry" => Part::Geometry(geometry(values)),
         "crank" => Part::Crank(bodies::crank(check, values)),
         "rod" => Part::Rod(bodies::rod(check, values, rod)),
         "slider" => Part::Slider(bodies::slider(check, values)),
@@ -64,8 +59,7 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
         "friction" => Part::Friction(friction(values)),
         "clearance" => Part::Clearance(clearance(values)),
         "motion" => Part::Motion(motion(check, values)),
-        "run" => Part::Run(run(check, values)),
-        _ => Part::Geometry,
+        _ => Part::Run(run(check, values)),
     };
     // Without `cg` a rod takes it from the rod length of another table, which may change: the part is not kept.
     let is_alone = !matches!(part, Part::Rod(_)) || values.has("cg");
@@ -78,13 +72,23 @@ fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
 /// Adds a problem for each key that every table of the section needs and this one lacks.
 fn required(check: &mut Check, values: &Values) {
     let section = values.section;
-    let required = section.required.iter();
-    let missing = required.filter(|name| !check.met(values, name));
-    let missing: Vec<_> = missing.filter_map(|name| section.key(name)).collect();
-    for key in missing {
-        let what = format!("`{}` is missing in {}", key.name, section.name);
-        let help = format!("add {}: {}", key.example(), key.meaning);
-        check.add(values.field(key.name), what, help);
+    for key in section.required.iter().filter_map(|name| section.key(name)) {
+        check.missing(values, key.name, || {
+            let what = format!("`{}` is missing in {}", key.name, section.name);
+            [what, format!("add {}: {}", key.example(), key.meaning)]
+        });
+    }
+}
+
+fn geometry(values: &Values) -> Geometry {
+    Geometry {
+        crank: values.number("crank").unwrap_or(CRANK),
+        rod: values.number("rod").unwrap_or(ROD),
+        offset: values.number("offset").unwrap_or(0.0),
+        branch: match values.text("branch") {
+            Some("left") => Branch::Left,
+            _ => Branch::Right,
+        },
     }
 }
 
@@ -129,7 +133,7 @@ fn clearance(values: &Values) -> Option<Clearance> {
 
 fn motion(check: &mut Check, values: &Values) -> Motion {
     let kind = values.text("kind").unwrap_or("free");
-    keys_fit(check, values, kind);
+    check_keys(check, values, kind);
     Motion {
         kind: match kind {
             "constant-speed" => MotionKind::ConstantSpeed,

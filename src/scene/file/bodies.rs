@@ -22,7 +22,7 @@ fn solid(check: &mut Check, values: &Values) -> Solid {
     let mut solid = Solid {
         mass: stated,
         box_inertia: None,
-        boxed: BOX.iter().any(|key| check.met(values, key)),
+        boxed: BOX.iter().any(|key| check.is_present(values, key)),
     };
     if !solid.boxed {
         return solid;

@@ -12,9 +12,9 @@ use super::read::Contents;
 use super::{NumberKey, Varied, VariedValue, assemble};
 use crate::error::Error;
 use crate::scene::check::Check;
-use crate::scene::places::Source;
+use crate::scene::problem::Source;
 use crate::scene::unit::Uncertain;
-use crate::scene::{Places, Problem, Problems, Scene, UncertainValue, text, validate};
+use crate::scene::{MovedScene, Places, Problem, Problems, Scene, text, validate};
 
 /// Scene file of the engine of Duarte et al. 2018, table 1, spinning freely; the default of commands without a scene.
 pub const DUARTE: &str = include_str!("../../../data/duarte-engine.toml");
@@ -212,12 +212,12 @@ impl Draft {
     ///
     /// # Errors
     /// [`Error::Scene`] if a value makes the scene impossible when moved by its error to either side.
-    pub fn uncertain(&self) -> Result<Vec<UncertainValue>, Error> {
+    pub fn uncertain(&self) -> Result<Vec<MovedScene>, Error> {
         let list = self.uncertain_keys().into_iter();
         let list = list.map(|(path, Uncertain { value, error })| {
             let key = NumberKey(path);
             let moved = |value| self.with_numbers(&[Assigned { key, value }]);
-            Ok(UncertainValue {
+            Ok(MovedScene {
                 key: key.to_string(),
                 moved: moved(value + error).or_else(|_| moved(value - error))?,
             })

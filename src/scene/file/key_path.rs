@@ -1,9 +1,9 @@
-//! Paths of the values in a scene.
+//! Paths of the values in a scene, and the known name that an unknown one may mean.
 
 use std::fmt;
 use std::str::FromStr;
 
-use super::keys::{self, Key, Kind, Section};
+use super::keys::{self, Key, Section};
 use crate::scene::unit::Quantity;
 
 /// Path of a value in a scene, as `geometry.offset` or `torque[2].value`.
@@ -16,17 +16,9 @@ pub(super) struct KeyPath {
 }
 
 impl KeyPath {
-    /// Returns the quantity of the key, if the key takes one.
-    pub fn quantity(&self) -> Option<Quantity> {
-        match self.key.kind {
-            Kind::Of(quantity) | Kind::Formula(quantity) => Some(quantity),
-            _ => None,
-        }
-    }
-
     /// Returns the SI unit in the form of scene files; empty for numbers and words.
     pub fn unit(&self) -> &'static str {
-        self.quantity().map_or("", Quantity::si)
+        self.key.kind.quantity().map_or("", Quantity::si)
     }
 
     /// Returns the path as the name of a column, as `torque_2_value`.
@@ -49,12 +41,12 @@ impl FromStr for KeyPath {
         })?;
         let section = keys::section(table).ok_or_else(|| {
             let known = keys::SECTIONS.iter().map(|section| section.name);
-            let help = keys::did_you_mean(table, "a scene", known);
+            let help = did_you_mean(table, "a scene", known);
             format!("`{table}` is not part of a scene; {help}")
         })?;
         let key = section.key(name).ok_or_else(|| {
             let known = section.keys.iter().map(|key| key.name);
-            let help = keys::did_you_mean(name, table, known);
+            let help = did_you_mean(name, table, known);
             format!("`{name}` is not a key of {table}; {help}")
         })?;
         match index > 0 && !section.repeated {
@@ -111,9 +103,30 @@ impl FromStr for NumberKey {
 
     fn from_str(text: &str) -> Result<NumberKey, String> {
         let path: KeyPath = text.trim().parse()?;
-        match path.quantity() {
+        match path.key.kind.quantity() {
             Some(_) => Ok(NumberKey(path)),
             None => Err(format!("`{path}` holds no quantity")),
         }
     }
+}
+
+/// Returns the help for an unknown `name`: the most similar known name, or all names that `owner` has.
+pub fn did_you_mean<'a>(
+    name: &str,
+    owner: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+) -> String {
+    match nearest(name, known.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("{owner} has {}", known.collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Returns the candidate most similar to `name`, if its Jaro-Winkler similarity is above 0.75.
+pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    candidates
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(likeness, _)| *likeness > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate)
 }

@@ -20,6 +20,25 @@ pub enum Kind {
     Formula(Quantity),
 }
 
+impl Kind {
+    /// Returns the quantity of the values, if they are one.
+    pub fn quantity(self) -> Option<Quantity> {
+        match self {
+            Of(quantity) | Formula(quantity) => Some(quantity),
+            _ => None,
+        }
+    }
+
+    /// Returns the words that a value may be; empty for values of other kinds.
+    pub fn words(self) -> Vec<&'static str> {
+        match self {
+            Choice(words) => words.to_vec(),
+            Kinds(kinds) => kinds.iter().map(|kind| kind.name).collect(),
+            _ => Vec::new(),
+        }
+    }
+}
+
 /// Key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
@@ -35,11 +54,12 @@ impl Key {
     /// Returns the key with a possible value, as written in the file.
     pub fn example(&self) -> String {
         let value = match self.kind {
-            Kind::Of(quantity) => quantity.examples().split(", ").next(),
-            Kind::TimeOrAngle => Some("\"1 deg\""),
-            Kind::Choice(words) => return format!("{} = \"{}\"", self.name, words[0]),
-            Kind::Kinds(kinds) => return format!("{} = \"{}\"", self.name, kinds[0].name),
-            Kind::Text | Kind::Formula(_) => None,
+            Of(quantity) => quantity.examples().split(", ").next(),
+            TimeOrAngle => Some("\"1 deg\""),
+            Choice(_) | Kinds(_) => {
+                return format!("{} = \"{}\"", self.name, self.kind.words()[0]);
+            }
+            Text | Formula(_) => None,
         };
         format!("{} = {}", self.name, value.unwrap_or("\"...\""))
     }
@@ -266,25 +286,4 @@ pub const SECTIONS: &[Section] = sections! {
 /// Returns the section with this name.
 pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.name == name)
-}
-
-/// Returns the help for an unknown `name`: the most similar known name, or all names that `owner` has.
-pub fn did_you_mean<'a>(
-    name: &str,
-    owner: &str,
-    known: impl Iterator<Item = &'a str> + Clone,
-) -> String {
-    match nearest(name, known.clone()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("{owner} has {}", known.collect::<Vec<_>>().join(", ")),
-    }
-}
-
-/// Returns the candidate most similar to `name`, if its Jaro-Winkler similarity is above 0.75.
-pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    candidates
-        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
-        .filter(|(likeness, _)| *likeness > 0.75)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, candidate)| candidate)
 }

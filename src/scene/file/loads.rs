@@ -7,7 +7,7 @@ use super::read::Values;
 use crate::scene::check::Check;
 use crate::scene::number::with_unit;
 use crate::scene::unit::{self, Quantity};
-use crate::scene::{Every, Expression, Interpolation, Load, Places, Table, Variable};
+use crate::scene::{Every, Expression, Interpolation, Load, Table, Variable};
 
 /// Reads the load of one `[[torque]]` or `[[force]]`; none if it has a problem.
 pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
@@ -16,7 +16,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
         _ => Quantity::Force,
     };
     let kind = values.text("kind")?;
-    keys_fit(check, values, kind)?;
+    check_keys(check, values, kind)?;
     match kind {
         "constant" => constant(check, values, quantity),
         "viscous" => values.number("coefficient").map(Load::Viscous),
@@ -39,7 +39,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
 }
 
 /// Reports the keys that the kind needs and the table lacks, and keys of other kinds; none if a needed key is missing.
-pub(super) fn keys_fit(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
+pub(super) fn check_keys(check: &mut Check, values: &Values, kind: &str) -> Option<()> {
     let section = values.section;
     let kind = section.kinds().iter().find(|one| one.name == kind)?;
     for name in values.names().filter(|name| *name != "kind") {
@@ -72,41 +72,40 @@ fn constant(check: &mut Check, values: &Values, quantity: Quantity) -> Option<Lo
 
 /// Reads the magnitude of a dry load: a value or a table.
 fn magnitude(check: &mut Check, values: &Values, quantity: Quantity) -> Option<Load> {
-    let [value, file] = ["value", "file"].map(|key| values.has(key));
-    if value != file {
-        if file {
+    match (values.has("value"), values.has("file")) {
+        (false, true) => {
             check.missing(values, "of", || {
-                [
-                    "`of` is missing: what the magnitude is a table of",
-                    "add of = \"theta\"",
-                ]
-                .map(str::to_owned)
+                let what = "`of` is missing: what the magnitude is a table of";
+                [what.to_owned(), "add of = \"theta\"".to_owned()]
             });
             let of = Variable::named(values.text("of")?)?;
-            return table(check, values, of, quantity).map(Load::Table);
+            table(check, values, of, quantity).map(Load::Table)
         }
-        for name in values
-            .names()
-            .filter(|name| !["kind", "value"].contains(name))
-        {
-            let what = format!("`{name}` belongs to a table, and the magnitude is `value`");
-            let help = "leave it out, or give `file` in place of `value`";
-            check.add(values.field(name), what, help);
+        (true, false) => {
+            let of_table = |name: &&str| !["kind", "value"].contains(name);
+            for name in values.names().filter(of_table) {
+                let what = format!("`{name}` belongs to a table, and the magnitude is `value`");
+                let help = "leave it out, or give `file` in place of `value`";
+                check.add(values.field(name), what, help);
+            }
+            constant(check, values, quantity)
         }
-        return constant(check, values, quantity);
+        (both, _) => {
+            let fields = ["value", "file"].map(|key| values.field(key));
+            if both || check.has_no_problem(&fields) {
+                let what = match both {
+                    true => "kind \"dry\" has both `value` and `file`",
+                    false => "`value` is missing for kind \"dry\"",
+                };
+                let unit = quantity.si();
+                let help = format!(
+                    "give its magnitude as value = \"0.5 {unit}\", or as a table with file and of"
+                );
+                check.add(&fields[0], what, help);
+            }
+            None
+        }
     }
-    let fields = ["value", "file"].map(|key| values.field(key));
-    if value || check.sound(fields.each_ref().map(String::as_str)) {
-        let what = match value {
-            true => "kind \"dry\" has both `value` and `file`",
-            false => "`value` is missing for kind \"dry\"",
-        };
-        let unit = quantity.si();
-        let help =
-            format!("give its magnitude as value = \"0.5 {unit}\", or as a table with file and of");
-        check.add(&fields[0], what, help);
-    }
-    None
 }
 
 fn expression(check: &mut Check, values: &Values) -> Option<Load> {
@@ -127,7 +126,7 @@ fn expression(check: &mut Check, values: &Values) -> Option<Load> {
     None
 }
 
-/// Reads a gas force, directed as on the right branch; `Part::enter` directs it by the branch.
+/// Reads a gas force, directed as on the right branch; the scene, whose branch may change, directs it.
 fn gas(check: &mut Check, values: &Values) -> Option<Load> {
     let pressure = table(check, values, Variable::Theta, Quantity::Pressure);
     let bore = values.number("bore")?;
@@ -152,16 +151,12 @@ fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -
         Some(every) => Some(period(check, &values.field("period"), every, of)?),
         None => None,
     };
-    let file = folder(check.places).join(values.text("file")?);
+    let scene = check.places.0.as_ref().map(|source| source.file.as_path());
+    let folder = scene.and_then(Path::parent).unwrap_or(Path::new(""));
+    let file = folder.join(values.text("file")?);
     Table::read(&file, of, quantity, interpolation, period)
         .map_err(|error| check.add(values.field(&error.field), error.what, error.help))
         .ok()
-}
-
-/// Returns the folder in which the tables of a scene are looked for: that of the scene file.
-fn folder(places: &Places) -> &Path {
-    let file = places.0.as_ref().map(|source| source.file.as_path());
-    file.and_then(Path::parent).unwrap_or(Path::new(""))
 }
 
 /// Returns the period in the SI unit of the table's variable, if it fits the variable.

@@ -1,12 +1,13 @@
 //! Part of a scene that one table of a scene file makes.
 
-use crate::scene::{Clearance, Crank, Friction, Gravity, Load, Motion, Rod, Run, Scene, Slider};
+use crate::scene::{
+    Clearance, Crank, Friction, Geometry, Gravity, Load, Motion, Rod, Run, Scene, Slider,
+};
 
 /// Part of a scene made by one table.
 #[derive(Clone, Debug)]
 pub(super) enum Part {
-    /// Lengths, which are entered before all other parts.
-    Geometry,
+    Geometry(Geometry),
     Crank(Crank),
     Rod(Rod),
     Slider(Slider),
@@ -22,18 +23,13 @@ pub(super) enum Part {
 impl Part {
     pub fn enter(self, scene: &mut Scene) {
         match self {
-            Part::Geometry => {}
+            Part::Geometry(geometry) => scene.geometry = geometry,
             Part::Crank(crank) => scene.crank = Some(crank),
             Part::Rod(rod) => scene.rod = Some(rod),
             Part::Slider(slider) => scene.slider = Some(slider),
             Part::Gravity(gravity) => scene.gravity = gravity,
             Part::Torque(load) => scene.torques.push(load),
-            Part::Force(mut load) => {
-                if let Load::Gas { towards_crank, .. } = &mut load {
-                    *towards_crank = -scene.geometry.branch.sign();
-                }
-                scene.forces.push(load);
-            }
+            Part::Force(load) => scene.forces.push(load),
             Part::Friction(friction) => scene.friction = friction,
             Part::Clearance(clearance) => scene.clearance = clearance,
             Part::Motion(motion) => scene.motion = motion,

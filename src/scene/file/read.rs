@@ -7,12 +7,12 @@ use std::sync::{Arc, OnceLock};
 use toml::de::{DeTable, DeValue};
 
 use super::VariedValue;
-use super::key_path::KeyPath;
+use super::key_path::{KeyPath, did_you_mean};
 use super::keys::{self, Key, Kind, Section};
 use super::part::Part;
 use super::value::{self, Value};
 use crate::scene::check::Check;
-use crate::scene::places::Spans;
+use crate::scene::problem::Spans;
 use crate::scene::unit::Uncertain;
 use crate::scene::{Every, Problem};
 
@@ -120,7 +120,7 @@ impl Contents {
                 found.section(section, value.get_ref());
             } else {
                 let known = keys::SECTIONS.iter().map(|s| s.name).chain(["title"]);
-                let help = keys::did_you_mean(name, "a scene", known);
+                let help = did_you_mean(name, "a scene", known);
                 found.problem(name, format!("`{name}` is not part of a scene"), help);
             }
         }
@@ -167,7 +167,7 @@ impl Contents {
                 let name = name.get_ref();
                 let what = format!("`{name}` is not a key of {}", section.name);
                 let known = section.keys.iter().map(|key| key.name);
-                self.problem(&field, what, keys::did_you_mean(name, section.name, known));
+                self.problem(&field, what, did_you_mean(name, section.name, known));
                 continue;
             };
             match value::read(key, value.get_ref()) {
@@ -237,16 +237,16 @@ impl Check<'_> {
         key: &str,
         problem: impl FnOnce() -> [String; 2],
     ) {
-        if !self.met(values, key) {
+        if !self.is_present(values, key) {
             let [what, help] = problem();
             self.add(values.field(key), what, help);
         }
     }
 
     /// Whether a key is present, even if unreadable.
-    pub(super) fn met(&self, values: &Values, key: &str) -> bool {
+    pub(super) fn is_present(&self, values: &Values, key: &str) -> bool {
         // Shortcut for sweeps, which read thousands of scenes, most without a problem.
-        values.has(key) || !self.problems.is_empty() && !self.sound([&values.field(key)])
+        values.has(key) || !self.problems.is_empty() && !self.has_no_problem(&[&values.field(key)])
     }
 
     /// Adds a problem at byte `at` of a text value.

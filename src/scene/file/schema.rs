@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::keys::{Key, Kind, KindKeys, SECTIONS, Section};
+use super::keys::{Key, Kind, SECTIONS, Section};
 use crate::scene::unit::{self, Quantity};
 
 /// Returns the schema, draft 2020-12.
@@ -53,13 +53,17 @@ fn table(section: &Section) -> Value {
     }
 }
 
-/// Returns each kind with its required keys, and the units of keys that are formulas in another kind.
+/// Returns each kind with its required keys (for `dry` a value or a table), and the units of keys that are formulas in
+/// another kind.
 fn kinds(section: &Section) -> Value {
     let kinds = section.kinds();
     kinds
         .iter()
         .map(|kind| {
-            let mut then = needed(kind);
+            let mut then = match kind.name {
+                "dry" => json!({"anyOf": [{"required": ["value"]}, {"required": ["file", "of"]}]}),
+                _ => json!({"required": &kind.keys[..kind.required]}),
+            };
             let keys = section.keys.iter();
             for key in keys.filter(|key| kind.keys.contains(&key.name)) {
                 if let Kind::Formula(quantity) = key.kind
@@ -76,14 +80,6 @@ fn kinds(section: &Section) -> Value {
         .collect()
 }
 
-/// Returns the keys that a kind requires; for `dry` a value or a table.
-fn needed(kind: &KindKeys) -> Value {
-    match kind.name {
-        "dry" => json!({"anyOf": [{"required": ["value"]}, {"required": ["file", "of"]}]}),
-        _ => json!({"required": &kind.keys[..kind.required]}),
-    }
-}
-
 fn property(key: &Key) -> Value {
     let mut value = match key.kind {
         Kind::Of(Quantity::Number) => json!({"type": "number"}),
@@ -92,10 +88,7 @@ fn property(key: &Key) -> Value {
         Kind::Formula(quantity) => {
             json!({"type": ["string", "number"], "examples": examples(&[quantity])})
         }
-        Kind::Choice(words) => json!({"enum": words}),
-        Kind::Kinds(kinds) => {
-            json!({"enum": kinds.iter().map(|kind| kind.name).collect::<Vec<_>>()})
-        }
+        Kind::Choice(_) | Kind::Kinds(_) => json!({"enum": key.kind.words()}),
         Kind::Text => json!({"type": "string"}),
     };
     value["description"] = json!(key.meaning);

@@ -1,8 +1,8 @@
 //! Evenly spaced values of a key, computed on demand.
 
-use super::keys::{Key, Kind};
+use super::keys::Key;
 use super::value;
-use crate::scene::unit::{self, Scale};
+use crate::scene::unit::{self, Factor};
 
 /// Largest number of values of one key.
 const MOST_VALUES: usize = 1_000_000;
@@ -14,8 +14,8 @@ pub(super) struct Spread {
     unit: String,
     count: usize,
     logarithmic: bool,
-    /// Conversion of the unit to SI, if the key takes a quantity.
-    scale: Option<Scale>,
+    /// Factor of the unit to SI, if the key takes a quantity.
+    factor: Option<Factor>,
 }
 
 impl Spread {
@@ -50,10 +50,10 @@ impl Spread {
             unit: last_unit.to_owned(),
             count,
             logarithmic,
-            scale: match key.kind {
-                Kind::Of(quantity) | Kind::Formula(quantity) => Scale::new(last_unit, quantity),
-                _ => None,
-            },
+            factor: key
+                .kind
+                .quantity()
+                .and_then(|quantity| unit::exact_factor(last_unit, quantity)),
         };
         // Values are monotonic: a fault of any of them is a fault of one of these.
         for index in [0, 1, count.saturating_sub(2), count - 1] {
@@ -84,7 +84,7 @@ impl Spread {
             _ => first + part(last - first),
         };
         let mut text = value.to_string();
-        let number = self.scale.and_then(|scale| scale.value(&text));
+        let number = self.factor.and_then(|factor| factor.apply(&text));
         if !self.unit.is_empty() {
             text.push(' ');
             text.push_str(&self.unit);

@@ -2,7 +2,8 @@
 
 use toml::de::DeValue;
 
-use super::keys::{self, Key, Kind};
+use super::key_path::nearest;
+use super::keys::{Key, Kind};
 use crate::scene::Every;
 use crate::scene::unit::{self, Uncertain, UnitError};
 
@@ -64,22 +65,18 @@ pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
         Kind::Formula(_) => Ok(Value::Bare(text)),
         Kind::Of(quantity) => unit::uncertain(&text, quantity).map(Value::Number),
         Kind::TimeOrAngle => unit::time_or_angle(&text).map(Value::Every),
-        Kind::Choice(words) => choice(key, &text, words.iter().copied()),
-        Kind::Kinds(kinds) => choice(key, &text, kinds.iter().map(|kind| kind.name)),
+        Kind::Choice(_) | Kind::Kinds(_) => choice(key, &text),
     }
 }
 
-fn choice(
-    key: &Key,
-    text: &str,
-    words: impl Iterator<Item = &'static str> + Clone,
-) -> Result<Value, UnitError> {
-    if let Some(word) = words.clone().find(|word| *word == text) {
+fn choice(key: &Key, text: &str) -> Result<Value, UnitError> {
+    let words = key.kind.words();
+    if let Some(word) = words.iter().find(|word| **word == text) {
         return Ok(Value::Choice(word));
     }
-    let help = match keys::nearest(text, words.clone()) {
-        Some(near) => format!("did you mean \"{near}\"? It may be {}", quoted(words)),
-        None => format!("write one of {}", quoted(words)),
+    let help = match nearest(text, words.iter().copied()) {
+        Some(near) => format!("did you mean \"{near}\"? It may be {}", quoted(&words)),
+        None => expected(key.kind),
     };
     let what = format!("`{}` cannot be `{text}`", key.name);
     Err(UnitError { what, help })
@@ -92,13 +89,7 @@ pub(super) fn read_text(key: &Key, text: &str) -> Result<Value, UnitError> {
 
 fn expected(kind: Kind) -> String {
     match kind {
-        Kind::Choice(words) => format!("write one of {}", quoted(words.iter().copied())),
-        Kind::Kinds(kinds) => {
-            format!(
-                "write one of {}",
-                quoted(kinds.iter().map(|kind| kind.name))
-            )
-        }
+        Kind::Choice(_) | Kind::Kinds(_) => format!("write one of {}", quoted(&kind.words())),
         Kind::Text => "write a text in quotes".to_owned(),
         Kind::Of(quantity) | Kind::Formula(quantity) => {
             format!("write {} like {}", quantity.name(), quantity.examples())
@@ -107,6 +98,6 @@ fn expected(kind: Kind) -> String {
     }
 }
 
-fn quoted(words: impl Iterator<Item = &'static str>) -> String {
-    format!("\"{}\"", words.collect::<Vec<_>>().join("\", \""))
+fn quoted(words: &[&str]) -> String {
+    format!("\"{}\"", words.join("\", \""))
 }

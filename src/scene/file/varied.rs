@@ -37,7 +37,7 @@ pub struct Varied {
     pub(super) path: KeyPath,
     /// Values as written.
     text: String,
-    values: Values,
+    values: Variation,
     has_numbers: bool,
 }
 
@@ -51,7 +51,7 @@ pub struct VariedValue {
 }
 
 #[derive(Clone, Debug)]
-enum Values {
+enum Variation {
     Listed(Vec<VariedValue>),
     Spread(Spread),
     /// Uniform distribution between two numbers, SI.
@@ -65,21 +65,21 @@ impl Varied {
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         match &self.values {
-            Values::Listed(list) => list.len(),
-            Values::Spread(spread) => spread.len(),
-            Values::Uniform(_) | Values::Normal(_) => 1,
+            Variation::Listed(list) => list.len(),
+            Variation::Spread(spread) => spread.len(),
+            Variation::Uniform(_) | Variation::Normal(_) => 1,
         }
     }
 
     /// Whether the values are a distribution.
     pub fn is_distribution(&self) -> bool {
-        matches!(self.values, Values::Uniform(_) | Values::Normal(_))
+        matches!(self.values, Variation::Uniform(_) | Variation::Normal(_))
     }
 
     /// Returns the bounds of a uniform distribution, in SI units and radians.
     pub fn bounds(&self) -> Option<[f64; 2]> {
         match self.values {
-            Values::Uniform(bounds) => Some(bounds),
+            Variation::Uniform(bounds) => Some(bounds),
             _ => None,
         }
     }
@@ -102,7 +102,7 @@ impl Varied {
     /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
         let name = self.path.column();
-        match self.path.quantity().map(Quantity::column) {
+        match self.path.key.kind.quantity().map(Quantity::column) {
             Some(unit) if self.has_numbers && !unit.is_empty() => format!("{name}_{unit}"),
             _ => name,
         }
@@ -114,31 +114,29 @@ impl Varied {
     /// If `index` is not below the number of listed values.
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
-            Values::Listed(list) => list[index].clone(),
-            Values::Spread(spread) => VariedValue::in_spread(spread, index),
-            Values::Uniform(_) | Values::Normal(_) => self.quantile(0.5),
+            Variation::Listed(list) => list[index].clone(),
+            Variation::Spread(spread) => {
+                let (text, number) = spread.value(index);
+                VariedValue { text, number }
+            }
+            Variation::Uniform(_) | Variation::Normal(_) => self.quantile(0.5),
         }
     }
 
     /// Returns the `p` quantile of a distribution, 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
-            Values::Listed(_) | Values::Spread(_) => {
+            Variation::Listed(_) | Variation::Spread(_) => {
                 return self.value((p * self.len() as f64) as usize);
             }
-            Values::Uniform([low, high]) => low + p * (high - low),
-            Values::Normal(normal) => normal.inverse_cdf(p),
+            Variation::Uniform([low, high]) => low + p * (high - low),
+            Variation::Normal(normal) => normal.inverse_cdf(p),
         };
         VariedValue::of(number, self.unit())
     }
 }
 
 impl VariedValue {
-    fn in_spread(spread: &Spread, index: usize) -> VariedValue {
-        let (text, number) = spread.value(index);
-        VariedValue { text, number }
-    }
-
     fn read(key: &Key, text: String) -> Result<VariedValue, String> {
         let number = number(key, &text)?.map(|number| number.value);
         Ok(VariedValue { text, number })
@@ -171,9 +169,9 @@ impl FromStr for Varied {
         let text = values.trim().to_owned();
         let values = read(path.key, values)?;
         let has_numbers = match &values {
-            Values::Listed(list) => list.iter().all(|value| value.number.is_some()),
-            Values::Spread(spread) => spread.value(0).1.is_some(),
-            Values::Uniform(_) | Values::Normal(_) => true,
+            Variation::Listed(list) => list.iter().all(|value| value.number.is_some()),
+            Variation::Spread(spread) => spread.value(0).1.is_some(),
+            Variation::Uniform(_) | Variation::Normal(_) => true,
         };
         Ok(Varied {
             path,
@@ -185,14 +183,14 @@ impl FromStr for Varied {
 }
 
 /// Parses `0mm:20mm:41`, `1:100:5:log`, `150 mm, 155.83 mm`, or the distributions `0mm:20mm` and `155.8 +- 0.1 mm`.
-fn read(key: &Key, text: &str) -> Result<Values, String> {
+fn read(key: &Key, text: &str) -> Result<Variation, String> {
     let fields: Vec<&str> = text.split(':').map(str::trim).collect();
     let texts = match (fields.as_slice(), key.kind) {
         (_, Kind::Text) => listed(text),
         ([one], _) if PLUS_MINUS.iter().any(|sign| one.contains(sign)) => {
             let normal = number(key, one)?.and_then(|n| Normal::new(n.value, n.error).ok());
             return normal
-                .map(Values::Normal)
+                .map(Variation::Normal)
                 .ok_or_else(|| format!("`{one}` is no number with a standard deviation above 0"));
         }
         ([_], _) => listed(text),
@@ -203,15 +201,15 @@ fn read(key: &Key, text: &str) -> Result<Values, String> {
             };
             let (from, to) = (bound(low)?, bound(high)?);
             return match from < to {
-                true => Ok(Values::Uniform([from, to])),
+                true => Ok(Variation::Uniform([from, to])),
                 false => Err(format!("`{low}` is not less than `{high}`")),
             };
         }
         ([from, to, count], _) => {
-            return Spread::new(key, [from, to], count, false).map(Values::Spread);
+            return Spread::new(key, [from, to], count, false).map(Variation::Spread);
         }
         ([from, to, count, "log"], _) => {
-            return Spread::new(key, [from, to], count, true).map(Values::Spread);
+            return Spread::new(key, [from, to], count, true).map(Variation::Spread);
         }
         _ => {
             return Err(format!(
@@ -220,7 +218,7 @@ fn read(key: &Key, text: &str) -> Result<Values, String> {
         }
     };
     let values = texts.into_iter().map(|text| VariedValue::read(key, text));
-    Ok(Values::Listed(values.collect::<Result<_, _>>()?))
+    Ok(Variation::Listed(values.collect::<Result<_, _>>()?))
 }
 
 /// Reads a text as the quantity of a key, if the key takes one.

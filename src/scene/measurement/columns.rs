@@ -88,7 +88,7 @@ impl Named {
         if header.name.is_empty() {
             header.name.clone_from(&self.raw);
         }
-        header.column(quantity).map_err(|what| {
+        header.into_column(quantity).map_err(|what| {
             let unit = quantity.usual_unit();
             let help = format!("{HELP}; or here: {option} \"{}[{unit}]\"", self.at + 1);
             self.wrong(what, help)
@@ -172,7 +172,7 @@ impl Columns {
                 found.extend(choose(list, "--motion", reading.motion.as_deref(), is_it)?);
             }
         }
-        let Some(column) = found.first() else {
+        let [column, others @ ..] = &found[..] else {
             let wanted = reading.column.map(|wanted| format!("`{}`", wanted.name()));
             let wanted = wanted.unwrap_or("theta, gamma or x".to_owned());
             return Err(none(format!("no column is called {wanted}")));
@@ -180,12 +180,11 @@ impl Columns {
         let (measured, value) = motion(column, reading)?;
         let mut at = vec![time.at, column.at];
         let mut beside = Vec::new();
-        for other in &found[1..] {
+        for other in others {
             let (measured, unit) = motion(other, reading)?;
             at.push(other.at);
             beside.push((Beside::Sensor(measured), unit));
         }
-        let sensors = beside.len();
         let is_x = |(beside, _): &(Beside, Column)| *beside == Beside::Sensor(Measured::X);
         if reading.x_zero != 0.0 && measured != Measured::X && !beside.iter().any(is_x) {
             let what = format!(
@@ -212,8 +211,8 @@ impl Columns {
             return Err(none(format!("{what}, and {MOST_COLUMNS} are the most")));
         }
         let mut notes = Vec::new();
-        if sensors > 0 {
-            let others = found[1..].iter().map(|other| other.header.name.as_str());
+        if !others.is_empty() {
+            let others = others.iter().map(|other| other.header.name.as_str());
             let others: Vec<&str> = others.collect();
             notes.push(format!(
                 "the motion is taken from the column {}, and {} beside it by a noise of its own (--column takes one alone)",

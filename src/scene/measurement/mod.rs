@@ -22,7 +22,7 @@ pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
 
 /// File of the samples, in which messages find lines and cells.
 #[derive(Clone, Debug)]
-struct Source {
+struct SampleFile {
     file: PathBuf,
     text: String,
     /// Beginning of the rows of numbers, and their delimiter.
@@ -33,7 +33,7 @@ struct Source {
     value: Column,
 }
 
-impl Source {
+impl SampleFile {
     fn row(&self, sample: usize) -> &str {
         let mut rows = self.dialect.rows(&self.text);
         rows.nth(sample).unwrap_or_default()
@@ -50,12 +50,12 @@ pub struct Measurement {
     /// Time from which `elapsed` counts, s.
     origin: f64,
     /// Relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
-    spacing: f64,
+    period_uncertainty: f64,
     values: Vec<f64>,
     resolution: f64,
     beside: Vec<BesideColumn>,
     notes: Vec<String>,
-    source: Option<Source>,
+    source: Option<SampleFile>,
 }
 
 impl Measurement {
@@ -103,18 +103,41 @@ impl Measurement {
     }
 
     /// Returns a scene with the known torques and forces of the record, linear between the samples.
-    pub(crate) fn known_in(&self, scene: &Scene) -> Scene {
+    ///
+    /// # Errors
+    /// [`Problems`] for a known torque or force over times that are equal in double precision.
+    pub(crate) fn known_in(&self, scene: &Scene) -> Result<Scene, Problems> {
         let mut scene = scene.clone();
         for BesideColumn { beside, values } in &self.beside {
-            let times = &self.times;
-            let table = || Table::new(Variable::T, times, values, Interpolation::Linear, None);
-            match (beside, table()) {
-                (Beside::Torque, Ok(table)) => scene = scene.torque(Load::Table(table)),
-                (Beside::Force, Ok(table)) => scene = scene.force(Load::Table(table)),
-                _ => {}
-            }
+            let list = match beside {
+                Beside::Sensor(_) => continue,
+                Beside::Torque => &mut scene.torques,
+                Beside::Force => &mut scene.forces,
+            };
+            let table = Table::new(
+                Variable::T,
+                &self.times,
+                values,
+                Interpolation::Linear,
+                None,
+            );
+            list.push(Load::Table(table.map_err(|what| self.no_table(what))?));
         }
-        scene
+        Ok(scene)
+    }
+
+    /// Creates the problem of a known torque or force that makes no table, with the first time that does not rise.
+    fn no_table(&self, what: String) -> Problems {
+        let falls = self.times.windows(2).position(|pair| pair[1] <= pair[0]);
+        let what = format!("a known torque or force is no function of these times: {what}");
+        let help =
+            "times so far from zero are equal in double precision: let the time begin near 0";
+        self.refused(vec![self.problem(
+            falls.map_or(0, |before| before + 1),
+            0,
+            what,
+            help.to_owned(),
+        )])
     }
 
     /// Creates samples without checks.
@@ -124,7 +147,7 @@ impl Measurement {
             times,
             elapsed: None,
             origin: 0.0,
-            spacing: 0.0,
+            period_uncertainty: 0.0,
             values,
             resolution: 0.0,
             beside: Vec::new(),
@@ -188,8 +211,8 @@ impl Measurement {
     }
 
     /// Returns the relative uncertainty of the sampling period that replaces rounded times; 0 for other times.
-    pub fn time_uncertainty(&self) -> f64 {
-        self.spacing
+    pub fn period_uncertainty(&self) -> f64 {
+        self.period_uncertainty
     }
 
     /// Returns the measured values, rad or m.

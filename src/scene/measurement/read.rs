@@ -6,8 +6,9 @@ use super::columns::{Columns, MOST_COLUMNS};
 use super::digits::Digits;
 use super::heading::Heading;
 use super::listed::Listed;
-use super::{Beside, BesideColumn, Measured, Measurement, Reading, Source};
+use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
 use crate::numeric::parallel;
+use crate::scene::csv::Column;
 use crate::scene::csv::cell::{self, NotANumber};
 use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
 use crate::scene::number::counted;
@@ -41,12 +42,11 @@ pub(super) fn measurement(
         start: heading.start,
         ..dialect
     };
-    let rows = Rows {
+    let rows = SampleRows {
         text: &text,
         dialect,
         columns: &columns,
-        expected: heading.names.len(),
-        counted: heading.counted(),
+        heading: &heading,
         decimal_comma: reading.decimal_comma,
     };
     let samples = rows.samples();
@@ -57,34 +57,28 @@ pub(super) fn measurement(
         "counts" => 1.0,
         _ => samples.digits.step(&samples.columns[1]),
     };
-    let zero = |measured: Measured| match measured {
-        Measured::X => reading.x_zero,
+    let zero = |beside: Beside| match beside {
+        Beside::Sensor(Measured::X) => reading.x_zero,
         _ => 0.0,
     };
-    let scaled = |mut values: Vec<f64>, factor: f64, zero: f64| {
+    let mut lists = samples.columns.into_iter();
+    let mut next = |factor: f64, zero: f64| {
+        let mut values = lists.next().unwrap_or_default();
         values.iter_mut().for_each(|v| *v = *v * factor - zero);
         values
     };
-    let mut lists = samples.columns.into_iter();
-    let mut next = |factor: f64, zero: f64| scaled(lists.next().unwrap_or_default(), factor, zero);
     let times = next(columns.time.factor, 0.0);
-    let values = next(columns.value.factor, zero(columns.measured));
-    let of_beside = |(beside, column): &(Beside, _)| {
-        let column: &crate::scene::csv::Column = column;
-        let zero = match beside {
-            Beside::Sensor(measured) => zero(*measured),
-            _ => 0.0,
-        };
-        BesideColumn {
-            beside: *beside,
-            values: next(column.factor, zero),
-        }
+    let motion = Beside::Sensor(columns.measured);
+    let values = next(columns.value.factor, zero(motion));
+    let of_beside = |(beside, column): &(Beside, Column)| BesideColumn {
+        beside: *beside,
+        values: next(column.factor, zero(*beside)),
     };
     Ok(Measurement {
         resolution: columns.value.factor * step,
         beside: columns.beside.iter().map(of_beside).collect(),
         notes: columns.notes,
-        source: Some(Source {
+        source: Some(SampleFile {
             file: file.to_owned(),
             dialect,
             at: [columns.at[0], columns.at[1]],
@@ -114,17 +108,15 @@ impl Samples {
 }
 
 /// Rows of numbers of a file.
-struct Rows<'a> {
+struct SampleRows<'a> {
     text: &'a str,
     dialect: Dialect,
     columns: &'a Columns,
-    /// Number of values in a row.
-    expected: usize,
-    counted: String,
+    heading: &'a Heading<'a>,
     decimal_comma: bool,
 }
 
-impl Rows<'_> {
+impl SampleRows<'_> {
     /// Reads the samples of all rows, in pieces of whole lines in parallel.
     fn samples(&self) -> Samples {
         let mut rest = &self.text[self.dialect.start..];
@@ -158,7 +150,7 @@ impl Rows<'_> {
 
     fn read(&self, row: &str, samples: &mut Samples) {
         let (mut found, mut count, mut excess) = ([""; MOST_COLUMNS], 0, false);
-        let wanted = &self.columns.at;
+        let (wanted, expected) = (&self.columns.at, self.heading.names.len());
         let found = &mut found[..wanted.len()];
         for (at, cell) in self.dialect.cells(row).enumerate() {
             for (mine, wanted) in found.iter_mut().zip(wanted) {
@@ -167,7 +159,7 @@ impl Rows<'_> {
                 }
             }
             count = at + 1;
-            excess |= count > self.expected && !cell.is_empty();
+            excess |= count > expected && !cell.is_empty();
         }
         let mut wrong = |field: &str, part: &str, what: String, help: &str| {
             let problem = Problem::new(field, what, help).at(span(self.text, part));
@@ -176,8 +168,9 @@ impl Rows<'_> {
         if let Some(quote) = Dialect::open_quote(row) {
             return wrong("quote", quote, OPEN_QUOTE.to_owned(), CLOSE_QUOTE);
         }
-        if count < self.expected || excess {
-            let what = format!("{} where {}", counted(count, "value"), self.counted);
+        if count < expected || excess {
+            let values = counted(count, "value");
+            let what = format!("{values} where {}", self.heading.counted());
             let help = if excess && self.dialect.delimiter == ',' {
                 "give one value for each column; where numbers have decimal commas, separate the columns by semicolon or tab"
             } else {

@@ -13,10 +13,10 @@ const LEAST_ROWS: usize = 6;
 const GAP: f64 = 4.5;
 
 /// Largest magnitude of a sample, SI; larger ones leave no digits for quantities computed from them.
-const LARGEST: f64 = 1e12;
+const LARGEST_SAMPLE: f64 = 1e12;
 
 /// Shortest duration of a record, s; with shorter ones, powers of rates of change leave the range of doubles.
-const SHORTEST: f64 = 1e-12;
+const SHORTEST_RECORD: f64 = 1e-12;
 
 impl Measurement {
     /// Checks the samples, and notes gaps between them.
@@ -29,9 +29,12 @@ impl Measurement {
         }
         let mut wrong = Listed::default();
         for (column, list) in [times, values].into_iter().enumerate() {
-            if let Some(at) = list.iter().position(|v| v.is_nan() || v.abs() > LARGEST) {
+            if let Some(at) = list
+                .iter()
+                .position(|v| v.is_nan() || v.abs() > LARGEST_SAMPLE)
+            {
                 let what = format!("{} is not a usable number", show(list[at]));
-                let help = format!("give finite values below {LARGEST:e} in SI units");
+                let help = format!("give finite values below {LARGEST_SAMPLE:e} in SI units");
                 wrong.push(self.problem(at, column, what, help));
             }
         }
@@ -69,7 +72,9 @@ impl Measurement {
     pub(super) fn check_beside(&self) -> Result<(), Problems> {
         for column in &self.beside {
             let values = &column.values;
-            let odd = values.iter().position(|v| v.is_nan() || v.abs() > LARGEST);
+            let odd = values
+                .iter()
+                .position(|v| v.is_nan() || v.abs() > LARGEST_SAMPLE);
             let what = match odd {
                 Some(at) => format!(
                     "{} in {} is not a usable number",
@@ -109,9 +114,9 @@ impl Measurement {
             return Some(problem.at(end.map(|end| end..end)));
         }
         let length = times.last()? - times.first()?;
-        (length < SHORTEST).then(|| {
+        (length < SHORTEST_RECORD).then(|| {
             let what = format!("all samples lie within {} s", show(length));
-            let help = format!("give times over more than {SHORTEST:e} s: check their unit");
+            let help = format!("give times over more than {SHORTEST_RECORD:e} s: check their unit");
             self.problem(times.len() - 1, 0, what, help)
         })
     }

@@ -78,7 +78,7 @@ impl Measurement {
         }
         let first = self.times[0] - self.origin + even.first;
         self.elapsed = Some((0..count).map(|i| first + even.period * i as f64).collect());
-        self.spacing = even.step / ((count as f64).sqrt() * length);
+        self.period_uncertainty = even.step / ((count as f64).sqrt() * length);
         Some(format!(
             "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",
             computed(even.period),

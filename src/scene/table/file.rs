@@ -5,7 +5,7 @@ use std::path::Path;
 #[cfg(feature = "cli")]
 use super::{
     Interpolation, Table,
-    rows::{Rows, columns_error},
+    rows::{TableRows, columns_error},
 };
 use crate::error::Error;
 #[cfg(feature = "cli")]
@@ -106,7 +106,7 @@ impl Table {
         let columns = columns(&pairs, of, value).map_err(wrong)?;
         let list = pairs.numbers().map_err(wrong)?;
         let [x, y] = [columns[0].factor, columns[1].factor];
-        let rows = Rows {
+        let rows = TableRows {
             of,
             points: list
                 .iter()
@@ -128,13 +128,14 @@ fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], 
     let of_name = of.name();
     let cells = pairs.header(&format!("{of_name} [unit],value [unit]"))?;
     let [first, second] = cells.map(header::split);
-    let columns = match first {
-        header::Header { name, .. } if name != of_name => Err(format!(
-            "the first column is `{name}` where `{of_name}` is expected"
+    let columns = match first.name == of_name {
+        true => first.into_column(of.quantity()),
+        false => Err(format!(
+            "the first column is `{}` where `{of_name}` is expected",
+            first.name
         )),
-        first => first.column(of.quantity()),
     };
-    let columns = columns.and_then(|first| Ok([first, second.column(value)?]));
+    let columns = columns.and_then(|first| Ok([first, second.into_column(value)?]));
     columns.map_err(|what| pairs.at(cells[0], &what))
 }
 
@@ -165,7 +166,7 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     };
     let [first, second] = cells.map(header::split);
     let mut loads = [Quantity::Torque, Quantity::Force, Quantity::Pressure].into_iter();
-    let load = loads.find(|load| second.clone().column(*load).is_ok());
+    let load = loads.find(|load| second.clone().into_column(*load).is_ok());
     let (Some(of), Some(load)) = (Variable::named(&first.name), load) else {
         return Ok(None);
     };
@@ -193,7 +194,7 @@ pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
     let text = text.map_err(|what| wrong(format!("{name}: {what}")))?;
     let pairs = Pairs::new(&name, &text);
     let [load, _] = pairs.header("load [N],reading").map_err(wrong)?;
-    let unit = header::split(load).column(Quantity::Force);
+    let unit = header::split(load).into_column(Quantity::Force);
     let unit = unit.map_err(|what| wrong(pairs.at(load, &what)))?;
     let points = pairs.numbers().map_err(wrong)?;
     let point = |(_, [load, reading]): (&str, [f64; 2])| (load * unit.factor, reading);

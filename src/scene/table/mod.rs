@@ -7,14 +7,14 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::csv::Column;
-use super::{Period, Repeats, Variable, WhyNot};
+use super::{Period, Periodicity, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
 use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
 pub use file::calibration_points;
 #[cfg(feature = "cli")]
 pub use file::{LoadTable, load_table};
-use rows::Rows;
+use rows::TableRows;
 
 /// Interpolated values over one variable, SI and radians.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +54,7 @@ impl Table {
             ));
         }
         let arguments = arguments.iter().copied();
-        let rows = Rows {
+        let rows = TableRows {
             of,
             points: arguments.zip(values.iter().copied()).collect(),
             columns: [Column::si(of.quantity().si()), Column::si("")],
@@ -102,7 +102,7 @@ impl Table {
     }
 
     /// Returns the period of a table over the crank angle as a fraction of a turn, or why there is none.
-    pub fn repeats(&self) -> Repeats {
+    pub fn repeats(&self) -> Periodicity {
         let period = self.curve.period().ok_or(WhyNot::NoPeriod);
         period.and_then(Period::of_angle).into()
     }
@@ -123,7 +123,7 @@ impl Table {
     }
 
     /// Returns the value farthest from zero, with its sign, SI.
-    pub(super) fn largest(&self) -> f64 {
+    pub(super) fn farthest_from_zero(&self) -> f64 {
         let values = self.curve.values().iter().copied();
         let farther = |most: f64, y: f64| if y.abs() > most.abs() { y } else { most };
         values.fold(0.0, farther)

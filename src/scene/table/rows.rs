@@ -11,7 +11,7 @@ use crate::scene::{Period, Problem, Variable};
 const SAME: f64 = 1e-9;
 
 /// Rows of a table before their check.
-pub(super) struct Rows<'a> {
+pub(super) struct TableRows<'a> {
     pub of: Variable,
     /// Argument and value, SI.
     pub points: Vec<(f64, f64)>,
@@ -23,7 +23,7 @@ pub(super) struct Rows<'a> {
     pub place: &'a dyn Fn(usize) -> String,
 }
 
-impl Rows<'_> {
+impl TableRows<'_> {
     /// Checks the rows and returns the curve through them.
     pub fn curve(
         mut self,

@@ -14,7 +14,7 @@ use super::number;
 #[cfg(feature = "cli")]
 pub(super) use pattern::pattern;
 pub use quantity::Quantity;
-use symbol::Factor;
+pub(super) use symbol::Factor;
 
 /// Reason why a text is not the requested quantity.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl fmt::Display for UnitError {
 /// assert!(parse("47 kg", Quantity::Length).is_err());
 /// ```
 pub fn parse(text: &str, quantity: Quantity) -> Result<f64, UnitError> {
-    let measured = measure(text).map_err(|what| {
+    let measured = number_with_unit(text).map_err(|what| {
         let has_unit = split(text).is_ok_and(|(_, unit)| !unit.is_empty());
         wrong(what, quantity, has_unit)
     })?;
@@ -111,29 +111,16 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
     Ok(found)
 }
 
-/// Unit of a quantity, for the conversion of many numbers.
+/// Returns the factor of a unit, for the conversion of many numbers; none if `unit` is no unit of `quantity`.
 #[cfg(feature = "cli")]
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scale(Factor);
-
-#[cfg(feature = "cli")]
-impl Scale {
-    /// Creates a scale; none if `unit` is no unit of `quantity`.
-    pub fn new(unit: &str, quantity: Quantity) -> Option<Scale> {
-        let factor = grammar::unit_factor(unit).ok()?;
-        factor.of(quantity).map(Scale)
-    }
-
-    /// Returns the value of these digits in SI units and radians.
-    pub fn value(self, digits: &str) -> Option<f64> {
-        self.0.apply(digits)
-    }
+pub(super) fn exact_factor(unit: &str, quantity: Quantity) -> Option<Factor> {
+    grammar::unit_factor(unit).ok()?.of(quantity)
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
 #[cfg(feature = "cli")]
 pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
-    let measured = measure(text).and_then(|measured| {
+    let measured = number_with_unit(text).and_then(|measured| {
         let time = measured.of(Quantity::Time).map(Every::Time);
         let angle = || measured.of(Quantity::Angle).map(Every::Angle);
         time.or_else(angle).ok_or_else(|| match measured.unit {
@@ -158,7 +145,7 @@ fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
 }
 
 /// Number with a unit.
-struct Measured<'a> {
+struct NumberWithUnit<'a> {
     digits: String,
     /// Value, SI.
     value: f64,
@@ -166,7 +153,7 @@ struct Measured<'a> {
     unit: &'a str,
 }
 
-impl Measured<'_> {
+impl NumberWithUnit<'_> {
     /// Returns the value, SI, if it is one of this quantity; a bare zero is one of every quantity.
     fn of(&self, quantity: Quantity) -> Option<f64> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
@@ -188,14 +175,14 @@ impl Factor {
     }
 }
 
-fn measure(text: &str) -> Result<Measured<'_>, String> {
+fn number_with_unit(text: &str) -> Result<NumberWithUnit<'_>, String> {
     let (digits, unit) = split(text)?;
     let factor = grammar::unit_factor(unit)?;
     let value = factor
         .apply(&digits)
         .filter(|value| value.is_finite())
         .ok_or_else(|| format!("`{text}` is not a finite number"))?;
-    Ok(Measured {
+    Ok(NumberWithUnit {
         digits,
         value,
         factor,
@@ -217,7 +204,7 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, UnitError> {
 /// Fault of a unit, in words.
 pub fn ratio(of: &str, to: &str) -> Result<f64, String> {
     let [one, other] = [of, to].map(|unit| format!("1 {unit}"));
-    let (one, other) = (measure(&one)?, measure(&other)?);
+    let (one, other) = (number_with_unit(&one)?, number_with_unit(&other)?);
     match one.factor.dimension == other.factor.dimension {
         true => Ok(one.value / other.value),
         false => Err(format!("`{to}` is no unit of what is shown in {of}")),

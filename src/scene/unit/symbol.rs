@@ -7,7 +7,7 @@ pub(super) type Dimension = [i8; 4];
 
 /// Factor numerator/denominator · 10^ten · pi^pi to SI, times metre, kilogram, second, radian to `dimension`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Factor {
+pub(in crate::scene) struct Factor {
     numerator: f64,
     denominator: f64,
     ten: i32,
@@ -56,7 +56,8 @@ impl Factor {
         (per_minute && plain).then(|| self.times(Factor::REVOLUTION, 1))
     }
 
-    pub(super) fn apply(self, digits: &str) -> Option<f64> {
+    /// Returns the value of these digits, in SI units and radians.
+    pub(in crate::scene) fn apply(self, digits: &str) -> Option<f64> {
         let (mantissa, exponent) = match digits.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
             None => (digits, 0),

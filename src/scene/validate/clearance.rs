@@ -42,16 +42,16 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
     if let Some(angle) = clearance.eccentricity_angle {
         list.finite("clearance.eccentricity_angle", angle);
     }
-    fits(list, clearance);
-    restitution(list, clearance);
+    journal_fits(list, clearance);
+    law_fits(list, clearance);
 }
 
 /// Checks that the journal fits into the bearing, and lies inside it at the start.
-fn fits(list: &mut Check, clearance: &Clearance) {
+fn journal_fits(list: &mut Check, clearance: &Clearance) {
     let radial = clearance.radial;
     if let Some(bearing) = clearance.bearing_radius
         && radial >= bearing
-        && list.sound(["clearance.radial", "clearance.bearing_radius"])
+        && list.has_no_problem(&["clearance.radial", "clearance.bearing_radius"])
     {
         let (radial, bearing) = apart(radial, bearing);
         list.add(
@@ -68,7 +68,7 @@ fn fits(list: &mut Check, clearance: &Clearance) {
     list.not_negative("clearance.eccentricity", eccentricity, "m");
     let linked = clearance.law == ContactLaw::MasslessLink;
     let impossible = eccentricity > radial || (linked && eccentricity != radial);
-    if impossible && list.sound(["clearance.radial", "clearance.eccentricity"]) {
+    if impossible && list.has_no_problem(&["clearance.radial", "clearance.eccentricity"]) {
         let (shown, radial) = apart(eccentricity, radial);
         let (what, help) = if linked {
             (
@@ -90,7 +90,7 @@ fn fits(list: &mut Check, clearance: &Clearance) {
 }
 
 /// Rejects friction of a massless link, and restitution 0 under laws that divide by it.
-fn restitution(list: &mut Check, clearance: &Clearance) {
+fn law_fits(list: &mut Check, clearance: &Clearance) {
     let friction = clearance.friction.unwrap_or(0.0);
     if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
         list.add(

@@ -49,12 +49,12 @@ pub(super) fn load(list: &mut Check, field: &str, on_slider: bool, load: &Load) 
             ambient,
             ..
         } => {
-            list.finite(key("file"), pressure.largest());
+            list.finite(key("file"), pressure.farthest_from_zero());
             list.positive(key("area"), *area, "m2");
             list.not_negative(key("ambient"), *ambient, "Pa");
         }
         Load::Table(table) => {
-            list.finite(key("file"), table.largest());
+            list.finite(key("file"), table.farthest_from_zero());
         }
         Load::Dry(magnitude) => dry(list, field, on_slider, magnitude),
         Load::Expression(_) | Load::Function { .. } => {}
@@ -69,7 +69,7 @@ fn dry(list: &mut Check, field: &str, on_slider: bool, magnitude: &Load) {
             list.not_negative(key("value"), *value, if on_slider { "N" } else { "N m" });
         }
         Load::Table(table) => {
-            if list.finite(key("file"), table.largest()) && table.least() < 0.0 {
+            if list.finite(key("file"), table.farthest_from_zero()) && table.least() < 0.0 {
                 list.add(
                     key("file"),
                     format!("a magnitude of {} is negative", show(table.least())),

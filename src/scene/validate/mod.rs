@@ -16,11 +16,17 @@ use crate::numeric::exact::sum3;
 /// Least local error target that can be met in double precision.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
+/// Largest local error target.
+const LARGEST_TOLERANCE: f64 = 0.1;
+
 /// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
-pub(crate) const MOST_ROWS: f64 = 1e9;
+pub(crate) const MOST_OUTPUT_ROWS: f64 = 1e9;
 
 /// Rounding tolerance at the limits of the crank angle, relative to crank plus rod: a pin this far outside is inside.
 const LIMIT_ROUNDING: f64 = 1e-12;
+
+/// Rounding tolerance of a moment of inertia against the least possible one, relative to the latter.
+const INERTIA_ROUNDING: f64 = 1e-9;
 
 /// Largest initial crank angle, rad, where doubles are 0.007 degrees apart.
 const LARGEST_ANGLE: f64 = 1e12;
@@ -82,7 +88,7 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
     let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
     // A single rounding, after the difference: crank plus rod may round up to the offset.
     let reach = sum3(r, l, -e.abs());
-    if reach < 0.0 && list.sound(LENGTHS) {
+    if reach < 0.0 && list.has_no_problem(&LENGTHS) {
         let larger = if e.abs() > r + l {
             let (offset, most) = apart(e, r + l);
             format!("{offset} m is larger than crank plus rod, {most} m")
@@ -120,11 +126,11 @@ fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) 
         "width",
         "depth",
     ];
-    if inertia >= least * (1.0 - 1e-9) {
+    if inertia >= least * (1.0 - INERTIA_ROUNDING) {
         return;
     }
     let fields = KEYS.map(|key| format!("{body}.{key}"));
-    if list.sound(fields.each_ref().map(String::as_str)) {
+    if list.has_no_problem(&fields) {
         let (inertia, least) = apart(inertia, least);
         let what = format!(
             "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
@@ -139,18 +145,13 @@ fn rod(list: &mut Check, rod: &Rod, length: f64) {
     let cg = [rod.cg, rod.cg_lateral];
     body(list, "rod", rod.mass, rod.inertia, cg);
     if rod.inertia_about == InertiaAbout::CrankPin && rod.model == RodModel::Rigid {
-        inertia(
-            list,
-            "rod",
-            "the crank pin",
-            rod.inertia,
-            rod.mass * square(cg),
-        );
+        let least = rod.mass * square(cg);
+        inertia(list, "rod", "the crank pin", rod.inertia, least);
     }
     if rod.model != RodModel::TwoMass || rod.mass == 0.0 {
         return;
     }
-    if rod.cg_lateral != 0.0 && list.sound(["rod.cg_lateral"]) {
+    if rod.cg_lateral != 0.0 && list.has_no_problem(&["rod.cg_lateral"]) {
         list.add(
             "rod.cg_lateral",
             format!(
@@ -160,7 +161,7 @@ fn rod(list: &mut Check, rod: &Rod, length: f64) {
             "leave out cg_lateral or use model = \"rigid\"",
         );
     }
-    if !(0.0..=length).contains(&rod.cg) && list.sound(["geometry.rod", "rod.cg"]) {
+    if !(0.0..=length).contains(&rod.cg) && list.has_no_problem(&["geometry.rod", "rod.cg"]) {
         let (cg, length) = apart(rod.cg, length);
         list.add(
             "rod.cg",
@@ -175,7 +176,7 @@ fn friction(list: &mut Check, friction: &Friction) {
     list.not_negative("friction.coefficient", kinetic, "");
     if list.finite("friction.static_coefficient", held)
         && held < kinetic
-        && list.sound(["friction.coefficient", "friction.static_coefficient"])
+        && list.has_no_problem(&["friction.coefficient", "friction.static_coefficient"])
     {
         let (held, kinetic) = apart(held, kinetic);
         list.add(
@@ -213,19 +214,20 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
         Some(Every::Angle(step)) => list.positive("run.output_every", step, "rad"),
         None => {}
     }
-    if list.sound(["run.output_every"]) && rows(run, motion) > MOST_ROWS {
+    if list.has_no_problem(&["run.output_every"]) && rows(run, motion) > MOST_OUTPUT_ROWS {
         list.add(
             "run.output_every",
-            format!("more than {MOST_ROWS} output rows would be written"),
+            format!("more than {MOST_OUTPUT_ROWS} output rows would be written"),
             "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
         );
     }
-    if !(LEAST_TOLERANCE..=0.1).contains(&run.tolerance) {
-        list.add(
-            "run.tolerance",
-            format!("a tolerance of {} cannot be used", show(run.tolerance)),
-            "give one from 1e-14 to 0.1; 1e-10 is the default",
+    if !(LEAST_TOLERANCE..=LARGEST_TOLERANCE).contains(&run.tolerance) {
+        let what = format!("a tolerance of {} cannot be used", show(run.tolerance));
+        let usual = Run::default().tolerance;
+        let help = format!(
+            "give one from {LEAST_TOLERANCE:e} to {LARGEST_TOLERANCE}; {usual:e} is the default"
         );
+        list.add("run.tolerance", what, help);
     }
 }
 
@@ -237,7 +239,8 @@ fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
     if list.finite("motion.angle", angle) && angle.abs() > LARGEST_ANGLE {
         let what =
             format!("{angle:e} rad is so many turns that rounding hides the place in the last one");
-        list.add("motion.angle", what, "give an angle below 1e12 rad");
+        let help = format!("give an angle below {LARGEST_ANGLE:e} rad");
+        list.add("motion.angle", what, help);
     }
     let Geometry {
         crank, rod, offset, ..
@@ -246,8 +249,8 @@ fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
     let outside = distance > rod + LIMIT_ROUNDING * (crank + rod);
     if !outside
         || *motion == Motion::default()
-        || !list.sound(LENGTHS)
-        || !list.sound(["motion.angle"])
+        || !list.has_no_problem(&LENGTHS)
+        || !list.has_no_problem(&["motion.angle"])
     {
         return;
     }

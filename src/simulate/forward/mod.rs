@@ -147,7 +147,9 @@ fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Sim
                     curve.place(angle.rest).dtheta * speed,
                 )
             };
-            run.trajectory = run.trajectory.map(|motion| motion.seen_as(Arc::new(view)));
+            run.trajectory = run
+                .trajectory
+                .map(|motion| motion.mapped_to_crank(Arc::new(view)));
             run.dense.curve = Some(on.equation);
         }
         _ => {}
