@@ -3,8 +3,8 @@
 use std::iter::{Chain, Peekable};
 use std::slice::Iter;
 
-use super::error_estimate::MARGIN;
 use super::result::ErrorEstimate;
+use super::second_run::MARGIN;
 use crate::engine::step::Step;
 
 /// Number of first steps of a run that are kept: 1 MB.

@@ -18,7 +18,7 @@ use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Limits};
+use crate::mechanism::Limits;
 use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
@@ -37,7 +37,6 @@ pub(super) fn run<'a>(
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
     let drive = Drive {
-        equation,
         maker: &task.maker,
         start,
         speed,
@@ -48,14 +47,9 @@ pub(super) fn run<'a>(
         residual: f64::NAN,
         largest: f64::NAN,
     };
-    let (torque, warning, balance) = match blocked.is_none().then(|| drive.torque_range()) {
-        Some(Ok(range)) => (Some(range), None, drive.energy_balance()),
-        Some(Err(why)) => (
-            None,
-            Some(Warning::NoTorqueRange(why)),
-            drive.energy_balance(),
-        ),
-        None => (None, None, unbounded),
+    let (torque, balance) = match blocked {
+        None => (drive.torque_range().map(Some), drive.energy_balance()),
+        Some(_) => (Ok(None), unbounded),
     };
     let wall_s = begun.elapsed().as_secs_f64();
     let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
@@ -77,38 +71,33 @@ pub(super) fn run<'a>(
         },
         engine: Engine::ClosedForm,
         turned: speed * end,
-        estimate: Some(Estimate::of_end(
-            ErrorEstimate {
-                theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
-                omega_rad_per_s: 0.0,
-            },
-            None,
-        )),
+        estimate: Some(Estimate::of_end(ErrorEstimate {
+            theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
+            omega_rad_per_s: 0.0,
+        })),
         balance,
         evaluations: 0,
         steps: 0,
         wall_s,
-        warnings: warning.into_iter().collect(),
+        warnings: torque
+            .as_ref()
+            .err()
+            .cloned()
+            .map(Warning::NoTorqueRange)
+            .into_iter()
+            .collect(),
         stopped,
         record,
     };
     let mut run = outcome.conclude(task);
-    run.summary.driving_torque = torque;
+    run.summary.driving_torque = torque.ok().flatten();
     run.trajectory = Some(Trajectory::uniform(start, speed, end));
     Ok(run)
 }
 
+/// Returns the coefficient of friction at the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
-    let friction = task
-        .maker
-        .guide
-        .as_deref()
-        .and_then(CurveEquation::friction);
-    friction.map_or(0.0, |friction| friction.coefficient)
-}
-
-fn reach(task: &RunSetup<'_>) -> Vec<[f64; 2]> {
-    Limits::driven_reach(task.equation().linkage(), friction(task))
+    task.maker.guide.as_ref().map_or(0.0, |guide| guide.mu)
 }
 
 /// Returns the duration, s, of a run at constant speed, rad/s.
@@ -121,7 +110,7 @@ pub(super) fn duration(extent: Extent, speed: f64) -> f64 {
 
 /// Computes the time, s, at which the crank reaches the end of its range of angles; none if it reaches none.
 fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
-    let [from, to] = reach(task)
+    let [from, to] = Limits::driven_reach(task.equation().linkage(), friction(task))
         .into_iter()
         .find(|[from, to]| (start.rest - from).rem_euclid(TAU) <= to - from)?;
     let done = (start.rest - from).rem_euclid(TAU);

@@ -46,11 +46,11 @@ pub(super) struct Estimate {
 
 impl Estimate {
     /// Makes an estimate with the error of the last state alone.
-    pub fn of_end(error: ErrorEstimate, cost: Option<Cost>) -> Estimate {
+    pub fn of_end(error: ErrorEstimate) -> Estimate {
         Estimate {
             error,
             on_the_way: None,
-            cost,
+            cost: None,
         }
     }
 }
@@ -159,7 +159,7 @@ impl Outcome {
                 maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
                 alpha: (self.engine == Engine::ClosedForm).then_some(0.0),
                 curve: None,
-                spells: record.spells,
+                phases: record.phases,
             },
         }
     }

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::guide_friction::Sliding;
+use super::guide_friction::GuideFriction;
 use super::row::Row;
 use crate::engine::time::Start;
-use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
+use crate::mechanism::{Equation, Pose, Reactions, Reactor};
 use crate::numeric::angle::Angle;
 use crate::scene::Load;
 
@@ -14,10 +14,8 @@ pub(super) struct RowMaker {
     pub equation: Arc<Equation>,
     pub reactor: Option<Arc<Reactor>>,
     pub driving_torque: bool,
-    /// Guide of a prescribed motion, if it has friction.
-    pub guide: Option<Arc<CurveEquation>>,
-    /// Guide of a crank that turns freely, if it has friction.
-    pub sliding: Option<Arc<Sliding>>,
+    /// Guide, if it has friction.
+    pub guide: Option<Arc<GuideFriction>>,
 }
 
 impl RowMaker {
@@ -31,16 +29,16 @@ impl RowMaker {
     /// Returns the friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
         self.guide.as_ref().map_or(0.0, |guide| {
-            let touch = guide.driven(t, angle, omega, alpha);
+            let touch = guide.equation.driven(t, angle, omega, alpha);
             touch.map_or(f64::NAN, |touch| touch.friction)
         })
     }
 
     /// Returns θ̈ of a free motion, rad/s², and the friction on the slider, N.
     pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
-        match &self.sliding {
-            Some(sliding) => {
-                let (alpha, touch) = sliding.state(t, angle, omega);
+        match &self.guide {
+            Some(guide) => {
+                let (alpha, touch) = guide.state(t, angle, omega);
                 (alpha, touch.friction)
             }
             None => (self.equation.acceleration(t, angle, omega), 0.0),

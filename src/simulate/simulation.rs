@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::coordinate::{AlongCurve, Coordinate};
-use super::guide_friction::Sliding;
 use super::result::Summary;
 use super::row::Row;
 use super::row_maker::RowMaker;
@@ -47,7 +46,7 @@ impl Simulation {
 
 /// Interval of time in which the slider is in one phase in its guide, on the configuration curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spell {
+pub(super) struct PhaseInterval {
     /// First time, s.
     pub from: f64,
     /// Last time, s.
@@ -55,10 +54,10 @@ pub(super) struct Spell {
     pub phase: Phase,
 }
 
-pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: Phase) {
-    match spells.last_mut() {
+pub(super) fn push_phase(phases: &mut Vec<PhaseInterval>, [from, until]: [f64; 2], phase: Phase) {
+    match phases.last_mut() {
         Some(last) if last.until == from && last.phase == phase => last.until = until,
-        _ => spells.push(Spell { from, until, phase }),
+        _ => phases.push(PhaseInterval { from, until, phase }),
     }
 }
 
@@ -71,7 +70,7 @@ pub(super) struct DenseRows {
     /// Configuration curve, if the whole run follows its coordinate.
     pub curve: Option<Arc<CurveEquation>>,
     /// Intervals of motion along a configuration curve, in order.
-    pub spells: Vec<Spell>,
+    pub phases: Vec<PhaseInterval>,
 }
 
 impl DenseRows {
@@ -79,14 +78,14 @@ impl DenseRows {
     pub fn row(&self, trajectory: &Trajectory, t: f64) -> Option<Row> {
         let maker = self.maker.as_ref()?;
         let (angle, speed) = trajectory.coordinate(t)?;
-        let after = self.spells.partition_point(|spell| spell.until < t);
-        let spell = self.spells.get(after).filter(|spell| spell.from <= t);
-        let row = match spell {
-            Some(spell) => {
-                let guide = maker.sliding.as_deref().map(Sliding::equation);
+        let after = self.phases.partition_point(|interval| interval.until < t);
+        let interval = self.phases.get(after).filter(|interval| interval.from <= t);
+        let row = match interval {
+            Some(interval) => {
+                let guide = maker.guide.as_deref().map(|guide| &guide.equation);
                 let equation = self.curve.as_deref().or(guide)?;
                 let reactor = maker.reactor.as_deref();
-                AlongCurve::new(equation, spell.phase, reactor).row(t, angle, speed)
+                AlongCurve::new(equation, interval.phase, reactor).row(t, angle, speed)
             }
             None => maker.row(t, angle, speed, self.alpha),
         };

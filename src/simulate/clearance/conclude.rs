@@ -3,57 +3,61 @@
 use std::f64::consts::TAU;
 
 use super::super::balance::Balance;
-use super::super::error_estimate::MARGIN;
 use super::super::outcome::{Estimate, Outcome};
 use super::super::passages;
-use super::super::recorder::Record as Recorded;
+use super::super::recorder::Record;
 use super::super::result::{ErrorEstimate, Peaks};
+use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
-use super::super::stop::Why;
 use super::super::warning::Warning;
-use super::follow::{Followed, phi};
-use super::motion::{DRIVEN, FREE};
-use super::record::Record;
+use super::contact_follower::ContactHistory;
+use super::journal_record::JournalRecord;
+use super::motion::{DRIVEN, FREE, Loose, phi};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
-use super::{Done, Run, Tighter};
+use super::{LooseRun, Tighter};
+use crate::engine::contact::ContactEnd;
 use crate::engine::time::Start;
 use crate::mechanism::LooseState;
 use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
 
-impl<const N: usize> Run<'_, N> {
-    pub(super) fn concluded(&self, done: Done<'_, N>, stopped: Option<Why>) -> Simulation {
-        let Done {
-            model,
-            ended,
-            seen,
-            mut record,
-            last,
-            tighter,
-            wall_s,
-        } = done;
+impl<const N: usize> LooseRun<'_, N> {
+    /// Makes the result of a run that ended in the state `last`; `record` has its rows.
+    pub(super) fn concluded(
+        &self,
+        model: &Loose<'_, N>,
+        ended: &ContactEnd<N>,
+        seen: &ContactHistory,
+        mut record: Record,
+        last: &LooseState,
+        wall_s: f64,
+    ) -> Simulation {
+        let stopped = self.stopped(ended, last);
+        let tighter = (self.task.options.estimate && stopped.is_none())
+            .then(|| self.tighter(model, last.t))
+            .flatten();
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
         let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
-        let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
+        let horizon = tighter.as_ref().map(|t| self.horizon(seen, t, last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
         // Steps round independently of each other.
         let rounding = 8.0 * f64::EPSILON * (1.0 + ended.steps as f64).sqrt();
         let error = |value: fn(&LooseState) -> f64, size: f64| {
-            against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
+            against.map(|t| MARGIN * (value(t) - value(last)).abs() + rounding * size)
         };
         let reach = model.reach;
-        let struck = self.struck(&seen, f64::EPSILON * reach, last.t);
+        let struck = self.struck(seen, f64::EPSILON * reach, last.t);
         let summary = self.summary(
-            &seen,
+            seen,
             [work, lost],
-            &last,
+            last,
             |value, length| Some(error(value, reach / length)? + struck / length),
             horizon,
         );
-        let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
+        let mut warnings = self.warnings(&summary, seen, tighter.is_some() || stopped.is_some());
         if N == DRIVEN {
             self.add_dead_centres(&mut record, last.t);
         }
@@ -80,7 +84,7 @@ impl<const N: usize> Run<'_, N> {
                     theta_rad,
                     omega_rad_per_s,
                 };
-                Estimate::of_end(error, None)
+                Estimate::of_end(error)
             }),
             balance: Balance {
                 residual: gained - work + lost,
@@ -105,11 +109,11 @@ impl<const N: usize> Run<'_, N> {
     }
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
-    fn horizon(&self, seen: &Followed, tighter: &Tighter, end: &LooseState) -> Horizon {
+    fn horizon(&self, seen: &ContactHistory, tighter: &Tighter, end: &LooseState) -> Horizon {
         let distance = 0.01 * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
-        let statistics = |record: &Record| {
+        let statistics = |record: &JournalRecord| {
             let (tally, from) = record.since(t);
             tally.statistics(from, end.t)
         };
@@ -132,7 +136,7 @@ impl<const N: usize> Run<'_, N> {
     /// t, s. In the deepest impact, of depth δ and force F, the energy 2Fδ/5 stops the free bodies of mass m,
     /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
     /// velocity, is 3/2 of that of the depth; the next impact ends it.
-    fn struck(&self, seen: &Followed, gap: f64, t: f64) -> f64 {
+    fn struck(&self, seen: &ContactHistory, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
         let mass = match self.mechanism.clearance().joint {
@@ -149,7 +153,7 @@ impl<const N: usize> Run<'_, N> {
 
     fn summary(
         &self,
-        seen: &Followed,
+        seen: &ContactHistory,
         [work, lost]: [f64; 2],
         last: &LooseState,
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
@@ -189,7 +193,7 @@ impl<const N: usize> Run<'_, N> {
     fn warnings(
         &self,
         summary: &ClearanceSummary,
-        seen: &Followed,
+        seen: &ContactHistory,
         compared: bool,
     ) -> Vec<Warning> {
         let unknown = self.task.options.estimate && !compared;
@@ -212,7 +216,7 @@ impl<const N: usize> Run<'_, N> {
     }
 
     /// Adds the dead centres of a crank at constant speed to impacts and separations, in order of time.
-    fn add_dead_centres(&self, record: &mut Recorded, end: f64) {
+    fn add_dead_centres(&self, record: &mut Record, end: f64) {
         let (passages, count) = passages::at_constant_speed(self.task, end);
         record.events.extend(passages);
         record.events_total += count;

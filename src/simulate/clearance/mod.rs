@@ -1,11 +1,11 @@
 //! Motion with a loose joint: alternating flight and contact, integrated by the contact engine.
 
 mod conclude;
-mod follow;
+mod contact_follower;
+mod journal_record;
 mod motion;
 mod peak;
 mod press;
-mod record;
 mod result;
 
 use std::f64::consts::TAU;
@@ -14,12 +14,12 @@ use std::time::Instant;
 pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::error_estimate::TIGHTER;
-use super::recorder::{Record as Recorded, Recorder};
+use super::recorder::{Record, Recorder};
 use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
+use super::second_run::TIGHTER;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, AcceptedStep, ContactEnd, Finish, Settings};
@@ -27,9 +27,9 @@ use crate::engine::time::{FAR, Start};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
-use follow::{Follow, Followed};
+use contact_follower::{ContactFollower, ContactHistory};
+use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
-use record::Record;
 
 /// Number of samples of the journal path in a turn; halved again and again in a long run.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
@@ -45,41 +45,40 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
     match task.scene.motion.kind {
-        MotionKind::ConstantSpeed => Run::<DRIVEN>::new(task, &mechanism, start)?.all(rows),
-        MotionKind::Free => Run::<FREE>::new(task, &mechanism, start)?.all(rows),
+        MotionKind::ConstantSpeed => LooseRun::<DRIVEN>::new(task, &mechanism, start).all(rows),
+        MotionKind::Free => LooseRun::<FREE>::new(task, &mechanism, start).all(rows),
     }
 }
 
-struct Run<'a, const N: usize> {
+struct LooseRun<'a, const N: usize> {
     task: &'a RunSetup<'a>,
     mechanism: &'a LooseMechanism,
     start: LooseState,
     t_end: f64,
 }
 
-impl<'a, const N: usize> Run<'a, N> {
+impl<'a, const N: usize> LooseRun<'a, N> {
     fn new(
         task: &'a RunSetup<'a>,
         mechanism: &'a LooseMechanism,
         start: LooseState,
-    ) -> Result<Run<'a, N>, Error> {
+    ) -> LooseRun<'a, N> {
         let t_end = match task.extent {
             Extent::Duration(duration) => duration,
             Extent::Revolutions(_) if N == FREE => FAR,
             Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
         };
-        Ok(Run {
+        LooseRun {
             task,
             mechanism,
             start,
             t_end,
-        })
+        }
     }
 
     fn all(&self, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
         let begun = Instant::now();
-        let corners = |t: f64| self.task.equation().loads().next_corner(t);
-        let model = self.model(&corners);
+        let model = self.model();
         let every = self.task.scene.run.output_every;
         let schedule = match N {
             DRIVEN => Schedule::at_speed(every, self.start.omega, self.t_end),
@@ -89,64 +88,45 @@ impl<'a, const N: usize> Run<'a, N> {
         let mut follow = self.follow(&model, Some(recorder));
         let tolerance = self.task.scene.run.tolerance;
         let ended = self.go(&model, tolerance, self.t_end, &mut |s| follow.take(s));
-        let rows = follow.rows();
-        let Follow { recorder, seen, .. } = follow;
+        let ContactFollower { recorder, seen, .. } = follow;
         let last = seen.ends_at.unwrap_or(model.state(&ended.last));
-        let mut record = Recorded::new(self.start.omega);
+        let mut record = Record::new(self.start.omega);
         if let Some(mut recorder) = recorder {
             recorder.end_piece(last.t);
-            record = recorder.finish(|| Some(rows.row(&last, ended.phase)))?;
+            record = recorder.finish(|| Some(model.row(&last, ended.phase)))?;
         }
         let wall_s = record.wall_s(begun);
-        let stopped = self.stopped(&ended, &last);
-        let tighter = (self.task.options.estimate && stopped.is_none())
-            .then(|| self.tighter(&model, last.t))
-            .flatten();
-        let done = Done {
-            model: &model,
-            ended,
-            seen,
-            record,
-            last,
-            tighter,
-            wall_s,
-        };
-        Ok(self.concluded(done, stopped))
+        Ok(self.concluded(&model, &ended, &seen, record, &last, wall_s))
     }
 
     fn follow<'b>(
         &'b self,
         model: &'b Loose<'b, N>,
         recorder: Option<Recorder<'b>>,
-    ) -> Follow<'b, N> {
+    ) -> ContactFollower<'b, N> {
         let turn = TAU / self.start.omega.abs().max(1.0);
         let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
-        let dead_centres = self.task.limits.dead_centres.iter();
-        Follow {
+        ContactFollower {
             model,
-            task: self.task,
-            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
+            dead_centres: self.task.dead_centres(),
             recorder,
-            seen: Followed::new(width, self.mechanism.energy(&self.start).abs()),
+            seen: ContactHistory::new(width, self.mechanism.energy(&self.start).abs()),
         }
     }
 
-    fn model<'b>(&self, corners: &'b dyn Fn(f64) -> f64) -> Loose<'b, N>
-    where
-        'a: 'b,
-    {
+    fn model(&self) -> Loose<'a, N> {
         let geometry = &self.task.scene.geometry;
         let length = geometry
             .crank
             .min(100.0 * self.mechanism.clearance().radial);
         Loose {
             mechanism: self.mechanism,
+            task: self.task,
             start: (self.start.theta, self.start.omega),
             length,
             angle: length / geometry.crank,
             pace: self.start.omega.abs().max(1.0),
             reach: geometry.crank + geometry.rod,
-            corners,
         }
     }
 
@@ -187,23 +167,31 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
-        match (ended.finish, self.task.extent) {
-            (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(Why::Turns(turns)),
-            (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
-            (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(Why::JamLoose),
-            (Finish::WorkLimit, _) => Some(self.task.limited()),
-            (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
-                Some(load) => Why::NoValue {
-                    asked: Start {
-                        t: last.t,
-                        angle: self.task.angle(last.theta),
-                        speed: last.omega,
-                    },
-                    load: Some(load.clone()),
-                },
-                None => Why::ContactTooStiff,
-            }),
+        match ended.finish {
+            Finish::AtEnd => match self.task.extent {
+                Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
+                _ => None,
+            },
+            Finish::Stopped | Finish::Broken => None,
+            Finish::WorkLimit => Some(self.task.limited()),
+            Finish::StepTooSmall => Some(self.too_small(last)),
         }
+    }
+
+    /// Returns the reason for steps that became too small.
+    fn too_small(&self, last: &LooseState) -> Why {
+        if self.mechanism.jams(last) {
+            return Why::JamLoose;
+        }
+        let load = self.without_value(last).cloned();
+        load.map_or(Why::ContactTooStiff, |load| Why::NoValue {
+            asked: Start {
+                t: last.t,
+                angle: self.task.angle(last.theta),
+                speed: last.omega,
+            },
+            load: Some(load),
+        })
     }
 
     /// Returns the load without a value at a state, or a few roundings after it.
@@ -222,18 +210,8 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 }
 
-struct Done<'a, const N: usize> {
-    model: &'a Loose<'a, N>,
-    ended: ContactEnd<N>,
-    seen: Followed,
-    record: Recorded,
-    last: LooseState,
-    tighter: Option<Tighter>,
-    wall_s: f64,
-}
-
 struct Tighter {
     last: LooseState,
-    record: Record,
+    record: JournalRecord,
     cost: Cost,
 }

@@ -2,7 +2,7 @@
 
 use super::super::joint_force_maxima::sizes;
 use super::super::result::{FORCES, Peak};
-use super::follow::Follow;
+use super::contact_follower::ContactFollower;
 use super::motion::touch;
 use crate::engine::PIECES;
 use crate::engine::contact::{AcceptedStep, Phase};
@@ -11,7 +11,7 @@ use crate::numeric::maximum;
 /// Part of the largest force up to now from which a force may exceed it between the samples of a step.
 const NEAR_LARGEST: f64 = 0.9;
 
-impl<const N: usize> Follow<'_, N> {
+impl<const N: usize> ContactFollower<'_, N> {
     /// Returns the sizes of the joint forces in a state of a step, N.
     fn sizes(&self, y: &[f64; N], phase: Phase) -> [f64; FORCES] {
         let mechanism = self.model.mechanism;
@@ -20,7 +20,7 @@ impl<const N: usize> Follow<'_, N> {
             _ => self.model.state(y),
         };
         let rates = mechanism.rates(&s, touch(phase, None));
-        let reactor = self.task.maker.reactor.as_ref();
+        let reactor = self.model.task.maker.reactor.as_ref();
         reactor.map_or([0.0; FORCES], |reactor| {
             sizes(&reactor.loose(mechanism.joint(), &s, &rates))
         })
@@ -28,7 +28,7 @@ impl<const N: usize> Follow<'_, N> {
 
     /// Updates the largest sizes: over samples of the step, then by Brent's method where one may be exceeded.
     pub(super) fn follow_forces(&mut self, stretch: &mut AcceptedStep<'_, N>) {
-        if !self.task.options.reactions || self.recorder.is_none() {
+        if !self.model.task.options.reactions || self.recorder.is_none() {
             return;
         }
         let phase = stretch.phase;
@@ -55,7 +55,7 @@ impl<const N: usize> Follow<'_, N> {
                 *peak = Peak {
                     value_n: value,
                     t_s: t,
-                    theta_rad: self.task.angle(theta).radians(),
+                    theta_rad: self.model.task.angle(theta).radians(),
                     added_n: value - seen,
                 };
             }

@@ -1,8 +1,8 @@
 //! Contact statistics of a step: time, impulse, force and penetration.
 
-use super::follow::Follow;
+use super::contact_follower::ContactFollower;
+use super::journal_record::Tally;
 use super::motion::touch;
-use super::record::Tally;
 use crate::engine::contact::{AcceptedStep, Phase, Sample};
 use crate::numeric::interpolate::quintic;
 use crate::numeric::maximum;
@@ -10,7 +10,7 @@ use crate::numeric::maximum;
 /// Number of intervals at whose ends a step with a large force is sampled.
 const PLACES: u32 = 32;
 
-impl<const N: usize> Follow<'_, N> {
+impl<const N: usize> ContactFollower<'_, N> {
     /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
     pub(super) fn follow_contact(&mut self, stretch: &mut AcceptedStep<'_, N>) {
         let begin = stretch.start[0];

@@ -1,10 +1,10 @@
 //! Errors of motions over the crank angle, from roundoff of times and positions and from truncation of the series.
 
 use super::super::balance::Balance;
-use super::super::error_estimate::MARGIN;
 use super::super::outcome::Estimate;
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
+use super::super::second_run::MARGIN;
 use super::arrived::Arrived;
 use crate::engine::angle::Driving;
 use crate::engine::energy::Orbit;

@@ -10,14 +10,15 @@ use std::time::Instant;
 
 use super::super::checkpoints::Compared;
 use super::super::configuration_curve::{End, Observer, OnCurve};
-use super::super::error_estimate::{Forward, MARGIN, much_tighter, tighter};
+use super::super::crank_motion::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
+use super::super::second_run::{MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
-use super::arrived::{Arrived, Driven, Sink};
+use super::arrived::{AnglePiece, Arrived, Sink};
 use super::engine_loop::Course;
 use super::errors_over_angle::{
     PLACE_ROUNDING, TIME_ROUNDING, by_energy, late_by, row_error, worst_row,
@@ -50,7 +51,7 @@ pub(super) fn estimate(
     wants_rows: bool,
 ) -> Option<Estimate> {
     match &arrived.driven {
-        Some(Driven {
+        Some(AnglePiece {
             driving, engine, ..
         }) if *engine == Engine::Energy => {
             Some(by_energy(course.task, driving, arrived, wants_rows))
@@ -79,13 +80,13 @@ fn by_second_run(
     let tolerance = plain.tolerance;
     let collocation = Settings {
         method: Method::Picard,
-        tolerance: much_tighter(tolerance),
+        tolerance: collocation_tolerance(tolerance),
         guide: &record.checkpoints.first,
         ..plain
     };
     // Used where collocation does not reach the end.
     let again = Settings {
-        tolerance: tighter(tolerance),
+        tolerance: same_method_tolerance(tolerance),
         ..plain
     };
     let mut evaluations = 0;
@@ -108,7 +109,7 @@ fn by_second_run(
             },
             ..course.clone()
         };
-        let forward = Forward(course.task.equation());
+        let forward = CrankMotion(course.task.equation());
         let motion = Counted::new(&forward);
         let mut seen = Second::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
@@ -238,8 +239,8 @@ impl<'m, 'a> Second<'m, 'a> {
 }
 
 impl Sink for Second<'_, '_> {
-    fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
-        let Driven {
+    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
+        let AnglePiece {
             driving, from, to, ..
         } = driven;
         let (angle, speed) = driving.orbit.state(driving.end);

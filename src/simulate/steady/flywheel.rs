@@ -1,6 +1,6 @@
 //! Flywheel for a wanted coefficient of fluctuation, by root finding in the added inertia.
 
-use super::Both;
+use super::Verified;
 use super::periodic_orbit::find;
 use super::result::{Estimated, Flywheel};
 use crate::engine::WorkLimit;
@@ -65,8 +65,8 @@ pub(super) fn size(
     let scene = with(scene, added);
     scene.check()?;
     let found = find(&scene, speed, limit)?;
-    let both = Both::with_check(&scene, found, limit)?;
-    let fluctuation = both.fluctuation();
+    let verified = Verified::with_check(&scene, found, limit)?;
+    let fluctuation = verified.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
     let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;
     let slope = (excess(added + step)? - excess(added)?) / step;
@@ -79,7 +79,7 @@ pub(super) fn size(
         },
         crank_inertia_kg_m2: crank,
         fluctuation,
-        omega_mean_rad_per_s: both.mean_speed(),
+        omega_mean_rad_per_s: verified.mean_speed(),
     })
 }
 

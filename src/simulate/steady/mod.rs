@@ -8,7 +8,7 @@ mod result;
 
 use std::f64::consts::TAU;
 
-use super::error_estimate::MARGIN;
+use super::second_run::MARGIN;
 use crate::engine::WorkLimit;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
@@ -80,7 +80,7 @@ fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> 
     let found = first(scene, rests, limit)?;
     let (any_speed, approached) = (found.any_speed, found.approached);
     let speed = found.cycle.speed;
-    let mut steady = Both::with_check(scene, found, limit)?.described(scene);
+    let mut steady = Verified::with_check(scene, found, limit)?.described(scene);
     steady.approached_from_start = (!rests).then_some(approached);
     steady.flywheel = options
         .fluctuation
@@ -155,20 +155,20 @@ fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrb
 }
 
 /// Two computations of one periodic motion: their difference gives the error.
-struct Both {
+struct Verified {
     found: PeriodicOrbit,
     check: PeriodicOrbit,
     /// Relative uncertainty of the speeds: half that of the energies, and rounding.
     relative: f64,
 }
 
-impl Both {
+impl Verified {
     fn with_check(
         scene: &Scene,
         found: PeriodicOrbit,
         limit: WorkLimit<'_>,
-    ) -> Result<Both, Error> {
-        Ok(Both {
+    ) -> Result<Verified, Error> {
+        Ok(Verified {
             check: periodic_orbit::again(scene, found.cycle.speed, limit)?,
             relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
             found,
@@ -202,12 +202,12 @@ impl Both {
     }
 
     fn described(&self, scene: &Scene) -> SteadyState {
-        let Both { found, check, .. } = self;
+        let Verified { found, check, .. } = self;
         let fluctuation = self.fluctuation();
         let varies = found.fluctuation() > 4.0 * fluctuation.error;
         let extreme = |which: usize| SpeedExtreme {
             omega_rad_per_s: self.relative(|f| f.extremes[which].omega),
-            theta_rad: varies.then(|| self.place(which)),
+            theta_rad: varies.then(|| self.extreme_angle(which)),
         };
         let loads = loads::works(scene, self);
         let power = |sign: f64| {
@@ -245,8 +245,8 @@ impl Both {
 
     /// Estimates the crank angle of an extreme of the speed: an error of the acceleration by a part `relative` of the
     /// speed moves the extreme the more, the less the speed varies.
-    fn place(&self, which: usize) -> Estimated {
-        let Both { found, check, .. } = self;
+    fn extreme_angle(&self, which: usize) -> Estimated {
+        let Verified { found, check, .. } = self;
         let [here, there] = [found, check].map(|f| f.extremes[which].turned);
         let apart = (here - there).abs();
         let apart = apart.min((found.way() - apart).abs());

@@ -129,7 +129,7 @@ impl Seeker<'_> {
     fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
         let reads = self.task.equation().loads().reads();
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
-        if !by_speed && self.task.maker.sliding.is_none() {
+        if !by_speed && self.task.maker.guide.is_none() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
             if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
                 let (what, load) = match cycle.gain > 0.0 {

@@ -2,19 +2,18 @@
 
 use super::super::recorder::Recorder;
 use super::super::result::{Event, FORCES, Peak};
-use super::super::row::{LooseRow, Row};
+use super::super::row::Row;
 use super::super::row_writer::RowSource;
-use super::super::run_setup::RunSetup;
-use super::motion::{Loose, touch};
-use super::record::{Record, Tally};
+use super::journal_record::{JournalRecord, Tally};
+use super::motion::{FREE, Loose};
 use crate::engine::contact::{AcceptedStep, Phase};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::mechanism::LooseState;
 use crate::numeric::root;
 
-pub(super) struct Followed {
-    pub record: Record,
+pub(super) struct ContactHistory {
+    pub record: JournalRecord,
     pub total: Tally,
     pub separations: u64,
     /// Largest absolute energy up to now, J: of the start, and of work minus loss.
@@ -25,10 +24,10 @@ pub(super) struct Followed {
     sticking: bool,
 }
 
-impl Followed {
-    pub fn new(width: f64, energy: f64) -> Followed {
-        Followed {
-            record: Record::new(width),
+impl ContactHistory {
+    pub fn new(width: f64, energy: f64) -> ContactHistory {
+        ContactHistory {
+            record: JournalRecord::new(width),
             total: Tally::default(),
             separations: 0,
             energy,
@@ -40,27 +39,26 @@ impl Followed {
     }
 }
 
-pub(super) struct Follow<'a, const N: usize> {
+pub(super) struct ContactFollower<'a, const N: usize> {
     pub model: &'a Loose<'a, N>,
-    pub task: &'a RunSetup<'a>,
     /// Dead centres, rad in [0, 2π).
     pub dead_centres: Vec<f64>,
     /// Recorder of rows and events; none for the run of comparison.
     pub recorder: Option<Recorder<'a>>,
-    pub seen: Followed,
+    pub seen: ContactHistory,
 }
 
-impl<'a, const N: usize> Follow<'a, N> {
+impl<const N: usize> ContactFollower<'_, N> {
     /// Follows an accepted step; true ends the run.
     pub fn take(&mut self, stretch: &mut AcceptedStep<'_, N>) -> bool {
         self.follow_phase(stretch);
         self.follow_guide(stretch);
-        if N == super::motion::FREE {
+        if N == FREE {
             self.follow_crank(stretch);
         }
         self.follow_contact(stretch);
         self.follow_forces(stretch);
-        while self.task.options.estimate && self.seen.record.due() <= stretch.end[0] {
+        while self.model.task.options.estimate && self.seen.record.due() <= stretch.end[0] {
             let y = stretch.at(self.seen.record.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));
             self.seen.record.sample(journal);
@@ -70,7 +68,7 @@ impl<'a, const N: usize> Follow<'a, N> {
         let mut part = InStretch {
             until: self.until(stretch),
             stretch,
-            loose: self.rows(),
+            model: self.model,
         };
         let recorder = self.recorder.as_mut();
         let fails = recorder.is_some_and(|recorder| recorder.rows(&mut part));
@@ -82,15 +80,8 @@ impl<'a, const N: usize> Follow<'a, N> {
         self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
     }
 
-    pub fn rows(&self) -> LooseRows<'a, N> {
-        LooseRows {
-            model: self.model,
-            task: self.task,
-        }
-    }
-
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
-        let theta_rad = self.task.angle(theta).radians();
+        let theta_rad = self.model.task.angle(theta).radians();
         if let Some(recorder) = &mut self.recorder {
             recorder.event(|| Event {
                 kind,
@@ -103,7 +94,8 @@ impl<'a, const N: usize> Follow<'a, N> {
 
     fn follow_phase(&mut self, stretch: &AcceptedStep<'_, N>) {
         let s = self.model.state(&stretch.start);
-        let kind = match (self.seen.phase, stretch.phase) {
+        let before = std::mem::replace(&mut self.seen.phase, stretch.phase);
+        let kind = match (before, stretch.phase) {
             (Phase::Flight, Phase::Contact { .. }) => {
                 let one = Tally {
                     impacts: 1,
@@ -117,12 +109,8 @@ impl<'a, const N: usize> Follow<'a, N> {
                 self.seen.separations += 1;
                 "separation"
             }
-            _ => {
-                self.seen.phase = stretch.phase;
-                return;
-            }
+            _ => return,
         };
-        self.seen.phase = stretch.phase;
         self.event(kind, s.t, s.theta, s.omega);
     }
 
@@ -154,7 +142,7 @@ impl<'a, const N: usize> Follow<'a, N> {
             self.model.state(&stretch.end),
         );
         let step = Step::new(
-            self.task.start().turns,
+            self.model.task.start().turns,
             node(from, stretch.before.rates[4]),
             node(to, stretch.after.rates[4]),
         );
@@ -165,14 +153,14 @@ impl<'a, const N: usize> Follow<'a, N> {
         recorder.keep_step(step);
         let start = self.model.start.0;
         let turned = |theta: f64| theta - start;
-        if let Some(limit) = self.task.extent.angle()
+        if let Some(limit) = self.model.task.extent.angle()
             && turned(to.theta).abs() >= limit
         {
             let target = start + limit.copysign(turned(to.theta));
             let t = step.time_of_angle(target, from.t, to.t).unwrap_or(to.t);
             self.seen.ends_at = Some(self.model.state(&stretch.at(t)));
         }
-        let last = self.seen.ends_at.map_or(to.t, |s| s.t);
+        let last = self.until(stretch);
         let mut found = Vec::new();
         events::crossings(&step, &self.dead_centres, &mut found);
         for (t, what) in found.into_iter().filter(|(t, _)| *t <= last) {
@@ -185,46 +173,12 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 }
 
-pub(super) struct LooseRows<'a, const N: usize> {
-    model: &'a Loose<'a, N>,
-    task: &'a RunSetup<'a>,
-}
-
-impl<const N: usize> LooseRows<'_, N> {
-    /// Makes the row of slider and rod, with the slider of ideal joints for comparison.
-    pub fn row(&self, s: &LooseState, phase: Phase) -> Row {
-        let mechanism = self.model.mechanism;
-        let linked = matches!(phase, Phase::Link).then(|| mechanism.relinked(s));
-        let s = linked.as_ref().unwrap_or(s);
-        let rates = mechanism.rates(s, touch(phase, None));
-        let maker = &self.task.maker;
-        let ideal = maker.row(s.t, self.task.angle(s.theta), s.omega, Some(rates.alpha));
-        Row {
-            x: s.x,
-            v: s.v,
-            a: rates.a,
-            phi: phi(s.psi, self.task.scene.geometry.branch.sign()),
-            reactions: maker
-                .reactor
-                .as_ref()
-                .map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
-            driving_torque: maker.driving_torque.then_some(rates.driving_torque),
-            clearance: Some(LooseRow {
-                ideal: [ideal.x, ideal.v, ideal.a],
-                journal: mechanism.journal(s),
-                force: rates.normal,
-            }),
-            ..ideal
-        }
-    }
-}
-
 /// Accepted step until a time inside it.
 struct InStretch<'s, 'y, 'a, const N: usize> {
     stretch: &'s mut AcceptedStep<'y, N>,
     /// Last time, s.
     until: f64,
-    loose: LooseRows<'a, N>,
+    model: &'a Loose<'a, N>,
 }
 
 impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
@@ -233,8 +187,7 @@ impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        let model = self.loose.model;
-        model.state(&self.stretch.at(t)).theta - model.start.0
+        self.model.state(&self.stretch.at(t)).theta - self.model.start.0
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
@@ -242,13 +195,7 @@ impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let s = self.loose.model.state(&self.stretch.at(t));
-        self.loose.row(&s, self.stretch.phase)
+        let s = self.model.state(&self.stretch.at(t));
+        self.model.row(&s, self.stretch.phase)
     }
-}
-
-/// Returns the inclination φ of the rod from its direction ψ, rad.
-pub(super) fn phi(psi: f64, branch: f64) -> f64 {
-    let (sin, cos) = psi.sin_cos();
-    (-sin).atan2(branch * cos)
 }
