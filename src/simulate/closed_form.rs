@@ -36,7 +36,7 @@ pub(super) fn run<'a>(
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let drive = Drive {
+    let mut drive = Drive {
         maker: &task.maker,
         start,
         speed,
@@ -54,10 +54,9 @@ pub(super) fn run<'a>(
     let wall_s = begun.elapsed().as_secs_f64();
     let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
     let mut recorder = Recorder::new(task, rows, schedule);
-    let mut part = Uniform { task, end };
-    recorder.rows(&mut part);
+    recorder.rows(&mut drive);
     // The limit itself has no finite velocity.
-    let mut record = recorder.finish(|| blocked.is_none().then(|| part.row(end)))?;
+    let mut record = recorder.finish(|| blocked.is_none().then(|| drive.row(end)))?;
     (record.events, record.events_total) = passages::at_constant_speed(task, end);
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,
@@ -118,27 +117,21 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     (speed != 0.0).then(|| left / speed.abs())
 }
 
-struct Uniform<'a> {
-    task: &'a RunSetup<'a>,
-    end: f64,
-}
-
-impl RowSource for Uniform<'_> {
+impl RowSource for Drive<'_> {
     fn times(&self) -> [f64; 2] {
         [0.0, self.end]
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.task.speed * t
+        self.speed * t
     }
 
     fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
-        Some(turned / self.task.speed)
+        Some(turned / self.speed)
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let speed = self.task.speed;
-        let angle = self.task.start().plus(speed * t);
-        self.task.maker.row(t, angle, speed, Some(0.0))
+        let angle = self.start.plus(self.speed * t);
+        self.maker.row(t, angle, self.speed, Some(0.0))
     }
 }

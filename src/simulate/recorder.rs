@@ -42,14 +42,6 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Makes an empty record that starts with this speed, rad/s.
-    pub fn new(speed: f64) -> Record {
-        Record {
-            speed: (speed, speed),
-            ..Record::default()
-        }
-    }
-
     /// Returns the wall time since the run began without the time of the rows, s.
     pub fn wall_s(&self, begun: Instant) -> f64 {
         begun.elapsed().saturating_sub(self.row_time).as_secs_f64()
@@ -80,15 +72,15 @@ impl<'a> Recorder<'a> {
         rows: &'a mut dyn RowSink,
         schedule: Schedule,
     ) -> Recorder<'a> {
-        let speed = task.speed;
         Recorder {
             task,
             writer: RowWriter::new(rows, schedule),
             room: task.kept,
             steps: Vec::new(),
             record: Record {
+                speed: (task.speed, task.speed),
                 pieces: (task.kept > 0).then(Vec::new),
-                ..Record::new(speed)
+                ..Record::default()
             },
             error: None,
         }

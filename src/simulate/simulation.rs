@@ -40,7 +40,29 @@ impl Simulation {
     /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
     /// ```
     pub fn row(&self, t: f64) -> Option<Row> {
-        self.dense.row(self.trajectory.as_ref()?, t)
+        let DenseRows {
+            maker,
+            alpha,
+            curve,
+            phases,
+        } = &self.dense;
+        let maker = maker.as_ref()?;
+        let (angle, speed) = self.trajectory.as_ref()?.coordinate(t)?;
+        let after = phases.partition_point(|interval| interval.until < t);
+        let interval = phases.get(after).filter(|interval| interval.from <= t);
+        let row = match interval {
+            Some(interval) => {
+                let guide = maker.guide.as_deref().map(|guide| &guide.equation);
+                let equation = curve.as_deref().or(guide)?;
+                let reactor = maker.reactor.as_deref();
+                AlongCurve::new(equation, interval.phase, reactor).row(t, angle, speed)
+            }
+            None => maker.row(t, angle, speed, *alpha),
+        };
+        [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
+            .iter()
+            .all(|number| number.is_finite())
+            .then_some(row)
     }
 }
 
@@ -71,27 +93,4 @@ pub(super) struct DenseRows {
     pub curve: Option<Arc<CurveEquation>>,
     /// Intervals of motion along a configuration curve, in order.
     pub phases: Vec<PhaseInterval>,
-}
-
-impl DenseRows {
-    /// Makes the row at a time, s; none outside the run, with a loose joint, and where a number is not finite.
-    pub fn row(&self, trajectory: &Trajectory, t: f64) -> Option<Row> {
-        let maker = self.maker.as_ref()?;
-        let (angle, speed) = trajectory.coordinate(t)?;
-        let after = self.phases.partition_point(|interval| interval.until < t);
-        let interval = self.phases.get(after).filter(|interval| interval.from <= t);
-        let row = match interval {
-            Some(interval) => {
-                let guide = maker.guide.as_deref().map(|guide| &guide.equation);
-                let equation = self.curve.as_deref().or(guide)?;
-                let reactor = maker.reactor.as_deref();
-                AlongCurve::new(equation, interval.phase, reactor).row(t, angle, speed)
-            }
-            None => maker.row(t, angle, speed, self.alpha),
-        };
-        [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
-            .iter()
-            .all(|number| number.is_finite())
-            .then_some(row)
-    }
 }

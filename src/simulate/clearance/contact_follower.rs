@@ -50,24 +50,24 @@ pub(super) struct ContactFollower<'a, const N: usize> {
 
 impl<const N: usize> ContactFollower<'_, N> {
     /// Follows an accepted step; true ends the run.
-    pub fn take(&mut self, stretch: &mut AcceptedStep<'_, N>) -> bool {
-        self.follow_phase(stretch);
-        self.follow_guide(stretch);
+    pub fn take(&mut self, accepted: &mut AcceptedStep<'_, N>) -> bool {
+        self.follow_phase(accepted);
+        self.follow_guide(accepted);
         if N == FREE {
-            self.follow_crank(stretch);
+            self.follow_crank(accepted);
         }
-        self.follow_contact(stretch);
-        self.follow_forces(stretch);
-        while self.model.task.options.estimate && self.seen.record.due() <= stretch.end[0] {
-            let y = stretch.at(self.seen.record.due());
+        self.follow_contact(accepted);
+        self.follow_forces(accepted);
+        while self.model.task.options.estimate && self.seen.record.due() <= accepted.end[0] {
+            let y = accepted.at(self.seen.record.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));
             self.seen.record.sample(journal);
         }
-        let [work, lost] = self.model.work(&stretch.end);
+        let [work, lost] = self.model.work(&accepted.end);
         self.seen.energy = self.seen.energy.max((work - lost).abs());
-        let mut part = InStretch {
-            until: self.until(stretch),
-            stretch,
+        let mut part = InAccepted {
+            until: self.until(accepted),
+            accepted,
             model: self.model,
         };
         let recorder = self.recorder.as_mut();
@@ -76,8 +76,8 @@ impl<const N: usize> ContactFollower<'_, N> {
     }
 
     /// Returns the last time (s) of a step that belongs to the run.
-    pub(super) fn until(&self, stretch: &AcceptedStep<'_, N>) -> f64 {
-        self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
+    pub(super) fn until(&self, accepted: &AcceptedStep<'_, N>) -> f64 {
+        self.seen.ends_at.map_or(accepted.end[0], |s| s.t)
     }
 
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
@@ -92,10 +92,10 @@ impl<const N: usize> ContactFollower<'_, N> {
         }
     }
 
-    fn follow_phase(&mut self, stretch: &AcceptedStep<'_, N>) {
-        let s = self.model.state(&stretch.start);
-        let before = std::mem::replace(&mut self.seen.phase, stretch.phase);
-        let kind = match (before, stretch.phase) {
+    fn follow_phase(&mut self, accepted: &AcceptedStep<'_, N>) {
+        let s = self.model.state(&accepted.start);
+        let before = std::mem::replace(&mut self.seen.phase, accepted.phase);
+        let kind = match (before, accepted.phase) {
             (Phase::Flight, Phase::Contact { .. }) => {
                 let one = Tally {
                     impacts: 1,
@@ -115,10 +115,10 @@ impl<const N: usize> ContactFollower<'_, N> {
     }
 
     /// Records where friction holds and releases the slider; a held slider has exactly zero velocity.
-    fn follow_guide(&mut self, stretch: &AcceptedStep<'_, N>) {
+    fn follow_guide(&mut self, accepted: &AcceptedStep<'_, N>) {
         let (from, to) = (
-            self.model.state(&stretch.start),
-            self.model.state(&stretch.end),
+            self.model.state(&accepted.start),
+            self.model.state(&accepted.end),
         );
         let sticking = self.model.mechanism.rubs() && from.v == 0.0 && to.v == 0.0;
         if sticking != self.seen.sticking {
@@ -129,7 +129,7 @@ impl<const N: usize> ContactFollower<'_, N> {
     }
 
     /// Records dead centres, turning points, extreme speeds and the turn limit of a free crank.
-    fn follow_crank(&mut self, stretch: &mut AcceptedStep<'_, N>) {
+    fn follow_crank(&mut self, accepted: &mut AcceptedStep<'_, N>) {
         let node = |s: LooseState, alpha: f64| Node {
             t: s.t,
             theta: s.theta,
@@ -138,13 +138,13 @@ impl<const N: usize> ContactFollower<'_, N> {
             work: 0.0,
         };
         let (from, to) = (
-            self.model.state(&stretch.start),
-            self.model.state(&stretch.end),
+            self.model.state(&accepted.start),
+            self.model.state(&accepted.end),
         );
         let step = Step::new(
             self.model.task.start().turns,
-            node(from, stretch.before.rates[4]),
-            node(to, stretch.after.rates[4]),
+            node(from, accepted.before.rates[4]),
+            node(to, accepted.after.rates[4]),
         );
         let Some(recorder) = &mut self.recorder else {
             return;
@@ -158,9 +158,9 @@ impl<const N: usize> ContactFollower<'_, N> {
         {
             let target = start + limit.copysign(turned(to.theta));
             let t = step.time_of_angle(target, from.t, to.t).unwrap_or(to.t);
-            self.seen.ends_at = Some(self.model.state(&stretch.at(t)));
+            self.seen.ends_at = Some(self.model.state(&accepted.at(t)));
         }
-        let last = self.until(stretch);
+        let last = self.until(accepted);
         let mut found = Vec::new();
         events::crossings(&step, &self.dead_centres, &mut found);
         for (t, what) in found.into_iter().filter(|(t, _)| *t <= last) {
@@ -174,20 +174,20 @@ impl<const N: usize> ContactFollower<'_, N> {
 }
 
 /// Accepted step until a time inside it.
-struct InStretch<'s, 'y, 'a, const N: usize> {
-    stretch: &'s mut AcceptedStep<'y, N>,
+struct InAccepted<'s, 'y, 'a, const N: usize> {
+    accepted: &'s mut AcceptedStep<'y, N>,
     /// Last time, s.
     until: f64,
     model: &'a Loose<'a, N>,
 }
 
-impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
+impl<const N: usize> RowSource for InAccepted<'_, '_, '_, N> {
     fn times(&self) -> [f64; 2] {
-        [self.stretch.start[0], self.until]
+        [self.accepted.start[0], self.until]
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.model.state(&self.stretch.at(t)).theta - self.model.start.0
+        self.model.state(&self.accepted.at(t)).theta - self.model.start.0
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
@@ -195,7 +195,7 @@ impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let s = self.model.state(&self.stretch.at(t));
-        self.model.row(&s, self.stretch.phase)
+        let s = self.model.state(&self.accepted.at(t));
+        self.model.row(&s, self.accepted.phase)
     }
 }

@@ -90,11 +90,13 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         let ended = self.go(&model, tolerance, self.t_end, &mut |s| follow.take(s));
         let ContactFollower { recorder, seen, .. } = follow;
         let last = seen.ends_at.unwrap_or(model.state(&ended.last));
-        let mut record = Record::new(self.start.omega);
-        if let Some(mut recorder) = recorder {
-            recorder.end_piece(last.t);
-            record = recorder.finish(|| Some(model.row(&last, ended.phase)))?;
-        }
+        let record = match recorder {
+            Some(mut recorder) => {
+                recorder.end_piece(last.t);
+                recorder.finish(|| Some(model.row(&last, ended.phase)))?
+            }
+            None => Record::default(),
+        };
         let wall_s = record.wall_s(begun);
         Ok(self.concluded(&model, &ended, &seen, record, &last, wall_s))
     }

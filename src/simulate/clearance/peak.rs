@@ -27,18 +27,18 @@ impl<const N: usize> ContactFollower<'_, N> {
     }
 
     /// Updates the largest sizes: over samples of the step, then by Brent's method where one may be exceeded.
-    pub(super) fn follow_forces(&mut self, stretch: &mut AcceptedStep<'_, N>) {
+    pub(super) fn follow_forces(&mut self, accepted: &mut AcceptedStep<'_, N>) {
         if !self.model.task.options.reactions || self.recorder.is_none() {
             return;
         }
-        let phase = stretch.phase;
-        let start = stretch.start[0];
-        let end = self.until(stretch);
+        let phase = accepted.phase;
+        let start = accepted.start[0];
+        let end = self.until(accepted);
         let places: [f64; PIECES + 1] = std::array::from_fn(|i| match i {
             PIECES => end,
             _ => start + (end - start) * i as f64 / PIECES as f64,
         });
-        let found = places.map(|t| (t, self.sizes(&stretch.at(t), phase)));
+        let found = places.map(|t| (t, self.sizes(&accepted.at(t), phase)));
         let mut peaks = self.seen.peaks.unwrap_or_default();
         for (k, peak) in peaks.iter_mut().enumerate() {
             let known = found.map(|(t, sizes)| (t, sizes[k]));
@@ -48,10 +48,10 @@ impl<const N: usize> ContactFollower<'_, N> {
             if seen <= NEAR_LARGEST * peak.value_n {
                 continue;
             }
-            let size = |t: f64| self.sizes(&stretch.at(t), phase)[k];
+            let size = |t: f64| self.sizes(&accepted.at(t), phase)[k];
             let (t, value) = maximum::beside_best(size, &known);
             if value > peak.value_n {
-                let theta = self.model.state(&stretch.at(t)).theta;
+                let theta = self.model.state(&accepted.at(t)).theta;
                 *peak = Peak {
                     value_n: value,
                     t_s: t,

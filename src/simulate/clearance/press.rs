@@ -12,27 +12,27 @@ const PLACES: u32 = 32;
 
 impl<const N: usize> ContactFollower<'_, N> {
     /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
-    pub(super) fn follow_contact(&mut self, stretch: &mut AcceptedStep<'_, N>) {
-        let begin = stretch.start[0];
-        let end = self.until(stretch);
+    pub(super) fn follow_contact(&mut self, accepted: &mut AcceptedStep<'_, N>) {
+        let begin = accepted.start[0];
+        let end = self.until(accepted);
         let h = end - begin;
-        let tally = match stretch.phase {
+        let tally = match accepted.phase {
             Phase::Flight => return,
             Phase::Release { .. } => Tally {
                 touching: h,
                 ..Tally::default()
             },
-            Phase::Contact { approach } => self.pressed(stretch, approach, h),
-            Phase::Link => self.linked(stretch, h),
+            Phase::Contact { approach } => self.pressed(accepted, approach, h),
+            Phase::Link => self.linked(accepted, h),
         };
         self.seen.total.add(&tally);
         self.seen.record.spread(begin, end, &tally);
     }
 
     /// Returns the statistics of the first `h` seconds of a step in contact.
-    fn pressed(&self, stretch: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
-        let (length, begin) = (stretch.length(), stretch.start[0]);
-        let (before, after) = (&stretch.before, &stretch.after);
+    fn pressed(&self, accepted: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
+        let (length, begin) = (accepted.length(), accepted.start[0]);
+        let (before, after) = (&accepted.before, &accepted.after);
         let end = |s: &Sample<N>| {
             let bend = 0.5 * length * length * s.depth_acceleration;
             [length * s.depth_rate, bend]
@@ -59,7 +59,7 @@ impl<const N: usize> ContactFollower<'_, N> {
             };
             let (u, force) = top(&|u| at(u).0);
             // The quintic gives the place, the motion the force there.
-            let s = self.model.state(&stretch.at(begin + u * length));
+            let s = self.model.state(&accepted.at(begin + u * length));
             let phase = Phase::Contact { approach };
             let moved = self.model.mechanism.rates(&s, touch(phase, None)).normal;
             tally.peak = tally
@@ -70,10 +70,10 @@ impl<const N: usize> ContactFollower<'_, N> {
         tally
     }
 
-    fn linked(&self, stretch: &mut AcceptedStep<'_, N>, h: f64) -> Tally {
-        let t = stretch.start[0];
+    fn linked(&self, accepted: &mut AcceptedStep<'_, N>, h: f64) -> Tally {
+        let t = accepted.start[0];
         let force = [0.0, 0.5, 1.0].map(|u| {
-            let s = self.model.state(&stretch.at(t + u * h));
+            let s = self.model.state(&accepted.at(t + u * h));
             self.model
                 .mechanism
                 .rates(&s, touch(Phase::Link, None))

@@ -154,13 +154,7 @@ fn distance(
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(
-            course.task,
-            (angle, speed),
-            t,
-            TIME_ROUNDING * t,
-            PLACE_ROUNDING,
-        ),
+        _ => late_by(course.task, arrived.now, TIME_ROUNDING * t, PLACE_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
