@@ -127,15 +127,12 @@ impl Drive<'_> {
         Ok((self.times(turned), whole))
     }
 
-    /// Returns crank angles of a turn, rad, close enough to resolve the loads.
-    fn grid(&self) -> Vec<f64> {
-        let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
-        self.equation().linkage().turn_grid(smooth)
-    }
-
-    /// Returns the times, s, of the angles of the grid until the crank has turned by `until` (rad), with both ends.
+    /// Returns the times, s, of angles that resolve the loads, until the crank has turned by `until` (rad), with both
+    /// ends.
     fn times(&self, until: f64) -> Vec<f64> {
-        let (grid, sense) = (self.grid(), self.speed.signum());
+        let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
+        let grid = self.equation().linkage().turn_grid(smooth);
+        let sense = self.speed.signum();
         let turns = 0..=(until / TAU).ceil() as i64;
         let ahead = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
         let all = turns.flat_map(|turn| {

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::row::{Row, RowSink};
-use super::schedule::{Schedule, passed, refuse_rows};
+use super::schedule::{SAME_ROW, Schedule, passed, refuse_rows};
 use crate::error::Error;
 
 /// Part of a motion between two times, as rows see it.
@@ -44,9 +44,6 @@ pub(super) struct RowWriter<'a> {
     taken: u64,
 }
 
-/// Distance from the end, as part of the row spacing, within which a row is the end but for rounding of its time.
-const SAME_TIME: f64 = 1e-9;
-
 impl<'a> RowWriter<'a> {
     pub fn new(rows: &'a mut dyn RowSink, schedule: Schedule) -> RowWriter<'a> {
         RowWriter {
@@ -84,7 +81,7 @@ impl<'a> RowWriter<'a> {
         let before = self.before;
         let is_last = |due: &Row| {
             let last = last.map_or(f64::INFINITY, |row| row.t);
-            last - due.t <= SAME_TIME * (due.t - before) + 4.0 * f64::EPSILON * last
+            last - due.t <= SAME_ROW * (due.t - before) + 4.0 * f64::EPSILON * last
         };
         let due = self
             .held

@@ -8,11 +8,14 @@ use crate::scene::{Every, Extent, MOST_ROWS};
 /// Number of rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
 
+/// Distance of two rows, as part of the row spacing, within which they are one but for rounding.
+pub(super) const SAME_ROW: f64 = 1e-9;
+
 /// Lists the whole numbers passed on the way from `a` to `b`, in the order of passing, without `a` and with `b`. A
-/// number within 1e-9 of a whole number, as by rounding, counts as the whole number.
+/// number within [`SAME_ROW`] of a whole number counts as the whole number.
 pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     let snapped = |x: f64| {
-        if (x - x.round()).abs() < 1e-9 {
+        if (x - x.round()).abs() < SAME_ROW {
             x.round()
         } else {
             x
@@ -88,7 +91,7 @@ impl Schedule {
         match *self {
             Schedule::Times { step, end } => {
                 let t = index as f64 * step;
-                (t < end - 1e-9 * step).then_some(t)
+                (t < end - SAME_ROW * step).then_some(t)
             }
             Schedule::Angles { .. } => None,
         }

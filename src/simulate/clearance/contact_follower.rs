@@ -151,7 +151,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         };
         *recorder.speed() = events::speed_range(&step, *recorder.speed());
         recorder.keep_step(step);
-        let start = self.model.start.0;
+        let start = self.model.start.theta;
         let turned = |theta: f64| theta - start;
         if let Some(limit) = self.model.task.extent.angle()
             && turned(to.theta).abs() >= limit
@@ -187,7 +187,7 @@ impl<const N: usize> RowSource for InAccepted<'_, '_, '_, N> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.model.state(&self.accepted.at(t)).theta - self.model.start.0
+        self.model.state(&self.accepted.at(t)).theta - self.model.start.theta
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {

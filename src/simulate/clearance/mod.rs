@@ -22,8 +22,8 @@ use super::schedule::Schedule;
 use super::second_run::TIGHTER;
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, AcceptedStep, ContactEnd, Finish, Settings};
-use crate::engine::time::{FAR, Start};
+use crate::engine::contact::{self, ContactEnd, Finish, Settings};
+use crate::engine::time::FAR;
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
@@ -51,9 +51,7 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
 }
 
 struct LooseRun<'a, const N: usize> {
-    task: &'a RunSetup<'a>,
-    mechanism: &'a LooseMechanism,
-    start: LooseState,
+    model: Loose<'a, N>,
     t_end: f64,
 }
 
@@ -63,32 +61,40 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         mechanism: &'a LooseMechanism,
         start: LooseState,
     ) -> LooseRun<'a, N> {
-        let t_end = match task.extent {
-            Extent::Duration(duration) => duration,
-            Extent::Revolutions(_) if N == FREE => FAR,
-            Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
-        };
+        let geometry = &task.scene.geometry;
+        let length = geometry.crank.min(100.0 * mechanism.clearance().radial);
         LooseRun {
-            task,
-            mechanism,
-            start,
-            t_end,
+            model: Loose {
+                mechanism,
+                task,
+                start,
+                length,
+                angle: length / geometry.crank,
+                pace: start.omega.abs().max(1.0),
+                reach: geometry.crank + geometry.rod,
+            },
+            t_end: match task.extent {
+                Extent::Duration(duration) => duration,
+                Extent::Revolutions(_) if N == FREE => FAR,
+                Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
+            },
         }
     }
 
     fn all(&self, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
         let begun = Instant::now();
-        let model = self.model();
-        let every = self.task.scene.run.output_every;
+        let (model, task) = (&self.model, self.model.task);
         let schedule = match N {
-            DRIVEN => Schedule::at_speed(every, self.start.omega, self.t_end),
-            _ => self.task.schedule(),
+            DRIVEN => {
+                let every = task.scene.run.output_every;
+                Schedule::at_speed(every, model.start.omega, self.t_end)
+            }
+            _ => task.schedule(),
         };
-        let recorder = Recorder::new(self.task, rows, schedule);
-        let mut follow = self.follow(&model, Some(recorder));
-        let tolerance = self.task.scene.run.tolerance;
-        let ended = self.go(&model, tolerance, self.t_end, &mut |s| follow.take(s));
-        let ContactFollower { recorder, seen, .. } = follow;
+        let recorder = Recorder::new(task, rows, schedule);
+        let tolerance = task.scene.run.tolerance;
+        let (ended, follower) = self.integrate(Some(recorder), tolerance, self.t_end);
+        let ContactFollower { recorder, seen, .. } = follower;
         let last = seen.ends_at.unwrap_or(model.state(&ended.last));
         let record = match recorder {
             Some(mut recorder) => {
@@ -98,69 +104,49 @@ impl<'a, const N: usize> LooseRun<'a, N> {
             None => Record::default(),
         };
         let wall_s = record.wall_s(begun);
-        Ok(self.concluded(&model, &ended, &seen, record, &last, wall_s))
+        Ok(self.concluded(&ended, &seen, record, &last, wall_s))
     }
 
-    fn follow<'b>(
+    /// Integrates at a tolerance until a time, s.
+    fn integrate<'b>(
         &'b self,
-        model: &'b Loose<'b, N>,
         recorder: Option<Recorder<'b>>,
-    ) -> ContactFollower<'b, N> {
-        let turn = TAU / self.start.omega.abs().max(1.0);
-        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
-        ContactFollower {
-            model,
-            dead_centres: self.task.dead_centres(),
-            recorder,
-            seen: ContactHistory::new(width, self.mechanism.energy(&self.start).abs()),
-        }
-    }
-
-    fn model(&self) -> Loose<'a, N> {
-        let geometry = &self.task.scene.geometry;
-        let length = geometry
-            .crank
-            .min(100.0 * self.mechanism.clearance().radial);
-        Loose {
-            mechanism: self.mechanism,
-            task: self.task,
-            start: (self.start.theta, self.start.omega),
-            length,
-            angle: length / geometry.crank,
-            pace: self.start.omega.abs().max(1.0),
-            reach: geometry.crank + geometry.rod,
-        }
-    }
-
-    fn linked(&self) -> bool {
-        self.mechanism.clearance().law == ContactLaw::MasslessLink
-    }
-
-    fn go(
-        &self,
-        model: &Loose<'_, N>,
         tolerance: f64,
         t_end: f64,
-        follower: &mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool,
-    ) -> ContactEnd<N> {
+    ) -> (ContactEnd<N>, ContactFollower<'b, N>) {
+        let (model, task, start) = (&self.model, self.model.task, &self.model.start);
+        let turn = TAU / start.omega.abs().max(1.0);
+        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
+        let mut follower = ContactFollower {
+            model,
+            dead_centres: task.dead_centres(),
+            recorder,
+            seen: ContactHistory::new(width, model.mechanism.energy(start).abs()),
+        };
         let settings = Settings {
             tolerance,
             t_end,
-            limit: self.task.options.limit(),
+            limit: task.options.limit(),
         };
-        let start = model.numbers(&self.start, [0.0; 2]);
-        contact::run(model, start, self.linked(), settings, follower)
+        let y = model.numbers(start, [0.0; 2]);
+        let ended = contact::run(model, y, self.linked(), settings, &mut |step| {
+            follower.take(step)
+        });
+        (ended, follower)
+    }
+
+    fn linked(&self) -> bool {
+        self.model.mechanism.clearance().law == ContactLaw::MasslessLink
     }
 
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
-    fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
+    fn tighter(&self, t_end: f64) -> Option<Tighter> {
         let begun = Instant::now();
-        let mut follow = self.follow(model, None);
-        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(4.0 * f64::EPSILON);
-        let ended = self.go(model, tolerance, t_end, &mut |s| follow.take(s));
+        let tolerance = self.model.task.scene.run.tolerance / TIGHTER;
+        let (ended, follower) = self.integrate(None, tolerance.max(4.0 * f64::EPSILON), t_end);
         (ended.finish == Finish::AtEnd).then(|| Tighter {
-            last: model.state(&ended.last),
-            record: follow.seen.record,
+            last: self.model.state(&ended.last),
+            record: follower.seen.record,
             cost: Cost {
                 evaluations: ended.evaluations,
                 wall_s: begun.elapsed().as_secs_f64(),
@@ -170,28 +156,24 @@ impl<'a, const N: usize> LooseRun<'a, N> {
 
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
         match ended.finish {
-            Finish::AtEnd => match self.task.extent {
+            Finish::AtEnd => match self.model.task.extent {
                 Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
                 _ => None,
             },
             Finish::Stopped | Finish::Broken => None,
-            Finish::WorkLimit => Some(self.task.limited()),
+            Finish::WorkLimit => Some(self.model.task.limited()),
             Finish::StepTooSmall => Some(self.too_small(last)),
         }
     }
 
     /// Returns the reason for steps that became too small.
     fn too_small(&self, last: &LooseState) -> Why {
-        if self.mechanism.jams(last) {
+        if self.model.mechanism.jams(last) {
             return Why::JamLoose;
         }
         let load = self.without_value(last).cloned();
         load.map_or(Why::ContactTooStiff, |load| Why::NoValue {
-            asked: Start {
-                t: last.t,
-                angle: self.task.angle(last.theta),
-                speed: last.omega,
-            },
+            asked: self.model.crank(last),
             load: Some(load),
         })
     }
@@ -201,12 +183,12 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
         let at = |dt: f64| State {
             t: last.t + dt,
-            theta: self.task.angle(last.theta).radians() + last.omega * dt,
+            theta: self.model.task.angle(last.theta).radians() + last.omega * dt,
             omega: last.omega,
             x: last.x + last.v * dt,
             v: last.v,
         };
-        let loads = self.task.equation().loads();
+        let loads = self.model.task.equation().loads();
         let found = loads.without_value(&at(0.0));
         found.or_else(|| loads.without_value(&at(dt)))
     }

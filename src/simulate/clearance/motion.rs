@@ -3,6 +3,7 @@
 use super::super::row::{LooseRow, Row};
 use super::super::run_setup::RunSetup;
 use crate::engine::contact::{Contact, Phase, Sample};
+use crate::engine::time::Start;
 use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
 use crate::numeric::enclosure::{Detail, Interval};
 
@@ -17,8 +18,7 @@ pub(super) const DRIVEN: usize = 7;
 pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
     pub task: &'a RunSetup<'a>,
-    /// Crank angle (rad) and speed (rad/s) at the start.
-    pub start: (f64, f64),
+    pub start: LooseState,
     /// Scale of the positions, m.
     pub length: f64,
     /// Scale of the angles, rad.
@@ -34,13 +34,13 @@ impl<const N: usize> Loose<'_, N> {
     #[inline(always)]
     pub fn state(&self, y: &[f64; N]) -> LooseState {
         if N == DRIVEN {
-            let (angle, speed) = self.start;
+            let LooseState { theta, omega, .. } = self.start;
             LooseState {
                 t: y[0],
-                theta: angle + speed * y[0],
+                theta: theta + omega * y[0],
                 psi: y[1],
                 x: y[2],
-                omega: speed,
+                omega,
                 spin: y[3],
                 v: y[4],
             }
@@ -66,6 +66,15 @@ impl<const N: usize> Loose<'_, N> {
     /// Returns the work of loads and drive, and the energy lost in the contact and by friction at the guide, J.
     pub fn work(&self, y: &[f64; N]) -> [f64; 2] {
         [y[N - 2], y[N - 1]]
+    }
+
+    /// Returns the state of the crank.
+    pub fn crank(&self, s: &LooseState) -> Start {
+        Start {
+            t: s.t,
+            angle: self.task.angle(s.theta),
+            speed: s.omega,
+        }
     }
 
     /// Makes the row of slider and rod, with the slider of ideal joints for comparison.

@@ -29,7 +29,6 @@ pub(super) struct Course<'a> {
     pub settings: Settings<'a>,
     /// Crank rotation in one direction, rad, after which the angle engine resumes.
     pub wait: f64,
-    pub limit: WorkLimit<'a>,
     /// Configuration curve through the start, once a piece follows it.
     pub curve: OnceCell<OnCurve>,
 }
@@ -84,7 +83,7 @@ impl<'a> Pass<'a, '_> {
 
     /// Returns the rest of the work limit.
     pub fn left(&self) -> WorkLimit<'a> {
-        self.course.limit.after(self.spent())
+        self.course.settings.limit.after(self.spent())
     }
 
     fn pieces(&mut self) -> Result<(), Error> {

@@ -72,9 +72,17 @@ fn by_second_run(
     let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
     let t_end = arrived.now.t;
     let over_angle = arrived.over_angle > 0;
-    let share = arrived.evaluations.saturating_mul(FOR_ONE);
+    let limit = course.settings.limit;
+    let share = arrived
+        .evaluations
+        .saturating_mul(FOR_ONE)
+        .saturating_add(BESIDE[usize::from(over_angle)]);
     let plain = Settings {
         t_end,
+        limit: WorkLimit {
+            evaluations: share.min(limit.evaluations),
+            ..limit
+        },
         ..course.settings
     };
     let tolerance = plain.tolerance;
@@ -101,12 +109,6 @@ fn by_second_run(
             resolution: finer(guide),
             settings,
             wait: OTHER_WAIT,
-            limit: WorkLimit {
-                evaluations: share
-                    .saturating_add(BESIDE[usize::from(over_angle)])
-                    .min(course.limit.evaluations),
-                ..course.limit
-            },
             ..course.clone()
         };
         let forward = CrankMotion(course.task.equation());

@@ -66,7 +66,7 @@ impl Pass<'_, '_> {
         let from = self.arrived.now;
         let settings = Settings {
             // The evaluations of `motion` before this piece count as well.
-            limit: self.course.limit.after(self.spent_beside()),
+            limit: self.course.settings.limit.after(self.spent_beside()),
             ..self.course.settings
         };
         self.sink.begin_in_time(from, None);

@@ -57,7 +57,6 @@ pub(super) fn run(
         resolution: over_angle::plain(task),
         settings: task.settings(),
         wait: WAIT,
-        limit: task.options.limit(),
         curve: OnceCell::new(),
     };
     let forward = CrankMotion(task.equation());

@@ -8,8 +8,8 @@ mod result;
 
 use std::f64::consts::TAU;
 
+use super::options::Options;
 use super::second_run::MARGIN;
-use crate::engine::WorkLimit;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::fourier;
@@ -34,7 +34,7 @@ impl Default for SteadyOptions {
     fn default() -> SteadyOptions {
         SteadyOptions {
             fluctuation: None,
-            max_evaluations: super::Options::default().max_evaluations,
+            max_evaluations: Options::default().max_evaluations,
             stop: None,
         }
     }
@@ -73,18 +73,20 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
 fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
     refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
-    let limit = WorkLimit {
-        evaluations: options.max_evaluations,
-        stop: options.stop.as_ref(),
+    let of_runs = &Options {
+        max_evaluations: options.max_evaluations,
+        stop: options.stop.clone(),
+        events_kept: 0,
+        ..Options::default()
     };
-    let found = first(scene, rests, limit)?;
+    let found = first(scene, rests, of_runs)?;
     let (any_speed, approached) = (found.any_speed, found.approached);
     let speed = found.cycle.speed;
-    let mut steady = Verified::with_check(scene, found, limit)?.described(scene);
+    let mut steady = Verified::new(scene, found, of_runs)?.described(scene);
     steady.approached_from_start = (!rests).then_some(approached);
     steady.flywheel = options
         .fluctuation
-        .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, limit))
+        .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, of_runs))
         .transpose()?;
     let notes = [
         (
@@ -135,12 +137,12 @@ fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
 }
 
 /// Finds the steady state in the sense of the start speed; from rest both senses are tried.
-fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrbit, Error> {
+fn first(scene: &Scene, rests: bool, options: &Options) -> Result<PeriodicOrbit, Error> {
     if !rests {
-        return find(scene, scene.motion.speed, limit);
+        return find(scene, scene.motion.speed, options);
     }
     // Any speed serves as a first guess.
-    match [1.0, -1.0].map(|speed| find(scene, speed, limit)) {
+    match [1.0, -1.0].map(|speed| find(scene, speed, options)) {
         [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
             "the start is at rest, and no load depends on the speed: every speed is periodic",
             "give a start speed: motion.speed",
@@ -163,13 +165,9 @@ struct Verified {
 }
 
 impl Verified {
-    fn with_check(
-        scene: &Scene,
-        found: PeriodicOrbit,
-        limit: WorkLimit<'_>,
-    ) -> Result<Verified, Error> {
+    fn new(scene: &Scene, found: PeriodicOrbit, options: &Options) -> Result<Verified, Error> {
         Ok(Verified {
-            check: periodic_orbit::again(scene, found.cycle.speed, limit)?,
+            check: periodic_orbit::again(scene, found.cycle.speed, options)?,
             relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
             found,
         })
