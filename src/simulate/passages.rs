@@ -95,12 +95,10 @@ impl OrbitPiece<'_> {
     /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
     fn to_and_fro(&self, until: f64) -> Vec<OrbitEvent> {
         let orbit = self.orbit;
-        let turnings = orbit.turning_times(until);
-        let mut cuts = turnings.clone();
-        cuts.push(until);
+        let turnings = orbit.turning_times(until).into_iter();
+        let cuts = turnings.map(|t| (t, true)).chain([(until, false)]);
         let (mut found, mut from) = (Vec::new(), 0.0);
-        for (i, to) in cuts.into_iter().enumerate() {
-            let turns_back = i < turnings.len();
+        for (to, turns_back) in cuts {
             let [begin, end] = [from, to].map(|t| orbit.state(t).0);
             let (direction, span) = (end.minus(begin).signum(), end.minus(begin).abs());
             let last = match turns_back {
@@ -112,14 +110,8 @@ impl OrbitPiece<'_> {
                 while ahead <= last {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
                     let t = root::bracketed(beyond, from, to).unwrap_or(to);
-                    let speed = orbit.state(t).1;
-                    found.push(OrbitEvent::new(
-                        t,
-                        begin,
-                        direction * ahead,
-                        dead_centre,
-                        speed,
-                    ));
+                    let (speed, way) = (orbit.state(t).1, direction * ahead);
+                    found.push(OrbitEvent::new(t, begin, way, dead_centre, speed));
                     ahead += TAU;
                 }
             }

@@ -63,14 +63,13 @@ impl<'a> RowWriter<'a> {
             return Ok(());
         }
         let begun = Instant::now();
-        let result = match self.schedule.angle_step() {
+        let mut result = match self.schedule.angle_step() {
             Some(spacing) => self.at_angles(part, spacing),
             None => self.at_times(part),
         };
-        let result = match self.rows.wants_steps() {
-            true => result.and_then(|()| self.inside(part)),
-            false => result,
-        };
+        if self.rows.wants_steps() {
+            result = result.and_then(|()| self.inside(part));
+        }
         self.spent += begun.elapsed();
         result
     }
@@ -80,13 +79,11 @@ impl<'a> RowWriter<'a> {
         let last = self.rows.wants_rows().then(last).flatten();
         let before = self.before;
         let is_last = |due: &Row| {
-            let last = last.map_or(f64::INFINITY, |row| row.t);
-            last - due.t <= SAME_ROW * (due.t - before) + 4.0 * f64::EPSILON * last
+            last.is_some_and(|Row { t, .. }| {
+                t - due.t <= SAME_ROW * (due.t - before) + 4.0 * f64::EPSILON * t
+            })
         };
-        let due = self
-            .held
-            .take()
-            .filter(|due| last.is_none() || !is_last(due));
+        let due = self.held.take().filter(|due| !is_last(due));
         due.iter()
             .chain(&last)
             .try_for_each(|row| self.rows.row(row))

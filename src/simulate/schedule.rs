@@ -55,20 +55,13 @@ pub(super) enum Schedule {
 impl Schedule {
     pub fn new(every: Option<Every>, extent: Extent) -> Schedule {
         let intervals = f64::from(DEFAULT_ROWS - 1);
-        match (every, extent) {
-            (Some(Every::Time(step)), Extent::Duration(end)) => Schedule::Times { step, end },
-            (Some(Every::Time(step)), _) => Schedule::Times {
-                step,
-                end: f64::INFINITY,
-            },
-            (Some(Every::Angle(step)), _) => Schedule::Angles { step },
-            (None, Extent::Duration(end)) => Schedule::Times {
-                step: end / intervals,
-                end,
-            },
-            (None, Extent::Revolutions(turns)) => Schedule::Angles {
-                step: turns * TAU / intervals,
-            },
+        let (end, default) = match extent {
+            Extent::Duration(end) => (end, Every::Time(end / intervals)),
+            Extent::Revolutions(turns) => (f64::INFINITY, Every::Angle(turns * TAU / intervals)),
+        };
+        match every.unwrap_or(default) {
+            Every::Time(step) => Schedule::Times { step, end },
+            Every::Angle(step) => Schedule::Angles { step },
         }
     }
 

@@ -158,10 +158,8 @@ impl Driven for AngleModel<'_> {
         for (i, angle) in angles.iter().enumerate().take(count) {
             let (x, dx) = (at.x[i], at.dx[i]);
             table.inertia[i] = at.m[i];
-            let (stored, placed) = (
-                loads.with_potential_at(x),
-                loads.of_place(Angle::new(turns, *angle), x),
-            );
+            let stored = loads.with_potential_at(x);
+            let placed = loads.of_place(Angle::new(turns, *angle), x);
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);
             table.damping[i] = loads.damping(dx);

@@ -116,10 +116,7 @@ impl<const N: usize> ContactFollower<'_, N> {
 
     /// Records where friction holds and releases the slider; a held slider has exactly zero velocity.
     fn follow_guide(&mut self, accepted: &AcceptedStep<'_, N>) {
-        let (from, to) = (
-            self.model.state(&accepted.start),
-            self.model.state(&accepted.end),
-        );
+        let [from, to] = [accepted.start, accepted.end].map(|y| self.model.state(&y));
         let sticking = self.model.mechanism.rubs() && from.v == 0.0 && to.v == 0.0;
         if sticking != self.seen.sticking {
             let kind = if sticking { "stick" } else { "slip" };
@@ -137,10 +134,7 @@ impl<const N: usize> ContactFollower<'_, N> {
             alpha,
             work: 0.0,
         };
-        let (from, to) = (
-            self.model.state(&accepted.start),
-            self.model.state(&accepted.end),
-        );
+        let [from, to] = [accepted.start, accepted.end].map(|y| self.model.state(&y));
         let step = Step::new(
             self.model.task.start().turns,
             node(from, accepted.before.rates[4]),

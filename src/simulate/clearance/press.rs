@@ -74,10 +74,8 @@ impl<const N: usize> ContactFollower<'_, N> {
         let t = accepted.start[0];
         let force = [0.0, 0.5, 1.0].map(|u| {
             let s = self.model.state(&accepted.at(t + u * h));
-            self.model
-                .mechanism
-                .rates(&s, touch(Phase::Link, None))
-                .normal
+            let rates = self.model.mechanism.rates(&s, touch(Phase::Link, None));
+            rates.normal
         });
         let mut tally = simpson(force.map(f64::abs), h);
         if force[1] < 0.0 {

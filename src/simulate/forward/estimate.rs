@@ -51,10 +51,8 @@ pub(super) fn estimate(
     wants_rows: bool,
 ) -> Option<Estimate> {
     match &arrived.driven {
-        Some(AnglePiece {
-            driving, engine, ..
-        }) if *engine == Engine::Energy => {
-            Some(by_energy(course.task, driving, arrived, wants_rows))
+        Some(piece) if piece.engine == Engine::Energy => {
+            Some(by_energy(course.task, &piece.driving, arrived, wants_rows))
         }
         _ => by_second_run(course, arrived, record, wants_rows),
     }

@@ -181,12 +181,10 @@ fn until_the_end(
         Extent::Revolutions(turns) => turns,
     };
     let radians = turns * TAU;
-    let speed = task.speed;
     // The span doubles until it covers the turns or the motion repeats.
-    let mut until = if speed == 0.0 {
-        1.0
-    } else {
-        radians / speed.abs()
+    let mut until = match task.speed {
+        0.0 => 1.0,
+        speed => radians / speed.abs(),
     };
     for _ in 0..60 {
         let orbit = orbit_until(until)?;

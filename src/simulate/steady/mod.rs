@@ -89,21 +89,11 @@ fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> 
         .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, of_runs))
         .transpose()?;
     let notes = [
-        (
-            rests,
-            "the scene starts at rest, so its loads decide the sense of rotation",
-        ),
-        (
-            !rests && !approached,
-            "the motion from the scene's start stops; this is the next faster periodic one",
-        ),
-        (
-            any_speed,
-            "no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which",
-        ),
+        rests.then_some("the scene starts at rest, so its loads decide the sense of rotation"),
+        (!rests && !approached).then_some("the motion from the scene's start stops; this is the next faster periodic one"),
+        any_speed.then_some("no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which"),
     ];
-    let notes = notes.into_iter().filter(|(holds, _)| *holds);
-    steady.notes = notes.map(|(_, note)| note.to_owned()).collect();
+    steady.notes = notes.into_iter().flatten().map(str::to_owned).collect();
     Ok(steady)
 }
 

@@ -192,17 +192,11 @@ impl Seeker<'_> {
         let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
         let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
         let best = best.unwrap_or(0);
-        let count = ways.len();
-        let before = if best == 0 {
-            ways[count - 1] - whole
-        } else {
-            ways[best - 1]
+        let before = match best {
+            0 => ways[ways.len() - 1] - whole,
+            _ => ways[best - 1],
         };
-        let after = if best + 1 == count {
-            whole
-        } else {
-            ways[best + 1]
-        };
+        let after = ways.get(best + 1).copied().unwrap_or(whole);
         let slope = |way: f64| {
             let way = way.rem_euclid(whole);
             // Any time but the start, at which the guide takes its sign from ahead.
