@@ -119,10 +119,10 @@ fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     };
     let (parameters, whole) = drive.sample_times().ok()?;
     let turn = TAU / speed.abs();
-    let reactions = move |t: f64| maker.reactions(t, start.plus(speed * t), speed, Some(0.0));
+    let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
     Some(AlongRun {
         parameters,
-        sizes: Box::new(move |t| reactions(t).as_ref().map(sizes)),
+        sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
         time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
     })
 }
@@ -137,7 +137,7 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     let reactions = move |at: f64| {
         let (angle, speed) = orbit.state_at_place(at)?;
         let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
-        maker.reactions(t, angle, speed, None)
+        maker.row(t, angle, speed, None).reactions
     };
     Some(AlongRun {
         parameters: orbit.places(end)?,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::guide_friction::GuideFriction;
 use super::row::Row;
 use crate::engine::time::Start;
-use crate::mechanism::{Equation, Pose, Reactions, Reactor};
+use crate::mechanism::{Equation, Reactor};
 use crate::numeric::angle::Angle;
 use crate::scene::Load;
 
@@ -45,47 +45,18 @@ impl RowMaker {
         }
     }
 
-    /// Computes the joint forces, N, of a free motion or, with `alpha`, of a prescribed one; none if not asked for.
-    pub fn reactions(
-        &self,
-        t: f64,
-        angle: Angle,
-        omega: f64,
-        alpha: Option<f64>,
-    ) -> Option<Reactions> {
-        let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        self.forces(t, angle, &pose, [omega, alpha], friction)
-    }
-
-    /// Returns θ̈, rad/s², and the friction on the slider, N.
-    fn acceleration(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> (f64, f64) {
-        match alpha {
-            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
-            None => self.forward(t, angle, omega),
-        }
-    }
-
-    fn forces(
-        &self,
-        t: f64,
-        angle: Angle,
-        pose: &Pose,
-        [omega, alpha]: [f64; 2],
-        friction: f64,
-    ) -> Option<Reactions> {
-        self.reactor.as_ref().map(|reactor| {
-            let mut load = self.equation.loads().value(t, angle, omega, pose);
-            load.force += friction;
-            reactor.reactions(pose, omega, alpha, &load)
-        })
-    }
-
     /// Makes the row of a free motion or, with `alpha`, of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
         let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        let reactions = self.forces(t, angle, &pose, [omega, alpha], friction);
+        let (alpha, friction) = match alpha {
+            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
+            None => self.forward(t, angle, omega),
+        };
+        let reactions = self.reactor.as_ref().map(|reactor| {
+            let mut load = self.equation.loads().value(t, angle, omega, &pose);
+            load.force += friction;
+            reactor.reactions(&pose, omega, alpha, &load)
+        });
         let driving_torque = self.driving_torque.then(|| {
             let torque = self.equation.driving_torque(t, angle, omega, alpha);
             torque - friction * pose.dx

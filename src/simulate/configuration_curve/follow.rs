@@ -27,18 +27,6 @@ pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) piece: Piece,
 }
 
-/// End of a smooth piece of the motion.
-enum Cut {
-    At {
-        t: f64,
-        index: usize,
-    },
-    Ended(Finish),
-    /// The inertia vanishes next to the end of the piece.
-    NoInertia,
-    Stopped,
-}
-
 /// Returns the kind of event of an event function, if it reports one.
 fn event(index: usize) -> Option<&'static str> {
     match index {
@@ -127,18 +115,15 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         loop {
             let from = self.now.angle;
             let end = match self.slide() {
-                Cut::Ended(Finish::AtEnd) => Some(End::Done),
-                Cut::Ended(finish) => Some(self.singular(finish)),
-                Cut::NoInertia => Some(End::Named(Why::NoInertiaOnCurve.into())),
-                Cut::Stopped => Some(End::Stopped),
-                Cut::At { index: TURNED, .. } => Some(End::Done),
-                Cut::At { index: CLEAR, .. } => Some(self.jam()),
-                Cut::At { index: SPEED, .. } => {
+                Err(end) => Some(end),
+                Ok(Change { index: TURNED, .. }) => Some(End::Done),
+                Ok(Change { index: CLEAR, .. }) => Some(self.jam()),
+                Ok(Change { index: SPEED, .. }) => {
                     let before = self.signs[SPEED];
                     self.now.speed = 0.0;
                     self.leave_rest(Some(before))
                 }
-                Cut::At { t, index } => {
+                Ok(Change { t, index }) => {
                     self.signs[index] = -self.signs[index];
                     self.oppose(index);
                     if let Some(kind) = event(index) {
@@ -162,8 +147,8 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         }
     }
 
-    /// Integrates one piece of sliding, up to the next change of friction.
-    fn slide(&mut self) -> Cut {
+    /// Integrates one piece of sliding, up to the next change of friction or the end of the run.
+    fn slide(&mut self) -> Result<Change, End> {
         let equation = self.equation;
         let friction = equation.friction();
         let [on_crank, on_slider] = equation.loads().dry_on();
@@ -227,19 +212,19 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             } else {
                 last
             });
-            return match (stopped, vanished) {
-                (true, _) => Cut::Stopped,
-                (_, true) => Cut::NoInertia,
-                _ => Cut::Ended(finish),
-            };
+            return Err(match finish {
+                _ if stopped => End::Stopped,
+                // The inertia vanishes next to the end of the piece.
+                _ if vanished => End::Named(Why::NoInertiaOnCurve.into()),
+                Finish::AtEnd => End::Done,
+                Finish::StepTooSmall => self.singular(),
+                finish => End::Integrator(finish),
+            });
         };
         let last = self.shorten(&motion, &step, change, phase);
         self.piece.evaluations += motion.evaluations();
         self.arrive(last);
-        Cut::At {
-            t: change.t,
-            index: change.index,
-        }
+        Ok(change)
     }
 
     /// Integrates the step anew up to a change inside it.

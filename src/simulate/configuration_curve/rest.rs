@@ -62,10 +62,11 @@ impl CurveRun<'_, '_> {
             _ => "stick",
         };
         self.observer.event(kind, t, angle, 0.0);
-        let until = match release {
+        let (until, ends) = match release {
             Release::Never if is_open => return Err(End::AtRest),
-            Release::Never => end,
-            Release::At(t) | Release::Unknown(t) => t,
+            Release::Never => (end, Some(End::Done)),
+            Release::At(t) => (t, None),
+            Release::Unknown(t) => (t, Some(End::Integrator(Finish::WorkLimit))),
         };
         let node = |t: f64| Node {
             t,
@@ -75,10 +76,8 @@ impl CurveRun<'_, '_> {
         let still = Step::new(angle.turns, node(t), node(until));
         self.observer.step(&still, Some(Phase::Sticking));
         self.arrive(still);
-        match release {
-            Release::Never => return Err(End::Done),
-            Release::Unknown(_) => return Err(End::Integrator(Finish::WorkLimit)),
-            Release::At(_) => {}
+        if let Some(end) = ends {
+            return Err(end);
         }
         self.observer.event("slip", until, angle, 0.0);
         let pull = equation.free(until, angle, 0.0);
@@ -105,17 +104,15 @@ impl CurveRun<'_, '_> {
     }
 
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
-    pub fn singular(&self, finish: Finish) -> End {
+    pub fn singular(&self) -> End {
         let Start { t, angle, speed } = self.now;
-        if finish == Finish::StepTooSmall
-            && let Some(friction) = self.equation.friction()
-        {
+        if let Some(friction) = self.equation.friction() {
             let free = self.equation.free(t, angle, speed);
             if free.clear_of_jam(friction.coefficient) < 1e-3 {
                 return self.jam();
             }
         }
-        End::Integrator(finish)
+        End::Integrator(Finish::StepTooSmall)
     }
 
     /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate).

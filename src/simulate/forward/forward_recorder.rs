@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::super::bounded_motion::Swing;
 use super::super::configuration_curve::{Observer, OnCurve, crank_state, met};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
+use super::super::marks::SAME_ANGLE;
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
@@ -23,9 +24,6 @@ use crate::mechanism::CurveEquation;
 use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
-
-/// Distance, rad, below which two passages of a dead centre are one, at the end of a piece and the start of the next.
-const SAME_PLACE: f64 = 1e-9;
 
 /// Sink and observer that records a free motion: rows, dead centres, turning points and speeds.
 pub(super) struct ForwardRecorder<'a> {
@@ -202,7 +200,7 @@ impl<'a> ForwardRecorder<'a> {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
         if let Some(passed) = self.passed.take()
-            && at.minus(passed.angle).abs() < SAME_PLACE
+            && at.minus(passed.angle).abs() < SAME_ANGLE
             && omega * passed.speed > 0.0
         {
             return;
