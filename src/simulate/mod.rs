@@ -3,7 +3,6 @@
 mod angle_model;
 mod balance;
 mod bounded_motion;
-mod checkpoints;
 mod clearance;
 mod closed_form;
 mod configuration_curve;

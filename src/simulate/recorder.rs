@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use super::checkpoints::Checkpoints;
 use super::coordinate::Coordinate;
 use super::passages::OrbitPiece;
 use super::result::{Event, Piece};
@@ -11,6 +10,7 @@ use super::row::{Row, RowSink};
 use super::row_writer::{RowSource, RowWriter};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
+use super::second_run::Checkpoints;
 use super::simulation::{PhaseInterval, push_phase};
 use super::stick_slip::Phase;
 use crate::engine::PIECES;

@@ -1,26 +1,112 @@
-//! Tolerances and error margin of the second run of an error estimate.
+//! Second run of an error estimate: its tolerances, and its comparison with states of the first. Runs that return to
+//! one course may agree only at the end.
+
+use std::iter::{Chain, Peekable};
+use std::slice::Iter;
+
+use super::result::ErrorEstimate;
+use crate::engine::step::Step;
 
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Largest tolerance of a second run by collocation. Below it rounding inside the steps dominates: a tenth of it takes up
 /// to four times as many evaluations for equal stated errors.
-const TIGHT: f64 = 1e-14;
+const LARGEST_BY_COLLOCATION: f64 = 1e-14;
 /// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
-pub(super) const TIGHTER: f64 = 50.0;
+pub(super) const TOLERANCE_RATIO: f64 = 50.0;
 /// Least ratio of the tolerances of both runs, near rounding.
 const LEAST_RATIO: f64 = 5.0;
 /// Least tolerance of a second run by the method of the first, unless [`LEAST_RATIO`] asks for less: below it rounding
 /// inside the steps would make them collapse.
-const TIGHT_AGAIN: f64 = 1e-13;
+const LEAST_BY_SAME_METHOD: f64 = 1e-13;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
+/// Number of first steps of a run that are kept: 1 MB.
+const FIRST_KEPT: usize = 4096;
+/// Largest number of later steps that are kept; when it is reached, every other one is dropped.
+const LATER_KEPT: usize = 128;
+
 /// Returns the tolerance of a second run by collocation, with negligible error.
 pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
-    TIGHT.min(tolerance / LEAST_RATIO)
+    LARGEST_BY_COLLOCATION.min(tolerance / LEAST_RATIO)
 }
 
 /// Returns the tolerance of a second run by the method of the first.
 pub(super) fn same_method_tolerance(tolerance: f64) -> f64 {
-    (tolerance / TIGHTER).max(TIGHT_AGAIN.min(tolerance / LEAST_RATIO))
+    (tolerance / TOLERANCE_RATIO).max(LEAST_BY_SAME_METHOD.min(tolerance / LEAST_RATIO))
+}
+
+/// Steps of a run, kept for comparison with a second run and as a predictor for it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Checkpoints {
+    pub first: Vec<Step>,
+    /// Every 2^thinned-th of the later steps.
+    later: Vec<Step>,
+    thinned: u32,
+    passed: u64,
+}
+
+impl Checkpoints {
+    /// Takes a step of the first run.
+    pub fn pass(&mut self, step: &Step) {
+        if self.first.len() < FIRST_KEPT {
+            self.first.push(*step);
+            return;
+        }
+        self.passed += 1;
+        if self.later.len() == LATER_KEPT {
+            let mut odd = false;
+            self.later.retain(|_| {
+                odd = !odd;
+                !odd
+            });
+            self.thinned += 1;
+        }
+        if self.passed.is_multiple_of(1 << self.thinned) {
+            self.later.push(*step);
+        }
+    }
+}
+
+/// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
+pub(super) struct Compared<'a> {
+    left: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
+    /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
+    farthest: [f64; 2],
+}
+
+impl<'a> Compared<'a> {
+    pub fn with(checkpoints: &'a Checkpoints) -> Compared<'a> {
+        let Checkpoints { first, later, .. } = checkpoints;
+        Compared {
+            left: first.iter().chain(later).peekable(),
+            farthest: [0.0; 2],
+        }
+    }
+
+    /// Compares states inside a step of the second run. `rate`: derivative of the crank angle at a coordinate.
+    pub fn pass(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
+        while let Some(first) = self.left.next_if(|first| first.end.t <= step.end.t) {
+            let node = &first.end;
+            if node.t >= step.start.t {
+                let (theta, omega) = step.at(node.t);
+                let way = step.angle(theta).minus(first.angle(node.theta));
+                let apart = [way, omega - node.omega];
+                let rate = rate(node.theta);
+                for (farthest, apart) in self.farthest.iter_mut().zip(apart) {
+                    *farthest = farthest.max((rate * apart).abs());
+                }
+            }
+        }
+    }
+
+    /// Returns the larger of the known error at the end and the errors at the checkpoints.
+    pub fn worst(&self, end: ErrorEstimate) -> ErrorEstimate {
+        let [angle, speed] = self.farthest.map(|farthest| MARGIN * farthest);
+        end.max(ErrorEstimate {
+            theta_rad: angle,
+            omega_rad_per_s: speed,
+        })
+    }
 }

@@ -14,7 +14,7 @@ use super::contact_follower::ContactHistory;
 use super::journal_record::JournalRecord;
 use super::motion::{DRIVEN, FREE, phi};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
-use super::{LooseRun, Tighter};
+use super::{LooseRun, SecondRun};
 use crate::engine::contact::ContactEnd;
 use crate::mechanism::LooseState;
 use crate::plan::Engine;
@@ -34,7 +34,7 @@ impl<const N: usize> LooseRun<'_, N> {
         let (model, task) = (&self.model, self.model.task);
         let stopped = self.stopped(ended, last);
         let tighter = (task.options.estimate && stopped.is_none())
-            .then(|| self.tighter(last.t))
+            .then(|| self.second_run(last.t))
             .flatten();
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
@@ -101,7 +101,7 @@ impl<const N: usize> LooseRun<'_, N> {
     }
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
-    fn horizon(&self, seen: &ContactHistory, tighter: &Tighter, end: &LooseState) -> Horizon {
+    fn horizon(&self, seen: &ContactHistory, tighter: &SecondRun, end: &LooseState) -> Horizon {
         let distance = 0.01 * self.model.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);

@@ -4,9 +4,8 @@ mod conclude;
 mod contact_follower;
 mod journal_record;
 mod motion;
-mod peak;
-mod press;
 mod result;
+mod step_forces;
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -19,7 +18,7 @@ use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::second_run::TIGHTER;
+use super::second_run::TOLERANCE_RATIO;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, Finish, Settings};
@@ -140,11 +139,11 @@ impl<'a, const N: usize> LooseRun<'a, N> {
     }
 
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
-    fn tighter(&self, t_end: f64) -> Option<Tighter> {
+    fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
-        let tolerance = self.model.task.scene.run.tolerance / TIGHTER;
+        let tolerance = self.model.task.scene.run.tolerance / TOLERANCE_RATIO;
         let (ended, follower) = self.integrate(None, tolerance.max(4.0 * f64::EPSILON), t_end);
-        (ended.finish == Finish::AtEnd).then(|| Tighter {
+        (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.model.state(&ended.last),
             record: follower.seen.record,
             cost: Cost {
@@ -194,7 +193,7 @@ impl<'a, const N: usize> LooseRun<'a, N> {
     }
 }
 
-struct Tighter {
+struct SecondRun {
     last: LooseState,
     record: JournalRecord,
     cost: Cost,

@@ -8,14 +8,13 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::super::checkpoints::Compared;
 use super::super::configuration_curve::{End, Observer, OnCurve};
 use super::super::crank_motion::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
-use super::super::second_run::{MARGIN, collocation_tolerance, same_method_tolerance};
+use super::super::second_run::{Compared, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
 use super::arrived::{AnglePiece, Arrived, Sink};
