@@ -53,7 +53,7 @@ pub(super) struct Spot {
     /// Slider position x (m) and derivative x' (m/rad).
     pub at: [f64; 2],
     /// Effect of the loads on the guide; zero without friction.
-    pub grip: GuideGain,
+    pub gain: GuideGain,
 }
 
 impl Spot {
@@ -109,21 +109,21 @@ impl GuideFriction {
         for (i, normal) in normals.iter().enumerate() {
             let grip = normal.grip(c);
             self.jams.fetch_or(grip.is_none(), Relaxed);
-            let grip = GuideGain {
+            let gain = GuideGain {
                 torque: normal.torque,
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
             let force = force * dx[i];
             let damping = LoadValue { torque, force };
-            switch.place[i] = normal.place + grip.pressed(of_place[i]);
-            switch.rate[i] = -grip.pressed(damping);
+            switch.place[i] = normal.place + gain.pressed(of_place[i]);
+            switch.rate[i] = -gain.pressed(damping);
             switch.square[i] = normal.square;
-            switch.force[i] = grip.grip * normal.square;
-            table.push[i] += grip.grip * switch.place[i];
-            table.damping[i] += grip.rubbed(damping);
+            switch.force[i] = gain.grip * normal.square;
+            table.push[i] += gain.grip * switch.place[i];
+            table.damping[i] += gain.rubbed(damping);
             if let Some(spot) = table.places.get_mut(i) {
-                spot.grip = grip;
+                spot.gain = gain;
             }
         }
         table.switch = Some(switch);

@@ -97,10 +97,10 @@ impl<'a> Recorder<'a> {
     }
 
     /// Counts an event and keeps it if there is room.
-    pub fn event(&mut self, event: impl FnOnce() -> Event) {
+    pub fn event(&mut self, event: Event) {
         self.record.events_total += 1;
         if self.keeps_events() {
-            self.record.events.push(event());
+            self.record.events.push(event);
         }
     }
 

@@ -54,8 +54,7 @@ impl Simulation {
             Some(interval) => {
                 let guide = maker.guide.as_deref().map(|guide| &guide.equation);
                 let equation = curve.as_deref().or(guide)?;
-                let reactor = maker.reactor.as_deref();
-                AlongCurve::new(equation, interval.phase, reactor).row(t, angle, speed)
+                AlongCurve::new(equation, interval.phase, maker).row(t, angle, speed)
             }
             None => maker.row(t, angle, speed, *alpha),
         };

@@ -165,8 +165,8 @@ impl Driven for AngleModel<'_> {
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
-                let grip = GuideGain::default();
-                table.places.push(Spot { at: [x, dx], grip });
+                let gain = GuideGain::default();
+                table.places.push(Spot { at: [x, dx], gain });
             }
         }
         if let Some((guide, normals)) = guided {
@@ -198,8 +198,8 @@ impl Driven for AngleModel<'_> {
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
-            let Spot { at: [_, dx], grip } = *at.place;
-            *force = load.over(dx) + grip.rubbed(*load);
+            let Spot { at: [_, dx], gain } = *at.place;
+            *force = load.over(dx) + gain.rubbed(*load);
         }
         forces
     }
@@ -218,7 +218,7 @@ impl Driven for AngleModel<'_> {
 
     fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {
         let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
-        at.place.grip.pressed(load)
+        at.place.gain.pressed(load)
     }
 
     fn corners(&self) -> &[f64] {

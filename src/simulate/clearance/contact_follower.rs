@@ -83,7 +83,7 @@ impl<const N: usize> ContactFollower<'_, N> {
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
         let theta_rad = self.model.task.angle(theta).radians();
         if let Some(recorder) = &mut self.recorder {
-            recorder.event(|| Event {
+            recorder.event(Event {
                 kind,
                 t_s: t,
                 theta_rad,

@@ -89,7 +89,8 @@ impl<'a> ForwardRecorder<'a> {
         } = self;
         let last = || match (arrived.last, on.filter(|_| arrived.on_curve)) {
             (Some(last), Some(on)) => {
-                along(task, &on, phase).row(t, last.angle(last.end.theta), last.end.omega)
+                let along = AlongCurve::new(&on, phase, &task.maker);
+                along.row(t, last.angle(last.end.theta), last.end.omega)
             }
             _ => task.maker.row(t, angle, speed, None),
         };
@@ -114,7 +115,7 @@ impl<'a> ForwardRecorder<'a> {
     /// Records a step along the configuration curve; true ends the run.
     fn step_on_curve(&mut self, mut step: Step, on: &CurveEquation, phase: Phase) -> bool {
         self.phase = phase;
-        let along = along(self.task, on, phase);
+        let along = AlongCurve::new(on, phase, &self.task.maker);
         if phase != Phase::Sticking {
             let speed = self.recorder.speed();
             let crank = |step: &Step, t: f64| along.crank_speed(step, t);
@@ -215,11 +216,6 @@ impl<'a> ForwardRecorder<'a> {
     }
 }
 
-/// Returns the coordinate of a curve in one phase.
-fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
-    AlongCurve::new(on, phase, task.maker.reactor.as_deref())
-}
-
 impl Observer for ForwardRecorder<'_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
         match self.on.clone().zip(phase) {
@@ -237,7 +233,7 @@ impl Observer for ForwardRecorder<'_> {
         let at = Start { t, angle, speed };
         let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
         let at = self.on.as_ref().map_or(at, crank);
-        self.recorder.event(|| Event {
+        self.recorder.event(Event {
             kind,
             t_s: t,
             theta_rad: at.angle.radians(),
