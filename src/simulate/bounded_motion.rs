@@ -27,13 +27,15 @@ impl Swing {
         let Extent::Revolutions(turns) = task.extent else {
             return None;
         };
-        let loads = task.equation().loads();
         // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
-        let enough = match task.scene.reduced().friction {
-            _ if task.one_way => 0,
-            _ if loads.reads().has(Variable::T) => 10_000,
-            None if !loads.are_dry() => 50,
-            _ => 200,
+        let enough = if task.one_way {
+            0
+        } else if task.equation().loads().reads().has(Variable::T) {
+            10_000
+        } else if task.may_stick() {
+            200
+        } else {
+            50
         };
         Some(Swing {
             reach: [start; 2],

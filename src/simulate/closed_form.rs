@@ -18,7 +18,7 @@ use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Limits};
+use crate::mechanism::Limits;
 use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::scene::Extent;
@@ -36,8 +36,7 @@ pub(super) fn run<'a>(
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let drive = Drive {
-        equation,
+    let mut drive = Drive {
         maker: &task.maker,
         start,
         speed,
@@ -48,22 +47,16 @@ pub(super) fn run<'a>(
         residual: f64::NAN,
         largest: f64::NAN,
     };
-    let (torque, warning, balance) = match blocked.is_none().then(|| drive.torque_range()) {
-        Some(Ok(range)) => (Some(range), None, drive.energy_balance()),
-        Some(Err(why)) => (
-            None,
-            Some(Warning::NoTorqueRange(why)),
-            drive.energy_balance(),
-        ),
-        None => (None, None, unbounded),
+    let (torque, balance) = match blocked {
+        None => (drive.torque_range().map(Some), drive.energy_balance()),
+        Some(_) => (Ok(None), unbounded),
     };
     let wall_s = begun.elapsed().as_secs_f64();
     let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
     let mut recorder = Recorder::new(task, rows, schedule);
-    let mut part = Uniform { task, end };
-    recorder.rows(&mut part);
+    recorder.rows(&mut drive);
     // The limit itself has no finite velocity.
-    let mut record = recorder.finish(|| blocked.is_none().then(|| part.row(end)))?;
+    let mut record = recorder.finish(|| blocked.is_none().then(|| drive.row(end)))?;
     (record.events, record.events_total) = passages::at_constant_speed(task, end);
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,
@@ -77,38 +70,33 @@ pub(super) fn run<'a>(
         },
         engine: Engine::ClosedForm,
         turned: speed * end,
-        estimate: Some(Estimate::of_end(
-            ErrorEstimate {
-                theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
-                omega_rad_per_s: 0.0,
-            },
-            None,
-        )),
+        estimate: Some(Estimate::of_end(ErrorEstimate {
+            theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
+            omega_rad_per_s: 0.0,
+        })),
         balance,
         evaluations: 0,
         steps: 0,
         wall_s,
-        warnings: warning.into_iter().collect(),
+        warnings: torque
+            .as_ref()
+            .err()
+            .cloned()
+            .map(Warning::NoTorqueRange)
+            .into_iter()
+            .collect(),
         stopped,
         record,
     };
     let mut run = outcome.conclude(task);
-    run.summary.driving_torque = torque;
+    run.summary.driving_torque = torque.ok().flatten();
     run.trajectory = Some(Trajectory::uniform(start, speed, end));
     Ok(run)
 }
 
+/// Returns the coefficient of friction at the guide.
 fn friction(task: &RunSetup<'_>) -> f64 {
-    let friction = task
-        .maker
-        .guide
-        .as_deref()
-        .and_then(CurveEquation::friction);
-    friction.map_or(0.0, |friction| friction.coefficient)
-}
-
-fn reach(task: &RunSetup<'_>) -> Vec<[f64; 2]> {
-    Limits::driven_reach(task.equation().linkage(), friction(task))
+    task.maker.guide.as_ref().map_or(0.0, |guide| guide.mu)
 }
 
 /// Returns the duration, s, of a run at constant speed, rad/s.
@@ -121,7 +109,7 @@ pub(super) fn duration(extent: Extent, speed: f64) -> f64 {
 
 /// Computes the time, s, at which the crank reaches the end of its range of angles; none if it reaches none.
 fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
-    let [from, to] = reach(task)
+    let [from, to] = Limits::driven_reach(task.equation().linkage(), friction(task))
         .into_iter()
         .find(|[from, to]| (start.rest - from).rem_euclid(TAU) <= to - from)?;
     let done = (start.rest - from).rem_euclid(TAU);
@@ -129,27 +117,21 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     (speed != 0.0).then(|| left / speed.abs())
 }
 
-struct Uniform<'a> {
-    task: &'a RunSetup<'a>,
-    end: f64,
-}
-
-impl RowSource for Uniform<'_> {
+impl RowSource for Drive<'_> {
     fn times(&self) -> [f64; 2] {
         [0.0, self.end]
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.task.speed * t
+        self.speed * t
     }
 
     fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
-        Some(turned / self.task.speed)
+        Some(turned / self.speed)
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let speed = self.task.speed;
-        let angle = self.task.start().plus(speed * t);
-        self.task.maker.row(t, angle, speed, Some(0.0))
+        let angle = self.start.plus(self.speed * t);
+        self.maker.row(t, angle, self.speed, Some(0.0))
     }
 }

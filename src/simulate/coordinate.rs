@@ -48,14 +48,10 @@ pub(super) struct AlongCurve<'a> {
 }
 
 impl<'a> AlongCurve<'a> {
-    pub fn new(
-        equation: &'a CurveEquation,
-        phase: Phase,
-        reactor: Option<&'a Reactor>,
-    ) -> AlongCurve<'a> {
+    pub fn new(equation: &'a CurveEquation, phase: Phase, maker: &'a RowMaker) -> AlongCurve<'a> {
         AlongCurve {
             motion: InPhase { equation, phase },
-            reactor,
+            reactor: maker.reactor.as_deref(),
         }
     }
 

@@ -14,7 +14,6 @@ use crate::scene::Variable;
 
 /// Run at constant speed.
 pub(super) struct Drive<'a> {
-    pub equation: &'a Equation,
     pub maker: &'a RowMaker,
     pub start: Angle,
     /// Crank speed, rad/s.
@@ -27,15 +26,19 @@ pub(super) struct Drive<'a> {
 const MOST_TURNS: f64 = 100.0;
 
 impl Drive<'_> {
+    fn equation(&self) -> &Equation {
+        &self.maker.equation
+    }
+
     /// Returns the driving torque at a time (s), friction at the guide included, N m.
     fn torque(&self, t: f64) -> f64 {
         let angle = self.start.plus(self.speed * t);
-        let torque = self.equation.driving_torque(t, angle, self.speed, 0.0);
+        let torque = self.equation().driving_torque(t, angle, self.speed, 0.0);
         let friction = self.maker.friction(t, angle, self.speed, 0.0);
         if friction == 0.0 {
             return torque;
         }
-        torque - friction * self.equation.linkage().pose(angle.rest).dx
+        torque - friction * self.equation().linkage().pose(angle.rest).dx
     }
 
     /// Returns the reason that the torque has no finite value at a time, s.
@@ -47,7 +50,7 @@ impl Drive<'_> {
             speed: self.speed,
         };
         NoRange::NotFinite {
-            at_limit: !self.equation.linkage().pose(angle.rest).exists(),
+            at_limit: !self.equation().linkage().pose(angle.rest).exists(),
             load: self.maker.without_value(at).map(Box::new),
             at,
         }
@@ -68,7 +71,7 @@ impl Drive<'_> {
             let known = torque.is_finite().then_some(range);
             return known.ok_or_else(|| self.not_finite(0.0));
         }
-        let (times, whole) = self.places()?;
+        let (times, whole) = self.sample_times()?;
         let span = if whole { self.turn() } else { self.end };
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
@@ -107,9 +110,9 @@ impl Drive<'_> {
 
     /// Returns times, s, close enough to resolve all that geometry and loads cause: of one turn if all turns are equal
     /// and the run is longer, otherwise of the run. The flag is true for the whole turn.
-    pub fn places(&self) -> Result<(Vec<f64>, bool), NoRange> {
+    pub fn sample_times(&self) -> Result<(Vec<f64>, bool), NoRange> {
         let turn = self.turn();
-        let reads = self.equation.loads().reads();
+        let reads = self.equation().loads().reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
         let whole = repeats && self.end >= turn;
         if !whole && self.end > MOST_TURNS * turn {
@@ -124,15 +127,12 @@ impl Drive<'_> {
         Ok((self.times(turned), whole))
     }
 
-    /// Returns crank angles of a turn, rad, close enough to resolve the loads.
-    fn grid(&self) -> Vec<f64> {
-        let smooth = self.equation.loads().are_linear() && self.maker.guide.is_none();
-        self.equation.linkage().turn_grid(smooth)
-    }
-
-    /// Returns the times, s, of the angles of the grid until the crank has turned by `until` (rad), with both ends.
+    /// Returns the times, s, of angles that resolve the loads, until the crank has turned by `until` (rad), with both
+    /// ends.
     fn times(&self, until: f64) -> Vec<f64> {
-        let (grid, sense) = (self.grid(), self.speed.signum());
+        let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
+        let grid = self.equation().linkage().turn_grid(smooth);
+        let sense = self.speed.signum();
         let turns = 0..=(until / TAU).ceil() as i64;
         let ahead = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
         let all = turns.flat_map(|turn| {
@@ -150,19 +150,19 @@ impl Drive<'_> {
 
     /// Computes the mean torque over time, N m; none if not finite. Over whole turns inertia and gravity do no work.
     fn mean(&self, span: f64, whole: bool) -> Option<f64> {
-        if whole && self.equation.loads().are_none() && self.maker.guide.is_none() {
+        if whole && self.equation().loads().are_none() && self.maker.guide.is_none() {
             return Some(0.0);
         }
         if span == 0.0 {
             return Some(self.torque(0.0));
         }
-        let scale = self.equation.kinetic_energy(self.start.rest, self.speed) / self.speed.abs();
+        let kinetic = self.equation().kinetic_energy(self.start.rest, self.speed);
         let way = self.speed * span;
         let integral = quarters(
             self.start.rest,
             self.start.rest + way,
             &|theta| self.torque((theta - self.start.rest) / self.speed),
-            1e-12 * scale * self.speed.abs(),
+            1e-12 * kinetic,
         );
         integral.map(|integral| integral / way)
     }
@@ -170,7 +170,7 @@ impl Drive<'_> {
     /// Compares the work that the equation asks for, by quadrature of ½ M' and V', with the change of the energies from
     /// M and V, J. Whole turns cancel and are left out.
     pub fn energy_balance(&self) -> Balance {
-        let (equation, speed) = (self.equation, self.speed);
+        let (equation, speed) = (self.equation(), self.speed);
         let kinetic = |theta: f64| equation.kinetic_energy(theta, speed);
         let energy = |theta: f64| kinetic(theta) + equation.gravity_energy(theta);
         let (from, to) = (self.start.rest, self.start.rest + (speed * self.end) % TAU);

@@ -16,16 +16,17 @@ const AT_DEAD_CENTRE: f64 = 1e-12;
 pub(super) const BESIDE: f64 = 1e-6;
 
 #[derive(Debug)]
-pub(super) struct Sliding {
-    equation: CurveEquation,
+pub(super) struct GuideFriction {
+    /// Equation of motion on the curve, with the force of the guide.
+    pub equation: CurveEquation,
     /// Kinetic coefficient of friction.
-    mu: f64,
+    pub mu: f64,
     jams: AtomicBool,
 }
 
 /// Effect of the loads on the guide at one position of a panel.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Grip {
+pub(super) struct GuideGain {
     /// dN/dτ, change of the normal force with a crank torque, 1/m
     torque: f64,
     /// dN/dF, change of the normal force with a slider force
@@ -34,17 +35,7 @@ pub(super) struct Grip {
     grip: f64,
 }
 
-/// Guide at the nodes of a panel.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Guide<'a> {
-    /// x', m/rad
-    pub dx: &'a [f64],
-    pub normals: &'a [Normal],
-    /// sgn(ω) sgn(N)
-    pub signs: f64,
-}
-
-impl Grip {
+impl GuideGain {
     /// Returns the part of a load in the frictionless normal force, N.
     pub fn pressed(&self, load: LoadValue) -> f64 {
         self.torque * load.torque + self.force * load.force
@@ -62,7 +53,7 @@ pub(super) struct Spot {
     /// Slider position x (m) and derivative x' (m/rad).
     pub at: [f64; 2],
     /// Effect of the loads on the guide; zero without friction.
-    pub grip: Grip,
+    pub gain: GuideGain,
 }
 
 impl Spot {
@@ -84,22 +75,16 @@ impl Spot {
     }
 }
 
-impl Sliding {
+impl GuideFriction {
     /// Makes the guide of a scene; none without friction.
-    pub fn new(scene: &Scene, equation: &Equation) -> Option<Sliding> {
+    pub fn new(scene: &Scene, equation: &Equation) -> Option<GuideFriction> {
         scene.friction?;
-        let constrained = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
-        let friction = constrained.friction()?;
-        Some(Sliding {
-            equation: constrained,
-            mu: friction.coefficient,
+        let equation = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
+        Some(GuideFriction {
+            mu: equation.friction()?.coefficient,
+            equation,
             jams: AtomicBool::new(false),
         })
-    }
-
-    /// Returns the equation of motion on the curve, with the force of the guide.
-    pub fn equation(&self) -> &CurveEquation {
-        &self.equation
     }
 
     /// Whether a position was met at which rigid bodies jam.
@@ -107,10 +92,12 @@ impl Sliding {
         self.jams.load(Relaxed)
     }
 
-    /// Adds friction to the table of a panel between two dead centres; `of_place`: loads of the position alone.
+    /// Adds friction to the table of a panel between two dead centres. At its nodes: x' (m/rad), normal forces and, in
+    /// `of_place`, the loads of the position alone. `signs`: sgn(ω) sgn(N).
     pub fn tabulate(
         &self,
-        Guide { dx, normals, signs }: Guide<'_>,
+        (dx, normals): (&[f64], &[Normal]),
+        signs: f64,
         loads: &Loads,
         of_place: &[LoadValue],
         table: &mut Table<Spot>,
@@ -122,21 +109,21 @@ impl Sliding {
         for (i, normal) in normals.iter().enumerate() {
             let grip = normal.grip(c);
             self.jams.fetch_or(grip.is_none(), Relaxed);
-            let grip = Grip {
+            let gain = GuideGain {
                 torque: normal.torque,
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
             let force = force * dx[i];
             let damping = LoadValue { torque, force };
-            switch.place[i] = normal.place + grip.pressed(of_place[i]);
-            switch.rate[i] = -grip.pressed(damping);
+            switch.place[i] = normal.place + gain.pressed(of_place[i]);
+            switch.rate[i] = -gain.pressed(damping);
             switch.square[i] = normal.square;
-            switch.force[i] = grip.grip * normal.square;
-            table.push[i] += grip.grip * switch.place[i];
-            table.damping[i] += grip.rubbed(damping);
+            switch.force[i] = gain.grip * normal.square;
+            table.push[i] += gain.grip * switch.place[i];
+            table.damping[i] += gain.rubbed(damping);
             if let Some(spot) = table.places.get_mut(i) {
-                spot.grip = grip;
+                spot.gain = gain;
             }
         }
         table.switch = Some(switch);

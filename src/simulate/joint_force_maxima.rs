@@ -23,9 +23,12 @@ const LEFT: f64 = 1e-9;
 
 /// Searches the largest forces of a finished run; none if the run is too long to search, or if a force has no value.
 pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
-    let mut way = AlongRun::of(scene, run, MOST_ROWS)?;
+    // A motion that is a function of the crank angle is parametrized by the angle, any other by time.
+    let mut way = at_constant_speed(run)
+        .or_else(|| over_orbit(run))
+        .or_else(|| over_time(scene, run))?;
     loop {
-        let sizes = way.places.iter().map(|at| (way.sizes)(*at));
+        let sizes = way.parameters.iter().map(|at| (way.sizes)(*at));
         let sizes = sizes.collect::<Option<Vec<_>>>()?;
         if !sizes.as_flattened().iter().all(|size| size.is_finite()) {
             return None;
@@ -38,10 +41,10 @@ pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
             let peak = |k| peak(&way, run, k, &sizes);
             return Some(Peaks::new(std::array::from_fn(peak)));
         }
-        if 2 * way.places.len() > MOST_ROWS {
+        if 2 * way.parameters.len() > MOST_ROWS {
             return None;
         }
-        way.places = halved(&way.places);
+        way.parameters = halved(&way.parameters);
     }
 }
 
@@ -51,11 +54,11 @@ fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
     rows.fold(0.0, |largest, row| largest.max(row[force]))
 }
 
-/// Inserts the midpoint of each interval between places.
-fn halved(places: &[f64]) -> Vec<f64> {
-    let between = places.windows(2);
+/// Inserts the midpoint of each interval between parameters.
+fn halved(parameters: &[f64]) -> Vec<f64> {
+    let between = parameters.windows(2);
     let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
-    between.chain(places.last().copied()).collect()
+    between.chain(parameters.last().copied()).collect()
 }
 
 /// Finds the maximum of a force: refines beside the rows that are local maxima and less than the error of the grid
@@ -75,19 +78,19 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
     let ((at, value), width) = tops
         .into_iter()
         .map(|row| {
-            let known = beside(row).map(|row| (way.places[row], sizes[row][k]));
+            let known = beside(row).map(|row| (way.parameters[row], sizes[row][k]));
             (maximum::beside(size, known), known[2].0 - known[0].0)
         })
         .reduce(|best, found| if found.0.1 > best.0.1 { found } else { best })
         .unwrap_or_default();
-    let (first, last) = (way.places[0], way.places[last]);
-    let beside = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
+    let (first, last) = (way.parameters[0], way.parameters[last]);
+    let excess = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
     let t = (way.time)(at).clamp(0.0, run.summary.last.t_s);
     Peak {
         value_n: value,
         t_s: t,
         theta_rad: run.at(t).map_or(0.0, |(theta, _)| theta),
-        added_n: (beside[0].max(beside[1]) - value).max(0.0),
+        added_n: (excess[0].max(excess[1]) - value).max(0.0),
     }
 }
 
@@ -97,19 +100,11 @@ const LEAST_ROWS: f64 = 720.0;
 /// Parametrization of a run, with the joint forces along it.
 struct AlongRun<'a> {
     /// Values of the parameter, in rising order.
-    pub places: Vec<f64>,
+    parameters: Vec<f64>,
     /// Sizes of the joint forces at a value of the parameter, N.
-    pub sizes: Box<dyn Fn(f64) -> Option<[f64; FORCES]> + 'a>,
+    sizes: Box<dyn Fn(f64) -> Option<[f64; FORCES]> + 'a>,
     /// Time at a value of the parameter, s.
-    pub time: Box<dyn Fn(f64) -> f64 + 'a>,
-}
-
-impl<'a> AlongRun<'a> {
-    /// Parametrizes by the crank angle if the motion is a function of the angle, otherwise by time.
-    pub fn of(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
-        let way = at_constant_speed(run).or_else(|| over_orbit(run));
-        way.or_else(|| over_time(scene, run, most))
-    }
+    time: Box<dyn Fn(f64) -> f64 + 'a>,
 }
 
 /// Parametrizes a run at constant speed by time: one turn if all are equal, otherwise all; resolves geometry and loads.
@@ -117,18 +112,17 @@ fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
     let maker = run.dense.maker.as_ref()?;
     let drive = Drive {
-        equation: &maker.equation,
         maker,
         start,
         speed,
         end: run.summary.last.t_s,
     };
-    let (places, whole) = drive.places().ok()?;
+    let (parameters, whole) = drive.sample_times().ok()?;
     let turn = TAU / speed.abs();
-    let reactions = move |t: f64| maker.reactions(t, start.plus(speed * t), speed, Some(0.0));
+    let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
     Some(AlongRun {
-        places,
-        sizes: Box::new(move |t| reactions(t).as_ref().map(sizes)),
+        parameters,
+        sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
         time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
     })
 }
@@ -143,25 +137,25 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     let reactions = move |at: f64| {
         let (angle, speed) = orbit.state_at_place(at)?;
         let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
-        maker.reactions(t, angle, speed, None)
+        maker.row(t, angle, speed, None).reactions
     };
     Some(AlongRun {
-        places: orbit.places(end)?,
+        parameters: orbit.places(end)?,
         sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
         time: Box::new(move |at| orbit.time_of_place(at).unwrap_or(end)),
     })
 }
 
 /// Parametrizes a run by time, with rows at equal times between which the crank turns by at most a degree.
-fn over_time<'a>(scene: &Scene, run: &'a Simulation, most: usize) -> Option<AlongRun<'a>> {
+fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<AlongRun<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
     let span = period.map_or(end, |period| period.min(end));
     let step = first_step(scene, &run.summary);
     let rows = (span / step).ceil();
-    let place = |index: usize| (index as f64 * step).min(span);
-    (rows <= most as f64).then(|| AlongRun {
-        places: (0..=rows as usize).map(place).collect(),
+    let time = |index: usize| (index as f64 * step).min(span);
+    (rows <= MOST_ROWS as f64).then(|| AlongRun {
+        parameters: (0..=rows as usize).map(time).collect(),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),
     })

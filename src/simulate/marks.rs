@@ -69,10 +69,13 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// Sorts angles, rad, and merges those less than 1e-9 apart: a corner doubled by rounding makes an empty panel.
+/// Distance, rad, below which two angles are one but for rounding.
+pub(super) const SAME_ANGLE: f64 = 1e-9;
+
+/// Sorts angles, rad, and merges equal ones: a corner doubled by rounding makes an empty panel.
 pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut angles: Vec<f64> = angles.collect();
     angles.sort_by(f64::total_cmp);
-    angles.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    angles.dedup_by(|a, b| (*a - *b).abs() < SAME_ANGLE);
     angles
 }

@@ -46,11 +46,11 @@ pub(super) struct Estimate {
 
 impl Estimate {
     /// Makes an estimate with the error of the last state alone.
-    pub fn of_end(error: ErrorEstimate, cost: Option<Cost>) -> Estimate {
+    pub fn of_end(error: ErrorEstimate) -> Estimate {
         Estimate {
             error,
             on_the_way: None,
-            cost,
+            cost: None,
         }
     }
 }
@@ -88,15 +88,8 @@ impl Outcome {
     }
 
     pub fn conclude(self, task: &RunSetup<'_>) -> Simulation {
-        let Outcome {
-            at,
-            turned,
-            estimate,
-            balance,
-            mut warnings,
-            record,
-            ..
-        } = self;
+        let (at, turned, balance, record) = (self.at, self.turned, self.balance, self.record);
+        let mut warnings = self.warnings;
         let last = Final {
             t_s: at.t,
             theta_rad: at.angle.radians(),
@@ -130,8 +123,8 @@ impl Outcome {
             pieces,
             last,
             revolutions: turned / TAU,
-            error_estimate: estimate.map(|estimate| estimate.error),
-            rows_error: estimate.and_then(|estimate| estimate.on_the_way),
+            error_estimate: self.estimate.map(|estimate| estimate.error),
+            rows_error: self.estimate.and_then(|estimate| estimate.on_the_way),
             energy_residual: match balance.largest {
                 0.0 => 0.0,
                 largest => balance.residual / largest,
@@ -140,7 +133,7 @@ impl Outcome {
             evaluations: self.evaluations,
             steps: self.steps,
             wall_s: self.wall_s,
-            estimate_cost: estimate.and_then(|estimate| estimate.cost),
+            estimate_cost: self.estimate.and_then(|estimate| estimate.cost),
             omega_min: record.speed.0,
             omega_max: record.speed.1,
             driving_torque: None,
@@ -159,7 +152,7 @@ impl Outcome {
                 maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
                 alpha: (self.engine == Engine::ClosedForm).then_some(0.0),
                 curve: None,
-                spells: record.spells,
+                phases: record.phases,
             },
         }
     }

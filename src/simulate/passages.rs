@@ -11,7 +11,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
 /// Motion over the crank angle, or a piece of one, placed in the time of the run.
-pub(super) struct Stretch<'a> {
+pub(super) struct OrbitPiece<'a> {
     /// Motion over the angle; the time of the orbit begins at 0.
     pub orbit: &'a Orbit,
     /// Time of the run at which the orbit begins, s.
@@ -67,14 +67,14 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
     let (passed, total) = on_way(task, (start, speed.signum()), way, kept);
     let event = |(ahead, dead_centre): (f64, f64)| {
         let way = speed.signum() * ahead;
-        Passage::new((way / speed).min(end), start, way, dead_centre, speed).event()
+        OrbitEvent::new((way / speed).min(end), start, way, dead_centre, speed).event()
     };
     (passed.into_iter().map(event).collect(), total)
 }
 
-impl Stretch<'_> {
+impl OrbitPiece<'_> {
     /// Lists the dead centres passed until a time (s) by a motion that does not turn back: the first, at most `kept`.
-    fn one_way(&self, until: f64, kept: usize) -> Vec<Passage> {
+    fn one_way(&self, until: f64, kept: usize) -> Vec<OrbitEvent> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());
         let (passed, _) = on_way(self.task, from, self.way(until), kept);
@@ -82,7 +82,7 @@ impl Stretch<'_> {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
             let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
             let way = orbit.direction() * ahead;
-            Passage::new(t, start, way, dead_centre, speed)
+            OrbitEvent::new(t, start, way, dead_centre, speed)
         });
         passages.collect()
     }
@@ -93,14 +93,12 @@ impl Stretch<'_> {
     }
 
     /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
-    fn to_and_fro(&self, until: f64) -> Vec<Passage> {
+    fn to_and_fro(&self, until: f64) -> Vec<OrbitEvent> {
         let orbit = self.orbit;
-        let turnings = orbit.turning_times(until);
-        let mut cuts = turnings.clone();
-        cuts.push(until);
+        let turnings = orbit.turning_times(until).into_iter();
+        let cuts = turnings.map(|t| (t, true)).chain([(until, false)]);
         let (mut found, mut from) = (Vec::new(), 0.0);
-        for (i, to) in cuts.into_iter().enumerate() {
-            let turns_back = i < turnings.len();
+        for (to, turns_back) in cuts {
             let [begin, end] = [from, to].map(|t| orbit.state(t).0);
             let (direction, span) = (end.minus(begin).signum(), end.minus(begin).abs());
             let last = match turns_back {
@@ -112,18 +110,12 @@ impl Stretch<'_> {
                 while ahead <= last {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
                     let t = root::bracketed(beyond, from, to).unwrap_or(to);
-                    let speed = orbit.state(t).1;
-                    found.push(Passage::new(
-                        t,
-                        begin,
-                        direction * ahead,
-                        dead_centre,
-                        speed,
-                    ));
+                    let (speed, way) = (orbit.state(t).1, direction * ahead);
+                    found.push(OrbitEvent::new(t, begin, way, dead_centre, speed));
                     ahead += TAU;
                 }
             }
-            found.extend(turns_back.then_some(Passage {
+            found.extend(turns_back.then_some(OrbitEvent {
                 kind: "turning-point",
                 t: to,
                 angle: end,
@@ -146,7 +138,7 @@ impl Stretch<'_> {
             (false, _) => self.one_way(period, kept),
         };
         let over = self.end * (1.0 + 1e-14);
-        let rounds = |passage: &Passage| match repeats {
+        let rounds = |passage: &OrbitEvent| match repeats {
             Some(_) => ((over - passage.t) / period + 1.0).floor() as u64,
             None => 1,
         };
@@ -161,7 +153,7 @@ impl Stretch<'_> {
         let again = (0u64..).map(|round| round as f64).flat_map(|round| {
             once.iter().map(move |passage| {
                 let t = round.mul_add(period, passage.t) + round * low;
-                let again = Passage {
+                let again = OrbitEvent {
                     t: self.begin + t.min(self.end),
                     angle: Angle::new(passage.angle.turns + round * turns, passage.angle.rest),
                     ..*passage
@@ -174,7 +166,7 @@ impl Stretch<'_> {
 }
 
 /// Dead centre or turning point in the time of the orbit.
-struct Passage {
+struct OrbitEvent {
     kind: &'static str,
     /// Time of the orbit, s.
     t: f64,
@@ -183,12 +175,12 @@ struct Passage {
     speed: f64,
 }
 
-impl Passage {
+impl OrbitEvent {
     /// Makes the passage of a dead centre (rad) at a signed distance (rad) from an angle.
-    fn new(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> Passage {
+    fn new(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> OrbitEvent {
         let turns = ((from.rest + way - dead_centre) / TAU).round();
         let angle = Angle::new(from.turns + turns, dead_centre);
-        Passage {
+        OrbitEvent {
             kind: "dead-centre",
             t,
             angle,
@@ -206,7 +198,7 @@ impl Passage {
     }
 }
 
-impl RowSource for Stretch<'_> {
+impl RowSource for OrbitPiece<'_> {
     fn times(&self) -> [f64; 2] {
         [self.begin, self.begin + self.end]
     }

@@ -3,15 +3,15 @@
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
-use super::checkpoints::Checkpoints;
 use super::coordinate::Coordinate;
-use super::passages::Stretch;
+use super::passages::OrbitPiece;
 use super::result::{Event, Piece};
 use super::row::{Row, RowSink};
 use super::row_writer::{RowSource, RowWriter};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::simulation::{Spell, lengthen};
+use super::second_run::Checkpoints;
+use super::simulation::{PhaseInterval, push_phase};
 use super::stick_slip::Phase;
 use crate::engine::PIECES;
 use crate::engine::step::Step;
@@ -32,7 +32,7 @@ pub(super) struct Record {
     /// Pieces of the dense motion; none without room for all.
     pub pieces: Option<Vec<Trajectory>>,
     /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
-    pub spells: Vec<Spell>,
+    pub phases: Vec<PhaseInterval>,
     /// Engines that ran, in order, if they took turns.
     pub engines: Vec<Piece>,
     /// States on the way, for the error estimate.
@@ -42,14 +42,6 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// Makes an empty record that starts with this speed, rad/s.
-    pub fn new(speed: f64) -> Record {
-        Record {
-            speed: (speed, speed),
-            ..Record::default()
-        }
-    }
-
     /// Returns the wall time since the run began without the time of the rows, s.
     pub fn wall_s(&self, begun: Instant) -> f64 {
         begun.elapsed().saturating_sub(self.row_time).as_secs_f64()
@@ -80,15 +72,15 @@ impl<'a> Recorder<'a> {
         rows: &'a mut dyn RowSink,
         schedule: Schedule,
     ) -> Recorder<'a> {
-        let speed = task.speed;
         Recorder {
             task,
             writer: RowWriter::new(rows, schedule),
             room: task.kept,
             steps: Vec::new(),
             record: Record {
+                speed: (task.speed, task.speed),
                 pieces: (task.kept > 0).then(Vec::new),
-                ..Record::new(speed)
+                ..Record::default()
             },
             error: None,
         }
@@ -105,10 +97,10 @@ impl<'a> Recorder<'a> {
     }
 
     /// Counts an event and keeps it if there is room.
-    pub fn event(&mut self, event: impl FnOnce() -> Event) {
+    pub fn event(&mut self, event: Event) {
         self.record.events_total += 1;
         if self.keeps_events() {
-            self.record.events.push(event());
+            self.record.events.push(event);
         }
     }
 
@@ -129,15 +121,15 @@ impl<'a> Recorder<'a> {
     }
 
     /// Records a piece over the crank angle: events, rows and speeds.
-    pub fn stretch(&mut self, stretch: &mut Stretch<'_>) -> Result<(), Error> {
+    pub fn orbit_piece(&mut self, piece: &mut OrbitPiece<'_>) -> Result<(), Error> {
         let left = self.task.options.events_kept - self.record.events.len();
-        let (events, total) = stretch.events(left);
+        let (events, total) = piece.events(left);
         self.record.events.extend(events);
         self.record.events_total += total;
-        let (low, high) = stretch.orbit.speed_range(stretch.end);
+        let (low, high) = piece.orbit.speed_range(piece.end);
         let speed = &mut self.record.speed;
         *speed = (speed.0.min(low), speed.1.max(high));
-        self.writer.write(stretch)
+        self.writer.write(piece)
     }
 
     /// Writes the rows of a part of the motion. True if that failed, which ends the run.
@@ -179,7 +171,7 @@ impl<'a> Recorder<'a> {
             self.steps.push(*step);
             if let Some(phase) = phase {
                 let times = [step.start.t, step.end.t];
-                lengthen(&mut self.record.spells, times, phase);
+                push_phase(&mut self.record.phases, times, phase);
             }
         }
         false

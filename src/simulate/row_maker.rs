@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::guide_friction::Sliding;
+use super::guide_friction::GuideFriction;
 use super::row::Row;
 use crate::engine::time::Start;
-use crate::mechanism::{CurveEquation, Equation, Pose, Reactions, Reactor};
+use crate::mechanism::{Equation, Reactor};
 use crate::numeric::angle::Angle;
 use crate::scene::Load;
 
@@ -14,10 +14,8 @@ pub(super) struct RowMaker {
     pub equation: Arc<Equation>,
     pub reactor: Option<Arc<Reactor>>,
     pub driving_torque: bool,
-    /// Guide of a prescribed motion, if it has friction.
-    pub guide: Option<Arc<CurveEquation>>,
-    /// Guide of a crank that turns freely, if it has friction.
-    pub sliding: Option<Arc<Sliding>>,
+    /// Guide, if it has friction.
+    pub guide: Option<Arc<GuideFriction>>,
 }
 
 impl RowMaker {
@@ -31,63 +29,34 @@ impl RowMaker {
     /// Returns the friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks.
     pub fn friction(&self, t: f64, angle: Angle, omega: f64, alpha: f64) -> f64 {
         self.guide.as_ref().map_or(0.0, |guide| {
-            let touch = guide.driven(t, angle, omega, alpha);
+            let touch = guide.equation.driven(t, angle, omega, alpha);
             touch.map_or(f64::NAN, |touch| touch.friction)
         })
     }
 
     /// Returns θ̈ of a free motion, rad/s², and the friction on the slider, N.
     pub fn forward(&self, t: f64, angle: Angle, omega: f64) -> (f64, f64) {
-        match &self.sliding {
-            Some(sliding) => {
-                let (alpha, touch) = sliding.state(t, angle, omega);
+        match &self.guide {
+            Some(guide) => {
+                let (alpha, touch) = guide.state(t, angle, omega);
                 (alpha, touch.friction)
             }
             None => (self.equation.acceleration(t, angle, omega), 0.0),
         }
     }
 
-    /// Computes the joint forces, N, of a free motion or, with `alpha`, of a prescribed one; none if not asked for.
-    pub fn reactions(
-        &self,
-        t: f64,
-        angle: Angle,
-        omega: f64,
-        alpha: Option<f64>,
-    ) -> Option<Reactions> {
-        let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        self.forces(t, angle, &pose, [omega, alpha], friction)
-    }
-
-    /// Returns θ̈, rad/s², and the friction on the slider, N.
-    fn acceleration(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> (f64, f64) {
-        match alpha {
-            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
-            None => self.forward(t, angle, omega),
-        }
-    }
-
-    fn forces(
-        &self,
-        t: f64,
-        angle: Angle,
-        pose: &Pose,
-        [omega, alpha]: [f64; 2],
-        friction: f64,
-    ) -> Option<Reactions> {
-        self.reactor.as_ref().map(|reactor| {
-            let mut load = self.equation.loads().value(t, angle, omega, pose);
-            load.force += friction;
-            reactor.reactions(pose, omega, alpha, &load)
-        })
-    }
-
     /// Makes the row of a free motion or, with `alpha`, of a prescribed one.
     pub fn row(&self, t: f64, angle: Angle, omega: f64, alpha: Option<f64>) -> Row {
         let pose = self.equation.linkage().pose(angle.rest);
-        let (alpha, friction) = self.acceleration(t, angle, omega, alpha);
-        let reactions = self.forces(t, angle, &pose, [omega, alpha], friction);
+        let (alpha, friction) = match alpha {
+            Some(alpha) => (alpha, self.friction(t, angle, omega, alpha)),
+            None => self.forward(t, angle, omega),
+        };
+        let reactions = self.reactor.as_ref().map(|reactor| {
+            let mut load = self.equation.loads().value(t, angle, omega, &pose);
+            load.force += friction;
+            reactor.reactions(&pose, omega, alpha, &load)
+        });
         let driving_torque = self.driving_torque.then(|| {
             let torque = self.equation.driving_torque(t, angle, omega, alpha);
             torque - friction * pose.dx

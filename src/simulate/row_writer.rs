@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::row::{Row, RowSink};
-use super::schedule::{Schedule, passed, refuse_rows};
+use super::schedule::{SAME_ROW, Schedule, passed, refuse_rows};
 use crate::error::Error;
 
 /// Part of a motion between two times, as rows see it.
@@ -44,9 +44,6 @@ pub(super) struct RowWriter<'a> {
     taken: u64,
 }
 
-/// Distance from the end, as part of the row spacing, within which a row is the end but for rounding of its time.
-const SAME_TIME: f64 = 1e-9;
-
 impl<'a> RowWriter<'a> {
     pub fn new(rows: &'a mut dyn RowSink, schedule: Schedule) -> RowWriter<'a> {
         RowWriter {
@@ -66,14 +63,13 @@ impl<'a> RowWriter<'a> {
             return Ok(());
         }
         let begun = Instant::now();
-        let result = match self.schedule.angle_step() {
+        let mut result = match self.schedule.angle_step() {
             Some(spacing) => self.at_angles(part, spacing),
             None => self.at_times(part),
         };
-        let result = match self.rows.wants_steps() {
-            true => result.and_then(|()| self.inside(part)),
-            false => result,
-        };
+        if self.rows.wants_steps() {
+            result = result.and_then(|()| self.inside(part));
+        }
         self.spent += begun.elapsed();
         result
     }
@@ -83,13 +79,11 @@ impl<'a> RowWriter<'a> {
         let last = self.rows.wants_rows().then(last).flatten();
         let before = self.before;
         let is_last = |due: &Row| {
-            let last = last.map_or(f64::INFINITY, |row| row.t);
-            last - due.t <= SAME_TIME * (due.t - before) + 4.0 * f64::EPSILON * last
+            last.is_some_and(|Row { t, .. }| {
+                t - due.t <= SAME_ROW * (due.t - before) + 4.0 * f64::EPSILON * t
+            })
         };
-        let due = self
-            .held
-            .take()
-            .filter(|due| last.is_none() || !is_last(due));
+        let due = self.held.take().filter(|due| !is_last(due));
         due.iter()
             .chain(&last)
             .try_for_each(|row| self.rows.row(row))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::guide_friction::Sliding;
+use super::guide_friction::GuideFriction;
 use super::options::Options;
 use super::row_maker::RowMaker;
 use super::schedule::Schedule;
@@ -10,10 +10,10 @@ use super::stop::Why;
 use crate::engine::runge_kutta;
 use crate::engine::time::{self, Settings, Start};
 use crate::error::Error;
-use crate::mechanism::{Class, Curve, CurveEquation, Equation, Limits, Reactor};
+use crate::mechanism::{Class, Equation, Limits, Reactor};
 use crate::numeric::angle::Angle;
 use crate::plan::{Plan, Stepper};
-use crate::scene::{Extent, MotionKind, Scene};
+use crate::scene::{Extent, Scene};
 
 /// Scene with all that its engine needs.
 #[derive(Clone)]
@@ -40,10 +40,6 @@ impl<'a> RunSetup<'a> {
     pub fn new(scene: &'a Scene, options: &'a Options, kept: usize) -> Result<RunSetup<'a>, Error> {
         let plan = Plan::of_run(scene, options.method)?;
         let equation = Equation::new(scene);
-        let (sliding, guide) = match scene.motion.kind {
-            MotionKind::Free => (Sliding::new(scene, &equation), None),
-            MotionKind::ConstantSpeed => (None, guide(scene, &equation)),
-        };
         Ok(RunSetup {
             scene,
             options,
@@ -62,8 +58,7 @@ impl<'a> RunSetup<'a> {
                     false => None,
                 },
                 driving_torque: options.driving_torque,
-                guide: guide.map(Arc::new),
-                sliding: sliding.map(Arc::new),
+                guide: GuideFriction::new(scene, &equation).map(Arc::new),
                 equation: Arc::new(equation),
             },
         })
@@ -91,12 +86,27 @@ impl<'a> RunSetup<'a> {
         self.limits.class == Class::RotatingCrank
     }
 
+    /// Whether friction or a dry load may hold the mechanism at rest.
+    pub fn may_stick(&self) -> bool {
+        self.scene.reduced().friction.is_some() || self.equation().loads().are_dry()
+    }
+
+    /// Lists the dead centres, rad in [0, 2π).
+    pub fn dead_centres(&self) -> Vec<f64> {
+        let dead_centres = self.limits.dead_centres.iter();
+        dead_centres.map(|dc| dc.theta).collect()
+    }
+
     /// True if the inertia vanishes at a dead centre, where the speed of a crank without inertia has no bound.
     pub fn inertia_vanishes(&self) -> bool {
+        let mut dead_centres = self.dead_centres().into_iter();
+        dead_centres.any(|theta| self.inertia_is_below(1e-12, theta))
+    }
+
+    /// Whether the inertia at an angle (rad) is at most a part of that a radian further on.
+    pub fn inertia_is_below(&self, part: f64, theta: f64) -> bool {
         let inertia = |theta: f64| self.equation().terms(theta).inertia.m;
-        let vanishes = |theta: f64| inertia(theta) <= 1e-12 * inertia(theta + 1.0);
-        let mut dead_centres = self.limits.dead_centres.iter();
-        dead_centres.any(|dc| vanishes(dc.theta))
+        inertia(theta) <= part * inertia(theta + 1.0)
     }
 
     /// Returns the state of the crank at the start.
@@ -137,11 +147,4 @@ impl<'a> RunSetup<'a> {
             guide: &[],
         }
     }
-}
-
-/// Makes the guide of a prescribed motion; none without friction.
-fn guide(scene: &Scene, equation: &Equation) -> Option<CurveEquation> {
-    scene.friction?;
-    let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
-    guide.friction().is_some().then_some(guide)
 }

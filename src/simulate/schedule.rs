@@ -8,11 +8,14 @@ use crate::scene::{Every, Extent, MOST_OUTPUT_ROWS};
 /// Number of rows of a run without `output_every`.
 const DEFAULT_ROWS: u32 = 500;
 
+/// Distance of two rows, as part of the row spacing, within which they are one but for rounding.
+pub(super) const SAME_ROW: f64 = 1e-9;
+
 /// Lists the whole numbers passed on the way from `a` to `b`, in the order of passing, without `a` and with `b`. A
-/// number within 1e-9 of a whole number, as by rounding, counts as the whole number.
+/// number within [`SAME_ROW`] of a whole number counts as the whole number.
 pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     let snapped = |x: f64| {
-        if (x - x.round()).abs() < 1e-9 {
+        if (x - x.round()).abs() < SAME_ROW {
             x.round()
         } else {
             x
@@ -52,20 +55,13 @@ pub(super) enum Schedule {
 impl Schedule {
     pub fn new(every: Option<Every>, extent: Extent) -> Schedule {
         let intervals = f64::from(DEFAULT_ROWS - 1);
-        match (every, extent) {
-            (Some(Every::Time(step)), Extent::Duration(end)) => Schedule::Times { step, end },
-            (Some(Every::Time(step)), _) => Schedule::Times {
-                step,
-                end: f64::INFINITY,
-            },
-            (Some(Every::Angle(step)), _) => Schedule::Angles { step },
-            (None, Extent::Duration(end)) => Schedule::Times {
-                step: end / intervals,
-                end,
-            },
-            (None, Extent::Revolutions(turns)) => Schedule::Angles {
-                step: turns * TAU / intervals,
-            },
+        let (end, default) = match extent {
+            Extent::Duration(end) => (end, Every::Time(end / intervals)),
+            Extent::Revolutions(turns) => (f64::INFINITY, Every::Angle(turns * TAU / intervals)),
+        };
+        match every.unwrap_or(default) {
+            Every::Time(step) => Schedule::Times { step, end },
+            Every::Angle(step) => Schedule::Angles { step },
         }
     }
 
@@ -88,7 +84,7 @@ impl Schedule {
         match *self {
             Schedule::Times { step, end } => {
                 let t = index as f64 * step;
-                (t < end - 1e-9 * step).then_some(t)
+                (t < end - SAME_ROW * step).then_some(t)
             }
             Schedule::Angles { .. } => None,
         }

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::coordinate::{AlongCurve, Coordinate};
-use super::guide_friction::Sliding;
 use super::result::Summary;
 use super::row::Row;
 use super::row_maker::RowMaker;
@@ -41,13 +40,34 @@ impl Simulation {
     /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
     /// ```
     pub fn row(&self, t: f64) -> Option<Row> {
-        self.dense.row(self.trajectory.as_ref()?, t)
+        let DenseRows {
+            maker,
+            alpha,
+            curve,
+            phases,
+        } = &self.dense;
+        let maker = maker.as_ref()?;
+        let (angle, speed) = self.trajectory.as_ref()?.coordinate(t)?;
+        let after = phases.partition_point(|interval| interval.until < t);
+        let interval = phases.get(after).filter(|interval| interval.from <= t);
+        let row = match interval {
+            Some(interval) => {
+                let guide = maker.guide.as_deref().map(|guide| &guide.equation);
+                let equation = curve.as_deref().or(guide)?;
+                AlongCurve::new(equation, interval.phase, maker).row(t, angle, speed)
+            }
+            None => maker.row(t, angle, speed, *alpha),
+        };
+        [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
+            .iter()
+            .all(|number| number.is_finite())
+            .then_some(row)
     }
 }
 
 /// Interval of time in which the slider is in one phase in its guide, on the configuration curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spell {
+pub(super) struct PhaseInterval {
     /// First time, s.
     pub from: f64,
     /// Last time, s.
@@ -55,10 +75,10 @@ pub(super) struct Spell {
     pub phase: Phase,
 }
 
-pub(super) fn lengthen(spells: &mut Vec<Spell>, [from, until]: [f64; 2], phase: Phase) {
-    match spells.last_mut() {
+pub(super) fn push_phase(phases: &mut Vec<PhaseInterval>, [from, until]: [f64; 2], phase: Phase) {
+    match phases.last_mut() {
         Some(last) if last.until == from && last.phase == phase => last.until = until,
-        _ => spells.push(Spell { from, until, phase }),
+        _ => phases.push(PhaseInterval { from, until, phase }),
     }
 }
 
@@ -71,28 +91,5 @@ pub(super) struct DenseRows {
     /// Configuration curve, if the whole run follows its coordinate.
     pub curve: Option<Arc<CurveEquation>>,
     /// Intervals of motion along a configuration curve, in order.
-    pub spells: Vec<Spell>,
-}
-
-impl DenseRows {
-    /// Makes the row at a time, s; none outside the run, with a loose joint, and where a number is not finite.
-    pub fn row(&self, trajectory: &Trajectory, t: f64) -> Option<Row> {
-        let maker = self.maker.as_ref()?;
-        let (angle, speed) = trajectory.coordinate(t)?;
-        let after = self.spells.partition_point(|spell| spell.until < t);
-        let spell = self.spells.get(after).filter(|spell| spell.from <= t);
-        let row = match spell {
-            Some(spell) => {
-                let guide = maker.sliding.as_deref().map(Sliding::equation);
-                let equation = self.curve.as_deref().or(guide)?;
-                let reactor = maker.reactor.as_deref();
-                AlongCurve::new(equation, spell.phase, reactor).row(t, angle, speed)
-            }
-            None => maker.row(t, angle, speed, self.alpha),
-        };
-        [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
-            .iter()
-            .all(|number| number.is_finite())
-            .then_some(row)
-    }
+    pub phases: Vec<PhaseInterval>,
 }

@@ -27,11 +27,10 @@ pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
 /// Returns the reason if the crank has stalled at the last state: loads bring it back to a balance, and its energy does
 /// not lift it out. None otherwise, and with friction, dry loads, loads in time, clearance or limits.
 pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
-    let (equation, reduced) = (task.equation(), task.scene.reduced());
-    let loads = equation.loads();
-    let rests = reduced.friction.is_some() || loads.are_dry();
-    let timed = loads.reads().has(Variable::T);
-    if rests || timed || reduced.clearance.is_some() || !task.turns_fully() {
+    let equation = task.equation();
+    let timed = equation.loads().reads().has(Variable::T);
+    let loose = task.scene.reduced().clearance.is_some();
+    if task.may_stick() || timed || loose || !task.turns_fully() {
         return None;
     }
     let net = |theta: f64| -equation.driving_torque(0.0, theta, 0.0, 0.0);

@@ -195,7 +195,7 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::error_estimate::Forward;
+    use super::super::crank_motion::CrankMotion;
     use super::*;
     use crate::engine::Counted;
     use crate::engine::WorkLimit;
@@ -220,7 +220,7 @@ mod tests {
     }
 
     /// Steps of a run from a start to a time.
-    fn steps(motion: &Forward<'_>, start: Start, t_end: f64) -> Vec<Step> {
+    fn steps(motion: &CrankMotion<'_>, start: Start, t_end: f64) -> Vec<Step> {
         let settings = Settings {
             method: Method::Picard,
             tolerance: 1e-14,
@@ -245,7 +245,7 @@ mod tests {
         let aside = 1e-4;
         for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
             let equation = pendulum(push);
-            let motion = Forward(&equation);
+            let motion = CrankMotion(&equation);
             let start = |t: f64, angle: f64, speed: f64| Start {
                 t,
                 angle: Angle::from(angle),

@@ -140,7 +140,7 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
         let place = curve.place(angle.rest);
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
-                self.evaluations.set(self.evaluations.get() + 1);
+                self.evaluations.update(|before| before + 1);
                 let against = self.against.get();
                 let free = self.equation.free_against(t, angle, speed, against);
                 (free.normal, free.clear_of_jam(friction.coefficient))

@@ -40,7 +40,7 @@ pub enum Why {
     Interrupted,
     /// The crank does not complete this number of turns within 1e9 s.
     #[error("the crank does not complete {}", Turns(*.0))]
-    Turns(f64),
+    TurnsNeverComplete(f64),
     /// The crank swings periodically and does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: shown is one period of {period} s",
@@ -162,9 +162,10 @@ impl Why {
                 "the equation is too stiff for a method in time, or a load jumps back and forth with the speed: give dry friction as kind = \"dry\" or at the guide as [friction], and steep losses less steep, or raise --max-evaluations"
             }
             Why::TooManyTurns => "shorten the run or raise --max-evaluations",
-            Why::Turns(_) | Why::Period { .. } | Why::Caught { .. } | Why::AtRest { .. } => {
-                "give a duration instead"
-            }
+            Why::TurnsNeverComplete(_)
+            | Why::Period { .. }
+            | Why::Caught { .. }
+            | Why::AtRest { .. } => "give a duration instead",
             Why::Stalled { .. } => "give it more torque, or a duration instead",
             Why::AtLimit => "give the rod or the slider a mass, which carries it on",
             Why::NoInertia => "give the crank an inertia",

@@ -6,8 +6,8 @@ mod work;
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
-use super::guide_friction::{Grip, Guide, Sliding, Spot};
-use super::marks::{Marks, in_order};
+use super::guide_friction::{GuideFriction, GuideGain, Spot};
+use super::marks::{Marks, SAME_ANGLE, in_order};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, Panels, State, Table};
@@ -21,7 +21,8 @@ use crate::scene::Variable;
 /// Inertia, generalized force and loads of an equation as functions of the crank angle.
 pub(super) struct AngleModel<'a> {
     equation: &'a Equation,
-    sliding: Option<&'a Sliding>,
+    /// Guide, if it has friction.
+    guide: Option<&'a GuideFriction>,
     /// Whole turns of the start, added to all angles: loads over theta may differ from turn to turn.
     turns: f64,
     /// Dead centres and corners of loads in a turn, rad.
@@ -49,14 +50,13 @@ impl<'a> AngleModel<'a> {
     pub fn of(task: &'a RunSetup<'_>) -> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
-        let dead_centres = task.limits.dead_centres.iter().map(|dc| dc.theta);
-        let dead_centres: Vec<f64> = dead_centres.collect();
+        let dead_centres = task.dead_centres();
         let tables = loads.angle_corners().into_iter();
         let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
         let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
         let mut model = AngleModel {
             equation,
-            sliding: task.maker.sliding.as_deref(),
+            guide: task.maker.guide.as_deref(),
             turns: start.turns,
             cycle: 1,
             of_cycle: corners.clone(),
@@ -96,7 +96,7 @@ impl<'a> AngleModel<'a> {
         let marks = self.marks.between(0.0, length);
         if turns > 1 {
             // Corners at the start of the cycle belong to the cycle.
-            let before = -1e-9;
+            let before = -SAME_ANGLE;
             let loads = self.equation.loads();
             self.of_loads = loads.corners_between(before, length + before);
         } else {
@@ -144,12 +144,12 @@ impl Driven for AngleModel<'_> {
         self.count(count);
         let loads = self.equation.loads();
         let driven = self.is_driven();
-        let mut guide = None;
-        let at = match self.sliding {
+        let mut guided = None;
+        let at = match self.guide {
             None => self.equation.first_positions(angles, count),
-            Some(sliding) => {
+            Some(guide) => {
                 let (at, normals) = self.equation.first_guided(angles, count);
-                guide = Some((sliding, normals));
+                guided = Some((guide, normals));
                 at
             }
         };
@@ -158,28 +158,22 @@ impl Driven for AngleModel<'_> {
         for (i, angle) in angles.iter().enumerate().take(count) {
             let (x, dx) = (at.x[i], at.dx[i]);
             table.inertia[i] = at.m[i];
-            let (stored, placed) = (
-                loads.with_potential_at(x),
-                loads.of_place(Angle::new(turns, *angle), x),
-            );
+            let stored = loads.with_potential_at(x);
+            let placed = loads.of_place(Angle::new(turns, *angle), x);
             table.force[i] = stored.over(dx) - at.dv[i];
             table.push[i] = placed.over(dx);
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
-                let grip = Grip::default();
-                table.places.push(Spot { at: [x, dx], grip });
+                let gain = GuideGain::default();
+                table.places.push(Spot { at: [x, dx], gain });
             }
         }
-        if let Some((sliding, normals)) = guide {
+        if let Some((guide, normals)) = guided {
             // Panels run in the direction of motion.
             let direction = (angles[count - 1] - angles[0]).signum();
-            let guide = Guide {
-                dx: &at.dx[..count],
-                normals: &normals[..count],
-                signs: direction * side,
-            };
-            sliding.tabulate(guide, loads, &of_place, table);
+            let nodes = (&at.dx[..count], &normals[..count]);
+            guide.tabulate(nodes, direction * side, loads, &of_place, table);
         }
     }
 
@@ -204,8 +198,8 @@ impl Driven for AngleModel<'_> {
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
-            let Spot { at: [_, dx], grip } = *at.place;
-            *force = load.over(dx) + grip.rubbed(*load);
+            let Spot { at: [_, dx], gain } = *at.place;
+            *force = load.over(dx) + gain.rubbed(*load);
         }
         forces
     }
@@ -217,19 +211,19 @@ impl Driven for AngleModel<'_> {
     fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
         let loads = self.equation.loads();
         let seen = self.equation.linkage().seen(reach, loads.meet_slider());
-        let rubbed = self.sliding.map(|sliding| sliding.arms(reach.angle));
+        let rubbed = self.guide.map(|guide| guide.arms(reach.angle));
         let arms = seen.arms().plus(rubbed.unwrap_or_default());
         loads.detail_of_state(&seen, arms, ellipse)
     }
 
     fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {
         let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
-        at.place.grip.pressed(load)
+        at.place.gain.pressed(load)
     }
 
     fn corners(&self) -> &[f64] {
         // Friction changes sign at the dead centres.
-        match self.sliding {
+        match self.guide {
             Some(_) => &self.of_cycle,
             None => &self.of_loads,
         }

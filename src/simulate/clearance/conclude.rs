@@ -3,85 +3,81 @@
 use std::f64::consts::TAU;
 
 use super::super::balance::Balance;
-use super::super::error_estimate::MARGIN;
 use super::super::outcome::{Estimate, Outcome};
 use super::super::passages;
-use super::super::recorder::Record as Recorded;
+use super::super::recorder::Record;
 use super::super::result::{ErrorEstimate, Peaks};
+use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
-use super::super::stop::Why;
 use super::super::warning::Warning;
-use super::follow::{Followed, phi};
-use super::motion::{DRIVEN, FREE};
-use super::record::Record;
+use super::contact_follower::ContactHistory;
+use super::journal_record::JournalRecord;
+use super::motion::{DRIVEN, FREE, phi};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
-use super::{Done, Run, Tighter};
-use crate::engine::time::Start;
+use super::{LooseRun, SecondRun};
+use crate::engine::contact::ContactEnd;
 use crate::mechanism::LooseState;
 use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
 
-impl<const N: usize> Run<'_, N> {
-    pub(super) fn concluded(&self, done: Done<'_, N>, stopped: Option<Why>) -> Simulation {
-        let Done {
-            model,
-            ended,
-            seen,
-            mut record,
-            last,
-            tighter,
-            wall_s,
-        } = done;
+impl<const N: usize> LooseRun<'_, N> {
+    /// Makes the result of a run that ended in the state `last`; `record` has its rows.
+    pub(super) fn concluded(
+        &self,
+        ended: &ContactEnd<N>,
+        seen: &ContactHistory,
+        mut record: Record,
+        last: &LooseState,
+        wall_s: f64,
+    ) -> Simulation {
+        let (model, task) = (&self.model, self.model.task);
+        let stopped = self.stopped(ended, last);
+        let tighter = (task.options.estimate && stopped.is_none())
+            .then(|| self.second_run(last.t))
+            .flatten();
         let [work, lost] = model.work(&ended.last);
         let at_end = model.state(&ended.last);
-        let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
-        let horizon = tighter.as_ref().map(|t| self.horizon(&seen, t, &last));
+        let gained = model.mechanism.energy(&at_end) - model.mechanism.energy(&model.start);
+        let horizon = tighter.as_ref().map(|t| self.horizon(seen, t, last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
         // Steps round independently of each other.
         let rounding = 8.0 * f64::EPSILON * (1.0 + ended.steps as f64).sqrt();
         let error = |value: fn(&LooseState) -> f64, size: f64| {
-            against.map(|t| MARGIN * (value(t) - value(&last)).abs() + rounding * size)
+            against.map(|t| MARGIN * (value(t) - value(last)).abs() + rounding * size)
         };
-        let reach = model.reach;
-        let struck = self.struck(&seen, f64::EPSILON * reach, last.t);
+        let struck = self.struck(seen, f64::EPSILON * model.reach, last.t);
         let summary = self.summary(
-            &seen,
+            seen,
             [work, lost],
-            &last,
-            |value, length| Some(error(value, reach / length)? + struck / length),
+            last,
+            |value, length| Some(error(value, model.reach / length)? + struck / length),
             horizon,
         );
-        let mut warnings = self.warnings(&summary, &seen, tighter.is_some() || stopped.is_some());
+        let mut warnings = self.warnings(&summary, seen, tighter.is_some() || stopped.is_some());
         if N == DRIVEN {
             self.add_dead_centres(&mut record, last.t);
         }
-        let theta = self.task.angle(last.theta).radians();
+        let at = model.crank(last);
+        let theta = at.angle.radians().abs();
         let estimate = match N {
-            DRIVEN => Some((2.0 * f64::EPSILON * theta.abs(), 0.0)),
-            _ => error(|s| s.theta, 1.0 + theta.abs())
-                .zip(error(|s| s.omega, 1.0 + last.omega.abs())),
+            DRIVEN => Some((2.0 * f64::EPSILON * theta, 0.0)),
+            _ => error(|s| s.theta, 1.0 + theta).zip(error(|s| s.omega, 1.0 + last.omega.abs())),
         };
-        if N == FREE && estimate.is_none() && self.task.options.estimate && stopped.is_none() {
+        let estimate = estimate.map(|(theta_rad, omega_rad_per_s)| ErrorEstimate {
+            theta_rad,
+            omega_rad_per_s,
+        });
+        if N == FREE && estimate.is_none() && task.options.estimate && stopped.is_none() {
             warnings.push(Warning::BeyondHorizon);
         }
         let peaks = seen.peaks.filter(|_| stopped.is_none()).map(Peaks::new);
         let outcome = Outcome {
             engine: Engine::Contact,
-            at: Start {
-                t: last.t,
-                angle: self.task.angle(last.theta),
-                speed: last.omega,
-            },
-            turned: last.theta - self.start.theta,
-            estimate: estimate.map(|(theta_rad, omega_rad_per_s)| {
-                let error = ErrorEstimate {
-                    theta_rad,
-                    omega_rad_per_s,
-                };
-                Estimate::of_end(error, None)
-            }),
+            at,
+            turned: last.theta - model.start.theta,
+            estimate: estimate.map(Estimate::of_end),
             balance: Balance {
                 residual: gained - work + lost,
                 largest: seen.energy,
@@ -93,23 +89,23 @@ impl<const N: usize> Run<'_, N> {
             stopped,
             record,
         };
-        let mut run = outcome.conclude(self.task);
+        let mut run = outcome.conclude(task);
         let result = &mut run.summary;
         result.estimate_cost = tighter.map(|t| t.cost);
         (result.peaks, result.clearance) = (peaks, Some(summary));
         if N == DRIVEN {
-            let motion = Trajectory::uniform(self.task.start(), self.start.omega, last.t);
+            let motion = Trajectory::uniform(task.start(), model.start.omega, last.t);
             run.trajectory = Some(motion);
         }
         run
     }
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
-    fn horizon(&self, seen: &Followed, tighter: &Tighter, end: &LooseState) -> Horizon {
-        let distance = 0.01 * self.mechanism.clearance().radial;
+    fn horizon(&self, seen: &ContactHistory, tighter: &SecondRun, end: &LooseState) -> Horizon {
+        let distance = 0.01 * self.model.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
-        let statistics = |record: &Record| {
+        let statistics = |record: &JournalRecord| {
             let (tally, from) = record.since(t);
             tally.statistics(from, end.t)
         };
@@ -117,7 +113,7 @@ impl<const N: usize> Run<'_, N> {
             t_s: t,
             // The mean speed suffices for a number of turns.
             revolutions: match end.t > 0.0 {
-                true => ((end.theta - self.start.theta) * t / end.t).abs() / TAU,
+                true => ((end.theta - self.model.start.theta) * t / end.t).abs() / TAU,
                 false => 0.0,
             },
             whole_run: parted.is_none(),
@@ -132,10 +128,10 @@ impl<const N: usize> Run<'_, N> {
     /// t, s. In the deepest impact, of depth δ and force F, the energy 2Fδ/5 stops the free bodies of mass m,
     /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
     /// velocity, is 3/2 of that of the depth; the next impact ends it.
-    fn struck(&self, seen: &Followed, gap: f64, t: f64) -> f64 {
-        let scene = &self.task.scene;
+    fn struck(&self, seen: &ContactHistory, gap: f64, t: f64) -> f64 {
+        let scene = &self.model.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
-        let mass = match self.mechanism.clearance().joint {
+        let mass = match self.model.mechanism.clearance().joint {
             Joint::WristPin => slider,
             Joint::CrankPin => slider + scene.rod.map_or(0.0, |rod| rod.mass),
         };
@@ -149,13 +145,13 @@ impl<const N: usize> Run<'_, N> {
 
     fn summary(
         &self,
-        seen: &Followed,
+        seen: &ContactHistory,
         [work, lost]: [f64; 2],
         last: &LooseState,
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
         horizon: Option<Horizon>,
     ) -> ClearanceSummary {
-        let clearance = self.mechanism.clearance();
+        let clearance = self.model.mechanism.clearance();
         let whole = seen.total.statistics(0.0, last.t);
         let linked = self.linked();
         ClearanceSummary {
@@ -165,7 +161,7 @@ impl<const N: usize> Run<'_, N> {
             },
             contact_law: clearance.law.name(),
             radial_m: clearance.radial,
-            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force().stiffness),
+            stiffness_n_per_m_1_5: (!linked).then(|| self.model.mechanism.force().stiffness),
             impacts: whole.impacts,
             separations: seen.separations,
             contact_share: whole.contact_share,
@@ -178,9 +174,9 @@ impl<const N: usize> Run<'_, N> {
             last: LooseFinal {
                 x_m: last.x,
                 v_m_per_s: last.v,
-                phi_rad: phi(last.psi, self.task.scene.geometry.branch.sign()),
+                phi_rad: phi(last.psi, self.model.task.scene.geometry.branch.sign()),
                 error_x_m: error(|s| s.x, 1.0),
-                error_phi_rad: error(|s| s.psi, self.task.scene.geometry.rod),
+                error_phi_rad: error(|s| s.psi, self.model.task.scene.geometry.rod),
             },
             horizon,
         }
@@ -189,10 +185,10 @@ impl<const N: usize> Run<'_, N> {
     fn warnings(
         &self,
         summary: &ClearanceSummary,
-        seen: &Followed,
+        seen: &ContactHistory,
         compared: bool,
     ) -> Vec<Warning> {
-        let unknown = self.task.options.estimate && !compared;
+        let unknown = self.model.task.options.estimate && !compared;
         let parted = summary.horizon.filter(|horizon| !horizon.whole_run);
         let deepest = seen.total.deepest;
         let deep = deepest > summary.radial_m;
@@ -212,11 +208,11 @@ impl<const N: usize> Run<'_, N> {
     }
 
     /// Adds the dead centres of a crank at constant speed to impacts and separations, in order of time.
-    fn add_dead_centres(&self, record: &mut Recorded, end: f64) {
-        let (passages, count) = passages::at_constant_speed(self.task, end);
+    fn add_dead_centres(&self, record: &mut Record, end: f64) {
+        let (passages, count) = passages::at_constant_speed(self.model.task, end);
         record.events.extend(passages);
         record.events_total += count;
         record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        record.events.truncate(self.task.options.events_kept);
+        record.events.truncate(self.model.task.options.events_kept);
     }
 }

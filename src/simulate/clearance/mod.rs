@@ -1,12 +1,11 @@
 //! Motion with a loose joint: alternating flight and contact, integrated by the contact engine.
 
 mod conclude;
-mod follow;
+mod contact_follower;
+mod journal_record;
 mod motion;
-mod peak;
-mod press;
-mod record;
 mod result;
+mod step_forces;
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -14,22 +13,22 @@ use std::time::Instant;
 pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::error_estimate::TIGHTER;
-use super::recorder::{Record as Recorded, Recorder};
+use super::recorder::{Record, Recorder};
 use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
+use super::second_run::TOLERANCE_RATIO;
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, AcceptedStep, ContactEnd, Finish, Settings};
-use crate::engine::time::{FAR, Start};
+use crate::engine::contact::{self, ContactEnd, Finish, Settings};
+use crate::engine::time::FAR;
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
-use follow::{Follow, Followed};
+use contact_follower::{ContactFollower, ContactHistory};
+use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
-use record::Record;
 
 /// Number of samples of the journal path in a turn; halved again and again in a long run.
 const SAMPLES_IN_A_TURN: f64 = 64.0;
@@ -45,140 +44,108 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
     match task.scene.motion.kind {
-        MotionKind::ConstantSpeed => Run::<DRIVEN>::new(task, &mechanism, start)?.all(rows),
-        MotionKind::Free => Run::<FREE>::new(task, &mechanism, start)?.all(rows),
+        MotionKind::ConstantSpeed => LooseRun::<DRIVEN>::new(task, &mechanism, start).all(rows),
+        MotionKind::Free => LooseRun::<FREE>::new(task, &mechanism, start).all(rows),
     }
 }
 
-struct Run<'a, const N: usize> {
-    task: &'a RunSetup<'a>,
-    mechanism: &'a LooseMechanism,
-    start: LooseState,
+struct LooseRun<'a, const N: usize> {
+    model: Loose<'a, N>,
     t_end: f64,
 }
 
-impl<'a, const N: usize> Run<'a, N> {
+impl<'a, const N: usize> LooseRun<'a, N> {
     fn new(
         task: &'a RunSetup<'a>,
         mechanism: &'a LooseMechanism,
         start: LooseState,
-    ) -> Result<Run<'a, N>, Error> {
-        let t_end = match task.extent {
-            Extent::Duration(duration) => duration,
-            Extent::Revolutions(_) if N == FREE => FAR,
-            Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
-        };
-        Ok(Run {
-            task,
-            mechanism,
-            start,
-            t_end,
-        })
+    ) -> LooseRun<'a, N> {
+        let geometry = &task.scene.geometry;
+        let length = geometry.crank.min(100.0 * mechanism.clearance().radial);
+        LooseRun {
+            model: Loose {
+                mechanism,
+                task,
+                start,
+                length,
+                angle: length / geometry.crank,
+                pace: start.omega.abs().max(1.0),
+                reach: geometry.crank + geometry.rod,
+            },
+            t_end: match task.extent {
+                Extent::Duration(duration) => duration,
+                Extent::Revolutions(_) if N == FREE => FAR,
+                Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
+            },
+        }
     }
 
     fn all(&self, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
         let begun = Instant::now();
-        let corners = |t: f64| self.task.equation().loads().next_corner(t);
-        let model = self.model(&corners);
-        let every = self.task.scene.run.output_every;
+        let (model, task) = (&self.model, self.model.task);
         let schedule = match N {
-            DRIVEN => Schedule::at_speed(every, self.start.omega, self.t_end),
-            _ => self.task.schedule(),
+            DRIVEN => {
+                let every = task.scene.run.output_every;
+                Schedule::at_speed(every, model.start.omega, self.t_end)
+            }
+            _ => task.schedule(),
         };
-        let recorder = Recorder::new(self.task, rows, schedule);
-        let mut follow = self.follow(&model, Some(recorder));
-        let tolerance = self.task.scene.run.tolerance;
-        let ended = self.go(&model, tolerance, self.t_end, &mut |s| follow.take(s));
-        let rows = follow.rows();
-        let Follow { recorder, seen, .. } = follow;
+        let recorder = Recorder::new(task, rows, schedule);
+        let tolerance = task.scene.run.tolerance;
+        let (ended, follower) = self.integrate(Some(recorder), tolerance, self.t_end);
+        let ContactFollower { recorder, seen, .. } = follower;
         let last = seen.ends_at.unwrap_or(model.state(&ended.last));
-        let mut record = Recorded::new(self.start.omega);
-        if let Some(mut recorder) = recorder {
-            recorder.end_piece(last.t);
-            record = recorder.finish(|| Some(rows.row(&last, ended.phase)))?;
-        }
-        let wall_s = record.wall_s(begun);
-        let stopped = self.stopped(&ended, &last);
-        let tighter = (self.task.options.estimate && stopped.is_none())
-            .then(|| self.tighter(&model, last.t))
-            .flatten();
-        let done = Done {
-            model: &model,
-            ended,
-            seen,
-            record,
-            last,
-            tighter,
-            wall_s,
+        let record = match recorder {
+            Some(mut recorder) => {
+                recorder.end_piece(last.t);
+                recorder.finish(|| Some(model.row(&last, ended.phase)))?
+            }
+            None => Record::default(),
         };
-        Ok(self.concluded(done, stopped))
+        let wall_s = record.wall_s(begun);
+        Ok(self.concluded(&ended, &seen, record, &last, wall_s))
     }
 
-    fn follow<'b>(
+    /// Integrates at a tolerance until a time, s.
+    fn integrate<'b>(
         &'b self,
-        model: &'b Loose<'b, N>,
         recorder: Option<Recorder<'b>>,
-    ) -> Follow<'b, N> {
-        let turn = TAU / self.start.omega.abs().max(1.0);
-        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
-        let dead_centres = self.task.limits.dead_centres.iter();
-        Follow {
-            model,
-            task: self.task,
-            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
-            recorder,
-            seen: Followed::new(width, self.mechanism.energy(&self.start).abs()),
-        }
-    }
-
-    fn model<'b>(&self, corners: &'b dyn Fn(f64) -> f64) -> Loose<'b, N>
-    where
-        'a: 'b,
-    {
-        let geometry = &self.task.scene.geometry;
-        let length = geometry
-            .crank
-            .min(100.0 * self.mechanism.clearance().radial);
-        Loose {
-            mechanism: self.mechanism,
-            start: (self.start.theta, self.start.omega),
-            length,
-            angle: length / geometry.crank,
-            pace: self.start.omega.abs().max(1.0),
-            reach: geometry.crank + geometry.rod,
-            corners,
-        }
-    }
-
-    fn linked(&self) -> bool {
-        self.mechanism.clearance().law == ContactLaw::MasslessLink
-    }
-
-    fn go(
-        &self,
-        model: &Loose<'_, N>,
         tolerance: f64,
         t_end: f64,
-        follower: &mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool,
-    ) -> ContactEnd<N> {
+    ) -> (ContactEnd<N>, ContactFollower<'b, N>) {
+        let (model, task, start) = (&self.model, self.model.task, &self.model.start);
+        let turn = TAU / start.omega.abs().max(1.0);
+        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
+        let mut follower = ContactFollower {
+            model,
+            dead_centres: task.dead_centres(),
+            recorder,
+            seen: ContactHistory::new(width, model.mechanism.energy(start).abs()),
+        };
         let settings = Settings {
             tolerance,
             t_end,
-            limit: self.task.options.limit(),
+            limit: task.options.limit(),
         };
-        let start = model.numbers(&self.start, [0.0; 2]);
-        contact::run(model, start, self.linked(), settings, follower)
+        let y = model.numbers(start, [0.0; 2]);
+        let ended = contact::run(model, y, self.linked(), settings, &mut |step| {
+            follower.take(step)
+        });
+        (ended, follower)
+    }
+
+    fn linked(&self) -> bool {
+        self.model.mechanism.clearance().law == ContactLaw::MasslessLink
     }
 
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
-    fn tighter(&self, model: &Loose<'_, N>, t_end: f64) -> Option<Tighter> {
+    fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
-        let mut follow = self.follow(model, None);
-        let tolerance = (self.task.scene.run.tolerance / TIGHTER).max(4.0 * f64::EPSILON);
-        let ended = self.go(model, tolerance, t_end, &mut |s| follow.take(s));
-        (ended.finish == Finish::AtEnd).then(|| Tighter {
-            last: model.state(&ended.last),
-            record: follow.seen.record,
+        let tolerance = self.model.task.scene.run.tolerance / TOLERANCE_RATIO;
+        let (ended, follower) = self.integrate(None, tolerance.max(4.0 * f64::EPSILON), t_end);
+        (ended.finish == Finish::AtEnd).then(|| SecondRun {
+            last: self.model.state(&ended.last),
+            record: follower.seen.record,
             cost: Cost {
                 evaluations: ended.evaluations,
                 wall_s: begun.elapsed().as_secs_f64(),
@@ -187,23 +154,27 @@ impl<'a, const N: usize> Run<'a, N> {
     }
 
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
-        match (ended.finish, self.task.extent) {
-            (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= FAR => Some(Why::Turns(turns)),
-            (Finish::AtEnd | Finish::Stopped | Finish::Broken, _) => None,
-            (Finish::StepTooSmall, _) if self.mechanism.jams(last) => Some(Why::JamLoose),
-            (Finish::WorkLimit, _) => Some(self.task.limited()),
-            (Finish::StepTooSmall, _) => Some(match self.without_value(last) {
-                Some(load) => Why::NoValue {
-                    asked: Start {
-                        t: last.t,
-                        angle: self.task.angle(last.theta),
-                        speed: last.omega,
-                    },
-                    load: Some(load.clone()),
-                },
-                None => Why::ContactTooStiff,
-            }),
+        match ended.finish {
+            Finish::AtEnd => match self.model.task.extent {
+                Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
+                _ => None,
+            },
+            Finish::Stopped | Finish::Broken => None,
+            Finish::WorkLimit => Some(self.model.task.limited()),
+            Finish::StepTooSmall => Some(self.too_small(last)),
         }
+    }
+
+    /// Returns the reason for steps that became too small.
+    fn too_small(&self, last: &LooseState) -> Why {
+        if self.model.mechanism.jams(last) {
+            return Why::JamLoose;
+        }
+        let load = self.without_value(last).cloned();
+        load.map_or(Why::ContactTooStiff, |load| Why::NoValue {
+            asked: self.model.crank(last),
+            load: Some(load),
+        })
     }
 
     /// Returns the load without a value at a state, or a few roundings after it.
@@ -211,29 +182,19 @@ impl<'a, const N: usize> Run<'a, N> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
         let at = |dt: f64| State {
             t: last.t + dt,
-            theta: self.task.angle(last.theta).radians() + last.omega * dt,
+            theta: self.model.task.angle(last.theta).radians() + last.omega * dt,
             omega: last.omega,
             x: last.x + last.v * dt,
             v: last.v,
         };
-        let loads = self.task.equation().loads();
+        let loads = self.model.task.equation().loads();
         let found = loads.without_value(&at(0.0));
         found.or_else(|| loads.without_value(&at(dt)))
     }
 }
 
-struct Done<'a, const N: usize> {
-    model: &'a Loose<'a, N>,
-    ended: ContactEnd<N>,
-    seen: Followed,
-    record: Recorded,
+struct SecondRun {
     last: LooseState,
-    tighter: Option<Tighter>,
-    wall_s: f64,
-}
-
-struct Tighter {
-    last: LooseState,
-    record: Record,
+    record: JournalRecord,
     cost: Cost,
 }

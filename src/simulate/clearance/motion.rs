@@ -1,6 +1,9 @@
 //! Mechanism with a loose joint as the contact engine sees it: state vector, rates, gap and scales.
 
+use super::super::row::{LooseRow, Row};
+use super::super::run_setup::RunSetup;
 use crate::engine::contact::{Contact, Phase, Sample};
+use crate::engine::time::Start;
 use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
 use crate::numeric::enclosure::{Detail, Interval};
 
@@ -14,8 +17,8 @@ pub(super) const DRIVEN: usize = 7;
 /// Mechanism with scales for the error control; its state has N numbers.
 pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
-    /// Crank angle (rad) and speed (rad/s) at the start.
-    pub start: (f64, f64),
+    pub task: &'a RunSetup<'a>,
+    pub start: LooseState,
     /// Scale of the positions, m.
     pub length: f64,
     /// Scale of the angles, rad.
@@ -24,8 +27,6 @@ pub(super) struct Loose<'a, const N: usize> {
     pub pace: f64,
     /// Size of the mechanism, m.
     pub reach: f64,
-    /// Returns the next time at which a load has a corner, s.
-    pub corners: &'a dyn Fn(f64) -> f64,
 }
 
 impl<const N: usize> Loose<'_, N> {
@@ -33,13 +34,13 @@ impl<const N: usize> Loose<'_, N> {
     #[inline(always)]
     pub fn state(&self, y: &[f64; N]) -> LooseState {
         if N == DRIVEN {
-            let (angle, speed) = self.start;
+            let LooseState { theta, omega, .. } = self.start;
             LooseState {
                 t: y[0],
-                theta: angle + speed * y[0],
+                theta: theta + omega * y[0],
                 psi: y[1],
                 x: y[2],
-                omega: speed,
+                omega,
                 spin: y[3],
                 v: y[4],
             }
@@ -67,11 +68,53 @@ impl<const N: usize> Loose<'_, N> {
         [y[N - 2], y[N - 1]]
     }
 
+    /// Returns the state of the crank.
+    pub fn crank(&self, s: &LooseState) -> Start {
+        Start {
+            t: s.t,
+            angle: self.task.angle(s.theta),
+            speed: s.omega,
+        }
+    }
+
+    /// Makes the row of slider and rod, with the slider of ideal joints for comparison.
+    pub fn row(&self, s: &LooseState, phase: Phase) -> Row {
+        let mechanism = self.mechanism;
+        let linked = matches!(phase, Phase::Link).then(|| mechanism.relinked(s));
+        let s = linked.as_ref().unwrap_or(s);
+        let rates = mechanism.rates(s, touch(phase, None));
+        let maker = &self.task.maker;
+        let ideal = maker.row(s.t, self.task.angle(s.theta), s.omega, Some(rates.alpha));
+        Row {
+            x: s.x,
+            v: s.v,
+            a: rates.a,
+            phi: phi(s.psi, self.task.scene.geometry.branch.sign()),
+            reactions: maker
+                .reactor
+                .as_ref()
+                .map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
+            driving_torque: maker.driving_torque.then_some(rates.driving_torque),
+            clearance: Some(LooseRow {
+                ideal: [ideal.x, ideal.v, ideal.a],
+                journal: mechanism.journal(s),
+                force: rates.normal,
+            }),
+            ..ideal
+        }
+    }
+
     #[inline(always)]
     fn packed(free: &[f64; FREE]) -> [f64; N] {
         const KEPT: [usize; DRIVEN] = [0, 2, 3, 5, 6, 7, 8];
         std::array::from_fn(|i| free[if N == DRIVEN { KEPT[i] } else { i }])
     }
+}
+
+/// Returns the inclination φ of the rod from its direction ψ, rad.
+pub(super) fn phi(psi: f64, branch: f64) -> f64 {
+    let (sin, cos) = psi.sin_cos();
+    (-sin).atan2(branch * cos)
 }
 
 /// Returns the action of a phase on the bodies.
@@ -190,7 +233,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
     }
 
     fn next_corner(&self, t: f64) -> f64 {
-        (self.corners)(t)
+        self.task.equation().loads().next_corner(t)
     }
 
     fn has_detail(&self) -> bool {

@@ -7,78 +7,24 @@ use super::super::stick_slip::{
     sliding,
 };
 use super::super::stop::Why;
-use super::{End, Follow, Observer, Piece, crank_state};
-use crate::engine::event_functions;
-use crate::engine::event_functions::{Change, EventFunction};
+use super::{End, Observer, Piece, crank_state, met};
+use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::engine::work_forecast::WorkForecast;
 use crate::engine::{Counted, Motion};
-use crate::scene::Friction;
+use crate::mechanism::CurveEquation;
+use crate::numeric::angle::Angle;
 
-pub(super) struct Run<'a, 'o> {
-    pub follow: &'a Follow<'a>,
-    pub quantities: Quantities<'a>,
-    pub observer: &'o mut dyn Observer,
-    pub now: Start,
-    pub signs: Signs,
-    pub piece: Piece,
-}
-
-/// End of a smooth piece of the motion.
-enum Cut {
-    At {
-        t: f64,
-        index: usize,
-    },
-    Ended(Finish),
-    /// The inertia vanishes next to the end of the piece.
-    NoInertia,
-    Stopped,
-}
-
-impl Follow<'_> {
-    pub fn run(&self, observer: &mut dyn Observer) -> Piece {
-        let Start { t, angle, speed } = self.start;
-        let node = Node {
-            t,
-            theta: angle.rest,
-            omega: speed,
-            ..Node::default()
-        };
-        let mut run = Run {
-            follow: self,
-            quantities: Quantities {
-                equation: self.equation,
-                turning: self.turn_limit.map(|limit| (self.turned_from, limit)),
-                evaluations: Cell::new(0),
-                against: Cell::default(),
-            },
-            observer,
-            now: self.start,
-            signs: Signs::default(),
-            piece: Piece {
-                last: Step::new(angle.turns, node, node),
-                work: 0.0,
-                steps: 0,
-                evaluations: 0,
-                end: End::Done,
-                impossible: None,
-            },
-        };
-        run.begin();
-        run.piece.evaluations += run.quantities.evaluations.get();
-        run.piece
-    }
-
-    pub fn friction(&self) -> Option<Friction> {
-        self.equation.friction()
-    }
-
-    /// Whether friction or a dry load may hold the mechanism at rest.
-    pub fn may_stick(&self) -> bool {
-        self.friction().is_some() || self.equation.loads().are_dry()
-    }
+/// Run in time on the configuration curve.
+pub(in super::super) struct CurveRun<'a, 'o> {
+    pub(super) equation: &'a CurveEquation,
+    pub(super) settings: Settings<'a>,
+    pub(super) quantities: Quantities<'a>,
+    pub(super) observer: &'o mut dyn Observer,
+    pub(super) now: Start,
+    pub(super) signs: Signs,
+    pub(super) piece: Piece,
 }
 
 /// Returns the kind of event of an event function, if it reports one.
@@ -91,85 +37,128 @@ fn event(index: usize) -> Option<&'static str> {
     }
 }
 
-impl Run<'_, '_> {
-    fn begin(&mut self) {
+impl<'a, 'o> CurveRun<'a, 'o> {
+    /// Prepares a run from a state of the coordinate. `turning`: crank angle at the start of the turns, and the largest
+    /// rotation from there (rad); none without a turn limit.
+    pub fn new(
+        equation: &'a CurveEquation,
+        settings: Settings<'a>,
+        start: Start,
+        turning: Option<(Angle, f64)>,
+        observer: &'o mut dyn Observer,
+    ) -> CurveRun<'a, 'o> {
+        let Start { t, angle, speed } = start;
+        let node = Node {
+            t,
+            theta: angle.rest,
+            omega: speed,
+            ..Node::default()
+        };
+        CurveRun {
+            equation,
+            settings,
+            quantities: Quantities {
+                equation,
+                turning,
+                evaluations: Cell::new(0),
+                against: Cell::default(),
+            },
+            observer,
+            now: start,
+            signs: Signs::default(),
+            piece: Piece {
+                last: Step::new(angle.turns, node, node),
+                work: 0.0,
+                steps: 0,
+                evaluations: 0,
+                end: End::Done,
+                impossible: None,
+            },
+        }
+    }
+
+    /// Runs to the end of the piece.
+    pub fn run(mut self) -> Piece {
         let speed = self.now.speed;
-        let end = if speed == 0.0 && self.follow.may_stick() {
+        let end = if speed == 0.0 && self.may_stick() {
             self.leave_rest(None)
         } else {
             self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
             self.check_jam()
         };
-        let end = end.or_else(|| self.pieces());
-        self.piece.end = end.unwrap_or(End::Done);
+        self.piece.end = end.unwrap_or_else(|| self.pieces());
+        self.piece.evaluations = self.spent();
+        self.piece
     }
 
-    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'_> {
+    /// Returns the number of evaluations, with those of the event functions.
+    pub(super) fn spent(&self) -> u64 {
+        self.piece.evaluations + self.quantities.evaluations.get()
+    }
+
+    /// Whether friction or a dry load may hold the mechanism at rest.
+    pub(super) fn may_stick(&self) -> bool {
+        self.equation.friction().is_some() || self.equation.loads().are_dry()
+    }
+
+    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'a> {
         InPhase {
-            equation: self.follow.equation,
+            equation: self.equation,
             phase,
         }
     }
 
-    fn pieces(&mut self) -> Option<End> {
+    fn pieces(&mut self) -> End {
         let in_time = self.in_phase(Phase::Sticking).depends_on_time();
-        let ends = self.follow.settings.ends();
-        let mut forecast = WorkForecast::new(self.now.t, 0, ends, in_time);
+        let settings = self.settings;
+        let mut forecast = WorkForecast::new(self.now.t, 0, settings.ends(), in_time);
         loop {
             let from = self.now.angle;
             let end = match self.slide() {
-                Cut::Ended(Finish::AtEnd) => Some(End::Done),
-                Cut::Ended(finish) => Some(self.singular(finish)),
-                Cut::NoInertia => Some(End::Named(Why::NoInertiaOnCurve.into())),
-                Cut::Stopped => Some(End::Stopped),
-                Cut::At { index: TURNED, .. } => Some(End::Done),
-                Cut::At { index: CLEAR, .. } => Some(self.jam()),
-                Cut::At { index: SPEED, .. } => {
+                Err(end) => Some(end),
+                Ok(Change { index: TURNED, .. }) => Some(End::Done),
+                Ok(Change { index: CLEAR, .. }) => Some(self.jam()),
+                Ok(Change { index: SPEED, .. }) => {
                     let before = self.signs[SPEED];
                     self.now.speed = 0.0;
                     self.leave_rest(Some(before))
                 }
-                Cut::At { t, index } => {
+                Ok(Change { t, index }) => {
                     self.signs[index] = -self.signs[index];
                     self.oppose(index);
-                    self.report(index, t);
+                    if let Some(kind) = event(index) {
+                        let Start { angle, speed, .. } = self.now;
+                        self.observer.event(kind, t, angle, speed);
+                    }
                     None
                 }
             };
-            if end.is_some() || self.now.t >= self.follow.settings.t_end {
-                return end.or(Some(End::Done));
+            if end.is_some() || self.now.t >= self.settings.t_end {
+                return end.unwrap_or(End::Done);
             }
-            let spent = self.piece.evaluations + self.quantities.evaluations.get();
-            if self.follow.settings.limit.is_reached(spent) {
-                return Some(End::Integrator(Finish::WorkLimit));
+            let spent = self.spent();
+            if self.settings.limit.is_reached(spent) {
+                return End::Integrator(Finish::WorkLimit);
             }
             let travel = self.now.angle.minus(from);
             if let Some(finish) = forecast.is_hopeless(spent, self.now.t, travel) {
-                return Some(End::Integrator(finish));
+                return End::Integrator(finish);
             }
         }
     }
 
-    fn report(&mut self, index: usize, t: f64) {
-        if let Some(kind) = event(index) {
-            let Start { angle, speed, .. } = self.now;
-            self.observer.event(kind, t, angle, speed);
-        }
-    }
-
-    /// Integrates one piece of sliding, up to the next change of friction.
-    fn slide(&mut self) -> Cut {
-        let equation = self.follow.equation;
-        let friction = self.follow.friction();
+    /// Integrates one piece of sliding, up to the next change of friction or the end of the run.
+    fn slide(&mut self) -> Result<Change, End> {
+        let equation = self.equation;
+        let friction = equation.friction();
         let [on_crank, on_slider] = equation.loads().dry_on();
         let phase = sliding(equation, &self.signs);
-        let in_phase = InPhase { equation, phase };
+        let in_phase = self.in_phase(phase);
         let motion = Counted::new(&in_phase);
         let looked_at = Counted::new(&in_phase);
-        let spent = self.piece.evaluations + self.quantities.evaluations.get();
         let settings = Settings {
-            limit: self.follow.settings.limit.after(spent),
-            ..self.follow.settings
+            limit: self.settings.limit.after(self.spent()),
+            ..self.settings
         };
         let mut cut = None;
         let (mut stopped, mut vanished, mut beyond) = (false, false, false);
@@ -223,40 +212,36 @@ impl Run<'_, '_> {
             } else {
                 last
             });
-            return match (stopped, vanished) {
-                (true, _) => Cut::Stopped,
-                (_, true) => Cut::NoInertia,
-                _ => Cut::Ended(finish),
-            };
+            return Err(match finish {
+                _ if stopped => End::Stopped,
+                // The inertia vanishes next to the end of the piece.
+                _ if vanished => End::Named(Why::NoInertiaOnCurve.into()),
+                Finish::AtEnd => End::Done,
+                Finish::StepTooSmall => self.singular(),
+                finish => End::Integrator(finish),
+            });
         };
         let last = self.shorten(&motion, &step, change, phase);
         self.piece.evaluations += motion.evaluations();
         self.arrive(last);
-        Cut::At {
-            t: change.t,
-            index: change.index,
-        }
+        Ok(change)
     }
 
     /// Integrates the step anew up to a change inside it.
     fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
-        let settings = &self.follow.settings;
+        let settings = &self.settings;
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
             time::shortened(motion, step, t_end, settings, sink)
         };
         let mut t = change.t;
         if change.index == TURNED {
-            for _ in 0..2 {
+            t = met(t, step, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
                 let missing = self.quantities.values(t, angle, last.end.omega)[TURNED];
-                let dtheta = self.follow.equation.curve().place(angle.rest).dtheta;
-                let pace = (dtheta * last.end.omega).abs();
-                if missing == 0.0 || pace == 0.0 {
-                    break;
-                }
-                t = (t + missing / pace).clamp(step.start.t, step.end.t);
-            }
+                let dtheta = self.equation.curve().place(angle.rest).dtheta;
+                [missing, (dtheta * last.end.omega).abs()]
+            });
         }
         let observer = &mut *self.observer;
         let at_rest = change.index == SPEED;
@@ -273,7 +258,7 @@ impl Run<'_, '_> {
         }))
     }
 
-    pub fn arrive(&mut self, last: Step) {
+    pub(super) fn arrive(&mut self, last: Step) {
         self.piece.work += last.end.work;
         self.now = Start {
             t: last.end.t,

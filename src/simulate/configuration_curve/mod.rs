@@ -4,6 +4,8 @@ mod follow;
 mod release;
 mod rest;
 
+pub(super) use follow::CurveRun;
+
 use std::sync::Arc;
 
 use super::balance::Balance;
@@ -12,7 +14,7 @@ use super::stick_slip::Phase;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Settings, Start};
+use crate::engine::time::{Finish, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
@@ -28,8 +30,7 @@ pub(super) struct OnCurve {
 
 /// Whether a free motion in time follows the configuration curve.
 pub(super) fn serves(task: &RunSetup<'_>) -> bool {
-    let may_stick = task.scene.reduced().friction.is_some() || task.equation().loads().are_dry();
-    !task.turns_fully() || may_stick
+    !task.turns_fully() || task.may_stick()
 }
 
 /// Returns the warning about lengths at or near a change point, if any.
@@ -91,17 +92,6 @@ pub(super) trait Observer {
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
 }
 
-/// Run in time on the configuration curve: equation, settings, start and turn limit.
-pub(super) struct Follow<'a> {
-    pub equation: &'a CurveEquation,
-    pub settings: Settings<'a>,
-    /// State of the coordinate at the start.
-    pub start: Start,
-    /// Largest rotation of the crank from `turned_from`, rad; none without a turn limit.
-    pub turn_limit: Option<f64>,
-    pub turned_from: Angle,
-}
-
 /// End of a piece in time.
 #[derive(Clone, Debug, Default)]
 pub(super) enum End {
@@ -128,6 +118,24 @@ pub(super) struct Piece {
     pub end: End,
     /// Time, crank angle and speed of the last evaluation without a finite result.
     pub impossible: Option<Start>,
+}
+
+/// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is
+/// missing at a time, and the rate at which it falls.
+pub(super) fn met(
+    mut t: f64,
+    step: &Step,
+    most: usize,
+    mut missing: impl FnMut(f64) -> [f64; 2],
+) -> f64 {
+    for _ in 0..most {
+        let [missing, rate] = missing(t);
+        if missing == 0.0 || rate == 0.0 {
+            break;
+        }
+        t = (t + missing / rate).clamp(step.start.t, step.end.t);
+    }
+    t
 }
 
 /// Converts a state of the coordinate to time, crank angle and crank speed (rad/s).

@@ -37,12 +37,9 @@ pub(super) fn time(
     let (mut t, mut length) = (from, longest);
     while t < to && !allowed.is_reached(count) {
         let end = rest.next_corner(t).min(to).min(t + length);
-        let times = PLACES.map(|part| {
-            if part == 1.0 {
-                end
-            } else {
-                t + part * (end - t)
-            }
+        let times = PLACES.map(|part| match part {
+            1.0 => end,
+            _ => t + part * (end - t),
         });
         let values = times.map(band);
         count += PLACES.len() as u64;
@@ -55,31 +52,25 @@ pub(super) fn time(
         // A margin that is zero throughout, as at a dead centre without weight, holds.
         let even = least > 2.0 * bend || least >= 0.0 && bend == 0.0;
         let change = rest.margin_change(mu_static, [t, end]);
-        let calm = even && least >= change;
-        if calm || end - t <= shortest {
-            if let Some(i) = (1..5).find(|i| values[*i] < 0.0) {
-                return (Release::At(crossing(band, times[i - 1], times[i])), count);
-            }
+        let is_resolved = even && least >= change || end - t <= shortest;
+        let falls = |i: usize| change == 0.0 && values[..i].windows(2).all(|w| w[1] <= w[0]);
+        // A margin that falls all the way to its crossing needs no closer look.
+        if let Some(i) = (1..5).find(|i| values[*i] < 0.0)
+            && (is_resolved || falls(i))
+        {
+            let crossing = root::bracketed(band, times[i - 1], times[i]);
+            return (Release::At(crossing.unwrap_or(times[i])), count);
+        }
+        if is_resolved {
             t = end;
             length = (2.0 * length).min(longest);
-        } else if let Some(i) = (1..5).find(|i| values[*i] < 0.0)
-            && change == 0.0
-            && values[..i].windows(2).all(|w| w[1] <= w[0])
-        {
-            // The margin falls all the way to the crossing.
-            return (Release::At(crossing(band, times[i - 1], times[i])), count);
         } else {
             length = 0.5 * (end - t);
         }
     }
-    let end = if t < to {
-        Release::Unknown(t)
-    } else {
-        Release::Never
+    let end = match t < to {
+        true => Release::Unknown(t),
+        false => Release::Never,
     };
     (end, count)
-}
-
-fn crossing(band: impl Fn(f64) -> f64, from: f64, to: f64) -> f64 {
-    root::bracketed(band, from, to).unwrap_or(to)
 }

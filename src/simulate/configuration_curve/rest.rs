@@ -4,7 +4,7 @@ use super::super::guide_friction::BESIDE;
 use super::super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
 use super::super::stop::Why;
 use super::End;
-use super::follow::Run;
+use super::follow::CurveRun;
 use super::release::{self, Release};
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
@@ -16,16 +16,13 @@ use crate::scene::Variable;
 /// Span in which a run without a last time seeks a release, in units of its time up to then, or of 1 s.
 const FAR_AHEAD: f64 = 1e3;
 
-impl Run<'_, '_> {
+impl CurveRun<'_, '_> {
     /// Leaves rest; none if the motion goes on, otherwise the end of the run. `before`: previous direction of motion.
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
-        if !self.follow.may_stick() {
-            return None;
-        }
-        let friction = self.follow.friction();
+        let friction = self.equation.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
         let Start { t, angle, .. } = self.now;
-        let held = self.follow.equation.at_rest(angle).held(t);
+        let held = self.equation.at_rest(angle).held(t);
         let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
                 if before.is_some_and(|before| before != direction) {
@@ -46,15 +43,15 @@ impl Run<'_, '_> {
     /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
     fn rest(&mut self, mu_static: f64) -> Result<f64, End> {
         let Start { t, angle, .. } = self.now;
-        let equation = self.follow.equation;
-        let end = match self.follow.turn_limit {
-            Some(_) => t + FAR_AHEAD * t.max(1.0),
-            None => self.follow.settings.t_end,
+        let equation = self.equation;
+        let is_open = self.quantities.turning.is_some();
+        let end = match is_open {
+            true => t + FAR_AHEAD * t.max(1.0),
+            false => self.settings.t_end,
         };
         let changes = equation.loads().reads().has(Variable::T);
         let (release, looked) = if changes {
-            let spent = self.piece.evaluations + self.quantities.evaluations.get();
-            let allowed = self.follow.settings.limit.after(spent);
+            let allowed = self.settings.limit.after(self.spent());
             release::time(&equation.at_rest(angle), mu_static, t, end, allowed)
         } else {
             (Release::Never, 0)
@@ -65,10 +62,11 @@ impl Run<'_, '_> {
             _ => "stick",
         };
         self.observer.event(kind, t, angle, 0.0);
-        let until = match release {
-            Release::Never if self.follow.turn_limit.is_some() => return Err(End::AtRest),
-            Release::Never => end,
-            Release::At(t) | Release::Unknown(t) => t,
+        let (until, ends) = match release {
+            Release::Never if is_open => return Err(End::AtRest),
+            Release::Never => (end, Some(End::Done)),
+            Release::At(t) => (t, None),
+            Release::Unknown(t) => (t, Some(End::Integrator(Finish::WorkLimit))),
         };
         let node = |t: f64| Node {
             t,
@@ -78,10 +76,8 @@ impl Run<'_, '_> {
         let still = Step::new(angle.turns, node(t), node(until));
         self.observer.step(&still, Some(Phase::Sticking));
         self.arrive(still);
-        match release {
-            Release::Never => return Err(End::Done),
-            Release::Unknown(_) => return Err(End::Integrator(Finish::WorkLimit)),
-            Release::At(_) => {}
+        if let Some(end) = ends {
+            return Err(end);
         }
         self.observer.event("slip", until, angle, 0.0);
         let pull = equation.free(until, angle, 0.0);
@@ -90,16 +86,16 @@ impl Run<'_, '_> {
 
     /// Returns the end of the run if rigid bodies jam at the current state.
     pub fn check_jam(&mut self) -> Option<End> {
-        let friction = self.follow.friction()?;
+        let friction = self.equation.friction()?;
         let Start { t, angle, speed } = self.now;
-        let free = self.follow.equation.free(t, angle, speed);
+        let free = self.equation.free(t, angle, speed);
         (free.clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
     }
 
     pub fn jam(&self) -> End {
         let Start { t, angle, speed } = self.now;
-        let free = self.follow.equation.free(t, angle, speed);
-        let mu = self.follow.friction().map_or(0.0, |f| f.coefficient);
+        let free = self.equation.free(t, angle, speed);
+        let mu = self.equation.friction().map_or(0.0, |f| f.coefficient);
         End::Named(Box::new(Why::Jam {
             solutions: free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]),
             mu,
@@ -108,22 +104,20 @@ impl Run<'_, '_> {
     }
 
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
-    pub fn singular(&self, finish: Finish) -> End {
+    pub fn singular(&self) -> End {
         let Start { t, angle, speed } = self.now;
-        if finish == Finish::StepTooSmall
-            && let Some(friction) = self.follow.friction()
-        {
-            let free = self.follow.equation.free(t, angle, speed);
+        if let Some(friction) = self.equation.friction() {
+            let free = self.equation.free(t, angle, speed);
             if free.clear_of_jam(friction.coefficient) < 1e-3 {
                 return self.jam();
             }
         }
-        End::Integrator(finish)
+        End::Integrator(Finish::StepTooSmall)
     }
 
     /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate).
     pub fn signs_for(&self, direction: f64) -> Signs {
-        let equation = self.follow.equation;
+        let equation = self.equation;
         if equation.loads().are_dry() {
             // The signs of the speeds determine the sign of N.
             let seen = self.seen(direction);
@@ -140,7 +134,7 @@ impl Run<'_, '_> {
             .values(t, angle.plus(direction * BESIDE), speed);
         let mut signs = signs(values, ahead, direction);
         // A start at rest has no direction: the acceleration gives it.
-        if speed == 0.0 && !self.follow.may_stick() {
+        if speed == 0.0 && !self.may_stick() {
             let motion = self.in_phase(Phase::FREE);
             if motion.acceleration(t, angle, speed) < 0.0 {
                 signs[SPEED] = -1.0;
@@ -151,7 +145,7 @@ impl Run<'_, '_> {
 
     /// Updates the signs where dry loads reverse and the normal force jumps.
     pub fn oppose(&mut self, index: usize) {
-        let equation = self.follow.equation;
+        let equation = self.equation;
         if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {
             self.quantities.against.set(against(equation, &self.signs));
             self.signs[NORMAL] = self.seen(self.signs[SPEED])[NORMAL];

@@ -87,7 +87,7 @@ impl<'a, 'o> Until<'a, 'o> {
     }
 
     fn is_apart(&self, angle: Angle) -> bool {
-        let corners = self.course.position.corners_if_light().iter();
+        let corners = self.course.model.corners_if_light().iter();
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
             .all(|ahead| ahead.min(TAU - ahead) > APART)

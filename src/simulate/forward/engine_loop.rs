@@ -6,7 +6,7 @@ use std::cell::OnceCell;
 use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::{End, OnCurve};
 use super::super::run_setup::RunSetup;
-use super::arrived::{Arrived, Sink, Why};
+use super::arrived::{Arrived, PieceEnd, Sink};
 use super::stop_reason;
 use crate::engine::angle::Resolution;
 use crate::engine::energy::NotApplicable;
@@ -20,7 +20,7 @@ use crate::scene::Extent;
 #[derive(Clone)]
 pub(super) struct Course<'a> {
     pub task: &'a RunSetup<'a>,
-    pub position: &'a AngleModel<'a>,
+    pub model: &'a AngleModel<'a>,
     pub first: Engine,
     /// Whether this is the second pass, with which the first is compared.
     pub is_second: bool,
@@ -29,7 +29,6 @@ pub(super) struct Course<'a> {
     pub settings: Settings<'a>,
     /// Crank rotation in one direction, rad, after which the angle engine resumes.
     pub wait: f64,
-    pub limit: WorkLimit<'a>,
     /// Configuration curve through the start, once a piece follows it.
     pub curve: OnceCell<OnCurve>,
 }
@@ -57,7 +56,7 @@ impl Course<'_> {
                 now: self.task.first_state(),
                 ..Arrived::default()
             },
-            places: self.position.evaluations(),
+            places: self.model.evaluations(),
             beside: 0,
             wait: self.wait,
         };
@@ -73,14 +72,18 @@ impl Course<'_> {
 }
 
 impl<'a> Pass<'a, '_> {
+    /// Returns the number of evaluations beside those of `motion`.
+    pub fn spent_beside(&self) -> u64 {
+        self.course.model.evaluations() - self.places + self.beside
+    }
+
     fn spent(&self) -> u64 {
-        let places = self.course.position.evaluations() - self.places;
-        places + self.beside + self.motion.evaluations()
+        self.spent_beside() + self.motion.evaluations()
     }
 
     /// Returns the rest of the work limit.
     pub fn left(&self) -> WorkLimit<'a> {
-        self.course.limit.after(self.spent())
+        self.course.settings.limit.after(self.spent())
     }
 
     fn pieces(&mut self) -> Result<(), Error> {
@@ -98,7 +101,7 @@ impl<'a> Pass<'a, '_> {
                 return Ok(());
             };
             wait = match why {
-                Why::NotApplicable(NotApplicable::TooSlow) if self.hands_back() => self.wait,
+                PieceEnd::NotApplicable(NotApplicable::TooSlow) if self.hands_back() => self.wait,
                 _ => f64::INFINITY,
             };
             reason = self.reason(next, why);
@@ -107,12 +110,12 @@ impl<'a> Pass<'a, '_> {
     }
 
     /// Returns the next engine; none at the end of the run.
-    fn next(&mut self, engine: Engine, why: Why) -> Result<Option<Engine>, Error> {
+    fn next(&mut self, engine: Engine, why: PieceEnd) -> Result<Option<Engine>, Error> {
         use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
         let why = match why {
-            Why::Ended => return Ok(None),
-            Why::Clear => return Ok(Some(Engine::Angle)),
-            Why::NotApplicable(why) => why,
+            PieceEnd::Ended => return Ok(None),
+            PieceEnd::Clear => return Ok(Some(Engine::Angle)),
+            PieceEnd::NotApplicable(why) => why,
         };
         let plan = &self.course.task.plan;
         if !self.has_begun() {
@@ -120,7 +123,7 @@ impl<'a> Pass<'a, '_> {
                 return Err(stop_reason::refusal(self.course.task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.places = self.course.position.evaluations();
+            self.places = self.course.model.evaluations();
         }
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
@@ -147,9 +150,9 @@ impl<'a> Pass<'a, '_> {
     }
 
     /// Returns the reason for the next engine.
-    fn reason(&self, next: Engine, why: Why) -> Cow<'static, str> {
+    fn reason(&self, next: Engine, why: PieceEnd) -> Cow<'static, str> {
         match why {
-            Why::NotApplicable(why) if next == Engine::Time => {
+            PieceEnd::NotApplicable(why) if next == Engine::Time => {
                 stop_reason::not_applicable(self.course.task, why).into()
             }
             _ => "the crank turns".into(),

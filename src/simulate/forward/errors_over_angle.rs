@@ -1,15 +1,14 @@
 //! Errors of motions over the crank angle, from roundoff of times and positions and from truncation of the series.
 
 use super::super::balance::Balance;
-use super::super::error_estimate::MARGIN;
 use super::super::outcome::Estimate;
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
+use super::super::second_run::MARGIN;
 use super::arrived::Arrived;
 use crate::engine::angle::Driving;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
-use crate::numeric::angle::Angle;
 
 /// Relative roundoff of times of the angle engine.
 pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
@@ -35,18 +34,13 @@ pub(super) const PLACE_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
 /// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
 /// terms, whose sum is rounded by half of √33 units. These errors are independent.
-pub(super) fn late_by(
-    task: &RunSetup<'_>,
-    (angle, omega): (Angle, f64),
-    end: f64,
-    late: f64,
-    place: f64,
-) -> ErrorEstimate {
-    let (alpha, _) = task.maker.forward(end, angle, omega);
+pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> ErrorEstimate {
+    let Start { t, angle, speed } = at;
+    let (alpha, _) = task.maker.forward(t, angle, speed);
     let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
     ErrorEstimate {
-        theta_rad: (omega * late).hypot(rounding),
-        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * omega),
+        theta_rad: (speed * late).hypot(rounding),
+        omega_rad_per_s: (alpha * late).hypot(3.0 * f64::EPSILON * speed),
     }
 }
 
@@ -58,9 +52,8 @@ pub(super) fn by_energy(
     wants_rows: bool,
 ) -> Estimate {
     let (orbit, end) = (&driving.orbit, driving.end);
-    let last = (arrived.now.angle, arrived.now.speed);
-    let mut error = rounded(task, (orbit, end), last);
-    error.omega_rad_per_s += left_out(task, (orbit, end), last, arrived.work);
+    let mut error = rounded(task, orbit, arrived.now);
+    error.omega_rad_per_s += left_out(task, orbit, arrived.now, arrived.work);
     Estimate {
         error,
         on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),
@@ -69,7 +62,8 @@ pub(super) fn by_energy(
 }
 
 /// Returns the error of a state from that of its time and from the roundoff of position and energies.
-fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) -> ErrorEstimate {
+fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
+    let Start { t, angle, speed } = at;
     let rests = task.speed == 0.0 || orbit.turns_back();
     // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time depends on the
     // force, a difference with more roundoff.
@@ -78,42 +72,30 @@ fn rounded(task: &RunSetup<'_>, (orbit, t): (&Orbit, f64), state: (Angle, f64)) 
     let place = orbit
         .rounding(t)
         .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));
-    let mut error = late_by(task, state, t, late, place);
+    let mut error = late_by(task, at, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
-    let (angle, omega) = state;
-    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
+    let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
     // At rest: not a number.
-    let kinetic = 0.5 * momentum * omega.abs();
-    let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(omega.abs());
+    let kinetic = 0.5 * momentum * speed.abs();
+    let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(speed.abs());
     error.omega_rad_per_s = error.omega_rad_per_s.hypot(by_energy);
     error
 }
 
 /// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
 /// shows it.
-fn left_out(
-    task: &RunSetup<'_>,
-    (orbit, end): (&Orbit, f64),
-    last: (Angle, f64),
-    work: f64,
-) -> f64 {
-    let (angle, omega) = last;
-    let at = Start {
-        t: end,
-        angle,
-        speed: omega,
-    };
-    let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(end));
-    let momentum = task.equation().terms(angle.rest).inertia.m * omega.abs();
-    let seen = (1.5 * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
-    (orbit.speed_error(end) * omega.abs()).min(seen)
+fn left_out(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
+    let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
+    let momentum = task.equation().terms(at.angle.rest).inertia.m * at.speed.abs();
+    let seen = (MARGIN * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
+    (orbit.speed_error(at.t) * at.speed.abs()).min(seen)
 }
 
 /// Returns the error of a row at a time, s.
 fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
-    let state = orbit.state(t);
-    let mut error = rounded(task, (orbit, t), state);
-    error.omega_rad_per_s += orbit.speed_error(t) * state.1.abs();
+    let (angle, speed) = orbit.state(t);
+    let mut error = rounded(task, orbit, Start { t, angle, speed });
+    error.omega_rad_per_s += orbit.speed_error(t) * speed.abs();
     error
 }
 

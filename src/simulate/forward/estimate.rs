@@ -8,16 +8,16 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::super::checkpoints::Compared;
 use super::super::configuration_curve::{End, Observer, OnCurve};
-use super::super::error_estimate::{Forward, MARGIN, much_tighter, tighter};
+use super::super::crank_motion::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
+use super::super::second_run::{Compared, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
-use super::arrived::{Arrived, Driven, Sink};
+use super::arrived::{AnglePiece, Arrived, Sink};
 use super::engine_loop::Course;
 use super::errors_over_angle::{
     PLACE_ROUNDING, TIME_ROUNDING, by_energy, late_by, row_error, worst_row,
@@ -50,10 +50,8 @@ pub(super) fn estimate(
     wants_rows: bool,
 ) -> Option<Estimate> {
     match &arrived.driven {
-        Some(Driven {
-            driving, engine, ..
-        }) if *engine == Engine::Energy => {
-            Some(by_energy(course.task, driving, arrived, wants_rows))
+        Some(piece) if piece.engine == Engine::Energy => {
+            Some(by_energy(course.task, &piece.driving, arrived, wants_rows))
         }
         _ => by_second_run(course, arrived, record, wants_rows),
     }
@@ -71,21 +69,29 @@ fn by_second_run(
     let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
     let t_end = arrived.now.t;
     let over_angle = arrived.over_angle > 0;
-    let share = arrived.evaluations.saturating_mul(FOR_ONE);
+    let limit = course.settings.limit;
+    let share = arrived
+        .evaluations
+        .saturating_mul(FOR_ONE)
+        .saturating_add(BESIDE[usize::from(over_angle)]);
     let plain = Settings {
         t_end,
+        limit: WorkLimit {
+            evaluations: share.min(limit.evaluations),
+            ..limit
+        },
         ..course.settings
     };
     let tolerance = plain.tolerance;
     let collocation = Settings {
         method: Method::Picard,
-        tolerance: much_tighter(tolerance),
+        tolerance: collocation_tolerance(tolerance),
         guide: &record.checkpoints.first,
         ..plain
     };
     // Used where collocation does not reach the end.
     let again = Settings {
-        tolerance: tighter(tolerance),
+        tolerance: same_method_tolerance(tolerance),
         ..plain
     };
     let mut evaluations = 0;
@@ -100,15 +106,9 @@ fn by_second_run(
             resolution: finer(guide),
             settings,
             wait: OTHER_WAIT,
-            limit: WorkLimit {
-                evaluations: share
-                    .saturating_add(BESIDE[usize::from(over_angle)])
-                    .min(course.limit.evaluations),
-                ..course.limit
-            },
             ..course.clone()
         };
-        let forward = Forward(course.task.equation());
+        let forward = CrankMotion(course.task.equation());
         let motion = Counted::new(&forward);
         let mut seen = Second::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
@@ -153,13 +153,7 @@ fn distance(
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(
-            course.task,
-            (angle, speed),
-            t,
-            TIME_ROUNDING * t,
-            PLACE_ROUNDING,
-        ),
+        _ => late_by(course.task, arrived.now, TIME_ROUNDING * t, PLACE_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
@@ -238,8 +232,8 @@ impl<'m, 'a> Second<'m, 'a> {
 }
 
 impl Sink for Second<'_, '_> {
-    fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
-        let Driven {
+    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
+        let AnglePiece {
             driving, from, to, ..
         } = driven;
         let (angle, speed) = driving.orbit.state(driving.end);

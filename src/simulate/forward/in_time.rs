@@ -3,13 +3,12 @@
 
 use std::borrow::Cow;
 
-use super::super::configuration_curve::{self, End, Follow, Observer, OnCurve, Piece};
+use super::super::configuration_curve::{self, CurveRun, End, Observer, OnCurve, Piece};
 use super::super::stop;
-use super::arrived::Why;
+use super::arrived::PieceEnd;
 use super::clear::{Clear, Until};
 use super::engine_loop::{Course, Pass};
 use super::stop_reason;
-use crate::engine::WorkLimit;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::plan::Engine;
@@ -17,7 +16,7 @@ use crate::scene::Extent;
 
 impl Pass<'_, '_> {
     /// Runs a piece in time, to the end or until the crank has turned by `wait` (rad) in one direction.
-    pub fn in_time(&mut self, wait: f64, reason: Cow<'static, str>) -> Result<Why, Error> {
+    pub fn in_time(&mut self, wait: f64, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         self.keep();
         let course = self.course;
         let from = self.arrived.now;
@@ -51,25 +50,23 @@ impl Pass<'_, '_> {
         arrived.end = match (piece.end, course.extent) {
             (End::Stopped, _) if back => End::Done,
             (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::FAR => {
-                End::Named(stop::Why::Turns(turns).into())
+                End::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
         };
         if back {
             arrived.now.angle = arrived.now.angle.reduced();
-            return Ok(Why::Clear);
+            return Ok(PieceEnd::Clear);
         }
-        Ok(Why::Ended)
+        Ok(PieceEnd::Ended)
     }
 
     /// Runs a piece with the crank angle as the coordinate.
     fn of_crank(&mut self, wait: f64) -> (Piece, Clear) {
         let from = self.arrived.now;
         let settings = Settings {
-            limit: WorkLimit {
-                evaluations: self.motion.evaluations() + self.left().evaluations,
-                ..self.left()
-            },
+            // The evaluations of `motion` before this piece count as well.
+            limit: self.course.settings.limit.after(self.spent_beside()),
             ..self.course.settings
         };
         self.sink.begin_in_time(from, None);
@@ -102,24 +99,20 @@ impl Pass<'_, '_> {
     fn along_curve(&mut self, on: &OnCurve, wait: f64) -> (Piece, Clear) {
         let course = self.course;
         let begins = self.arrived.over_angle + self.arrived.in_time == 0;
-        let follow = Follow {
-            equation: &on.equation,
-            settings: Settings {
-                limit: self.left(),
-                ..course.settings
-            },
-            // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
-            start: if begins { on.start } else { self.arrived.now },
-            turn_limit: course.extent.angle(),
-            turned_from: course.task.start(),
+        let settings = Settings {
+            limit: self.left(),
+            ..course.settings
         };
-        self.sink.begin_in_time(follow.start, Some(on));
+        // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
+        let start = if begins { on.start } else { self.arrived.now };
+        let limit = course.extent.angle();
+        let turning = limit.map(|limit| (course.task.start(), limit));
+        self.sink.begin_in_time(start, Some(on));
         let mut until = Until::new(course, self.arrived.now, wait, &mut *self.sink);
-        let piece = follow.run(&mut until);
+        let piece = CurveRun::new(&on.equation, settings, start, turning, &mut until).run();
         let clear = until.clear;
         self.beside += piece.evaluations;
-        self.sink
-            .end_in_time(self.motion, &piece.last, &follow.settings);
+        self.sink.end_in_time(self.motion, &piece.last, &settings);
         (piece, clear)
     }
 }

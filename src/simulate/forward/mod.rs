@@ -6,8 +6,8 @@ mod clear;
 mod engine_loop;
 mod errors_over_angle;
 mod estimate;
+mod forward_recorder;
 mod in_time;
-mod notes;
 mod over_angle;
 mod stop_reason;
 
@@ -16,14 +16,14 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use arrived::{Arrived, Driven};
+use arrived::{AnglePiece, Arrived};
 use engine_loop::Course;
-use notes::Notes;
+use forward_recorder::ForwardRecorder;
 
 use super::angle_model::AngleModel;
 use super::balance::Balance;
 use super::configuration_curve::{self, End};
-use super::error_estimate::Forward;
+use super::crank_motion::CrankMotion;
 use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
@@ -43,33 +43,32 @@ const WAIT: f64 = TAU;
 /// Runs a free motion, with the model of its mechanism over the crank angle.
 pub(super) fn run(
     task: &RunSetup<'_>,
-    position: &AngleModel<'_>,
+    model: &AngleModel<'_>,
     rows: &mut dyn RowSink,
 ) -> Result<Simulation, Error> {
     let begun = Instant::now();
     let wants_rows = rows.wants_rows();
     let course = Course {
         task,
-        position,
+        model,
         first: task.plan.engine,
         is_second: false,
         extent: task.extent,
         resolution: over_angle::plain(task),
         settings: task.settings(),
         wait: WAIT,
-        limit: task.options.limit(),
         curve: OnceCell::new(),
     };
-    let forward = Forward(task.equation());
+    let forward = CrankMotion(task.equation());
     // Evaluations for rows and events are counted apart: they do not change how far a run goes.
     let looked_at = Counted::new(&forward);
-    let mut notes = Notes::new(task, &looked_at, rows);
-    let arrived = course.run(&Counted::new(&forward), &mut notes)?;
+    let mut recorder = ForwardRecorder::new(task, &looked_at, rows);
+    let arrived = course.run(&Counted::new(&forward), &mut recorder)?;
     if matches!(arrived.end, End::Integrator(Finish::NoStart)) && arrived.over_angle == 0 {
         return Err(stop_reason::no_start(task));
     }
-    let caught = notes.caught();
-    let record = notes.finish(&arrived)?;
+    let caught = recorder.caught();
+    let record = recorder.finish(&arrived)?;
     let wall_s = record.wall_s(begun);
     let stopped = caught.or_else(|| stop_reason::reason(&course, &arrived));
     let warning = arrived
@@ -135,7 +134,7 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
 fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Simulation {
     let alone = arrived.is_one_piece();
     match (arrived.driven, course.curve.into_inner()) {
-        (Some(Driven { driving, to, .. }), _) if alone => {
+        (Some(AnglePiece { driving, to, .. }), _) if alone => {
             run.trajectory = Some(Trajectory::orbit(driving.orbit, 0.0, to.t));
         }
         (_, Some(on)) if alone => {

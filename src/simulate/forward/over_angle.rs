@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::End;
-use super::super::error_estimate::LEAST_TAIL;
 use super::super::run_setup::RunSetup;
+use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
-use super::arrived::{Driven, Why};
+use super::arrived::{AnglePiece, PieceEnd};
 use super::engine_loop::Pass;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{self, Driving, Goal, Guide, Resolution};
@@ -29,20 +28,27 @@ const MOST_TAIL: f64 = 1e-14;
 
 impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
-    pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<Why, Error> {
-        let solved = match solve(self.course.task, self.course.position) {
-            Ok(solved) => solved,
-            Err(why) => return Ok(Why::NotApplicable(why)),
+    pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+        let (task, model) = (self.course.task, self.course.model);
+        let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
+        let (orbit, t, stopped) = match until_the_end(task, |until| {
+            Orbit::new(model, task.start(), task.speed, until, tail)
+        }) {
+            Ok(ended) => ended,
+            Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
-        if let Some(why) = solved.stopped {
+        if let Some(why) = stopped {
             self.arrived.end = End::Named(why.into());
         }
-        self.drove(Engine::Energy, reason, solved.driving, solved.last)?;
-        Ok(Why::Ended)
+        let (angle, speed) = orbit.state(t);
+        let work = model.work(task.start(), angle);
+        let driving = Driving::whole(orbit, t, work);
+        self.drove(Engine::Energy, reason, driving, Start { t, angle, speed })?;
+        Ok(PieceEnd::Ended)
     }
 
     /// Runs a piece of the angle engine to the goal or to where the engine cannot go on.
-    pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<Why, Error> {
+    pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let course = self.course;
         let from = self.arrived.now;
         let driving = match self.drive() {
@@ -56,7 +62,7 @@ impl Pass<'_, '_> {
             Ok(driving) => driving,
             Err(why) => {
                 self.wait *= 2.0;
-                return Ok(Why::NotApplicable(why));
+                return Ok(PieceEnd::NotApplicable(why));
             }
         };
         let short = driving.short;
@@ -78,7 +84,7 @@ impl Pass<'_, '_> {
             self.wait = if soon { 2.0 * self.wait } else { course.wait };
         }
         self.drove(Engine::Angle, reason, driving, Start { t, angle, speed })?;
-        Ok(short.map_or(Why::Ended, |short| Why::NotApplicable(short.why)))
+        Ok(short.map_or(PieceEnd::Ended, |short| PieceEnd::NotApplicable(short.why)))
     }
 
     fn drive(&self) -> Result<Driving, NotApplicable> {
@@ -95,7 +101,7 @@ impl Pass<'_, '_> {
             limit: self.left(),
             ..course.resolution
         };
-        angle::run(course.position, now, goal, resolution)
+        angle::run(course.model, now, goal, resolution)
     }
 
     /// Adds a piece over the angle to the pass.
@@ -117,7 +123,7 @@ impl Pass<'_, '_> {
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
         (arrived.last, arrived.on_curve) = (None, false);
         arrived.now = to;
-        let driven = Driven {
+        let driven = AnglePiece {
             driving,
             engine,
             from,
@@ -139,7 +145,7 @@ impl Pass<'_, '_> {
 
 /// Returns the resolution for the tolerance of a run.
 pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
-    let share = match &task.maker.sliding {
+    let share = match &task.maker.guide {
         Some(_) => SHARE_OVER_ANGLE * CUT_BY_FRICTION,
         None => SHARE_OVER_ANGLE,
     };
@@ -161,58 +167,24 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     }
 }
 
-/// Whole run, and the reason for an end before its goal, if any.
-struct Solved {
-    driving: Driving,
-    last: Start,
-    stopped: Option<stop::Why>,
-}
-
-/// Solves a run from its energy.
-fn solve(task: &RunSetup<'_>, position: &AngleModel<'_>) -> Result<Solved, NotApplicable> {
-    let speed = task.speed;
-    let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
-    let (orbit, end, stopped) = until_the_end(task, |until| {
-        Orbit::new(position, task.start(), speed, until, tail)
-    })?;
-    let (angle, speed) = orbit.state(end);
-    let work = position.work(task.start(), angle);
-    Ok(Solved {
-        driving: Driving::whole(orbit, end, work),
-        last: Start {
-            t: end,
-            angle,
-            speed,
-        },
-        stopped,
-    })
-}
-
-/// Motion, last time (s), and the reason why the turns are not complete, if any.
-type Ended = (Orbit, f64, Option<stop::Why>);
-
-/// Computes the motion until its goal, and its last time.
+/// Computes the motion until its goal, its last time (s), and the reason why the goal is not reached, if any.
 fn until_the_end(
     task: &RunSetup<'_>,
     mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
-) -> Result<Ended, NotApplicable> {
+) -> Result<(Orbit, f64, Option<stop::Why>), NotApplicable> {
     let turns = match task.extent {
         Extent::Duration(duration) => {
             let orbit = orbit_until(duration)?;
-            return Ok(match cut_short(task, &orbit, duration) {
-                Some((end, why)) => (orbit, end, Some(why)),
-                None => (orbit, duration, None),
-            });
+            let (end, why) = cut_short(task, &orbit, duration).unzip();
+            return Ok((orbit, end.unwrap_or(duration), why));
         }
         Extent::Revolutions(turns) => turns,
     };
     let radians = turns * TAU;
-    let speed = task.speed;
     // The span doubles until it covers the turns or the motion repeats.
-    let mut until = if speed == 0.0 {
-        1.0
-    } else {
-        radians / speed.abs()
+    let mut until = match task.speed {
+        0.0 => 1.0,
+        speed => radians / speed.abs(),
     };
     for _ in 0..60 {
         let orbit = orbit_until(until)?;

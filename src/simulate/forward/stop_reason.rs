@@ -9,7 +9,7 @@ use super::engine_loop::Course;
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Equation, Singularity};
+use crate::mechanism::{CurveEquation, Singularity};
 use crate::scene::Extent;
 
 /// Returns the reason for an end before the goal, if any.
@@ -38,14 +38,13 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
 
 /// Returns the reason for steps in the crank angle that became too small.
 fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
-    let equation = task.equation();
     let at = arrived.impossible.unwrap_or(arrived.now);
-    match equation.singularity(at.t, at.angle, at.speed) {
+    match task.equation().singularity(at.t, at.angle, at.speed) {
         Some(Singularity::Blocked) => Why::AtLimit,
         Some(Singularity::Load) => no_value(task, at),
         Some(Singularity::NoInertia) => Why::NoInertia,
         Some(Singularity::TooLarge) => Why::TooLarge,
-        None if nearly_vanishes(equation, arrived.now.angle.rest) => Why::NearlyNoInertia,
+        None if task.inertia_is_below(1e-9, arrived.now.angle.rest) => Why::NearlyNoInertia,
         None => Why::Singular,
     }
 }
@@ -74,12 +73,6 @@ fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
     }
 }
 
-/// Whether the inertia nearly vanishes at an angle (rad), compared with that a radian further on.
-fn nearly_vanishes(equation: &Equation, theta: f64) -> bool {
-    let inertia = |theta: f64| equation.terms(theta).inertia.m;
-    inertia(theta) < 1e-9 * inertia(theta + 1.0)
-}
-
 /// Returns the error of a run without a finite acceleration at its start.
 pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
     let Start { angle, speed, .. } = task.first_state();
@@ -94,8 +87,8 @@ pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
 
 /// Returns the reason why an engine over the angle is not applicable, as a clause of a message.
 pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
-    match &task.maker.sliding {
-        Some(sliding) if sliding.jams() => "the slider jams in its guide at an angle of the turn",
+    match &task.maker.guide {
+        Some(guide) if guide.jams() => "the slider jams in its guide at an angle of the turn",
         _ if why == NotApplicable::NotFinite && !task.turns_fully() => {
             "the mechanism reaches the limit of its motion"
         }

@@ -13,7 +13,6 @@ use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
-use crate::scene::{Extent, LEAST_TOLERANCE, Scene};
 use crate::trajectory::Trajectory;
 
 pub(super) struct Cycle {
@@ -58,19 +57,6 @@ pub(super) struct Cycles<'a> {
     noise: f64,
     /// Refusal of a run, for another reason than a crank that does not complete the cycle.
     pub refused: Option<Error>,
-}
-
-/// Makes the scene of one cycle of `turns` turns from a speed (rad/s); `other` is true for the run of comparison.
-pub(super) fn one_cycle(scene: &Scene, speed: f64, turns: u32, other: bool) -> Scene {
-    let mut scene = scene.clone();
-    scene.motion.speed = speed;
-    scene.run.extent = Some(Extent::Revolutions(turns.into()));
-    scene.run.output_every = None;
-    scene.run.tolerance = match other {
-        true => 10.0 * LEAST_TOLERANCE,
-        false => LEAST_TOLERANCE,
-    };
-    scene
 }
 
 impl<'a> Cycles<'a> {

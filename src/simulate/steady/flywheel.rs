@@ -1,9 +1,9 @@
 //! Flywheel for a wanted coefficient of fluctuation, by root finding in the added inertia.
 
-use super::Both;
+use super::super::options::Options;
+use super::Verified;
 use super::periodic_orbit::find;
 use super::result::{Estimated, Flywheel};
-use crate::engine::WorkLimit;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::root;
@@ -19,7 +19,7 @@ pub(super) fn size(
     speed: f64,
     present: &Estimated,
     wanted: f64,
-    limit: WorkLimit<'_>,
+    options: &Options,
 ) -> Result<Flywheel, Error> {
     if !(wanted > 0.0 && wanted < 2.0) {
         return Err(Error::refused(
@@ -36,7 +36,7 @@ pub(super) fn size(
         ));
     }
     let excess = |added: f64| -> Result<f64, Error> {
-        let found = find(&with(scene, added), speed, limit)?;
+        let found = find(&with(scene, added), speed, options)?;
         Ok((found.fluctuation() / wanted).ln())
     };
     let (low, high) = match present.value > wanted {
@@ -64,9 +64,9 @@ pub(super) fn size(
     };
     let scene = with(scene, added);
     scene.check()?;
-    let found = find(&scene, speed, limit)?;
-    let both = Both::with_check(&scene, found, limit)?;
-    let fluctuation = both.fluctuation();
+    let found = find(&scene, speed, options)?;
+    let verified = Verified::new(&scene, found, options)?;
+    let fluctuation = verified.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
     let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;
     let slope = (excess(added + step)? - excess(added)?) / step;
@@ -79,7 +79,7 @@ pub(super) fn size(
         },
         crank_inertia_kg_m2: crank,
         fluctuation,
-        omega_mean_rad_per_s: both.mean_speed(),
+        omega_mean_rad_per_s: verified.mean_speed(),
     })
 }
 

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::super::guide_friction::Sliding;
+use super::super::guide_friction::GuideFriction;
 use super::periodic_orbit::PeriodicOrbit;
 use super::result::{Estimated, LoadWork};
-use super::{Both, MARGIN};
+use super::{MARGIN, Verified};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
@@ -15,15 +15,15 @@ use crate::scene::{Load, LoadOf, Scene};
 const PIECES: u32 = 16;
 
 /// Computes the work of each load of a scene and of friction at the guide.
-pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
-    let Both { found, check, .. } = both;
+pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
+    let Verified { found, check, .. } = verified;
     let linkage = &Linkage::new(&scene.geometry);
     let mut works = Vec::new();
     let mut add = |name: String, load: Option<&Load>, torque: &Torque<'_>| {
         let cuts = cuts(load, linkage, found);
-        let work = work(&cuts, torque, both.relative, found);
-        let error = MARGIN * (work - self::work(&cuts, torque, both.relative, check)).abs()
-            + 4.0 * both.relative * size(&cuts, torque, found);
+        let work = work(&cuts, torque, verified.relative, found);
+        let error = MARGIN * (work - self::work(&cuts, torque, verified.relative, check)).abs()
+            + 4.0 * verified.relative * size(&cuts, torque, found);
         let over = |span: f64| Estimated {
             value: work / span,
             error: error / span.abs(),
@@ -40,10 +40,10 @@ pub(super) fn works(scene: &Scene, both: &Both) -> Vec<LoadWork> {
         add(name, Some(of.load), &torque);
     }
     let equation = Equation::new(scene);
-    if let Some(sliding) = Sliding::new(scene, &equation) {
+    if let Some(guide) = GuideFriction::new(scene, &equation) {
         // Any time but the start, at which the guide takes its sign from ahead.
         let torque = |angle: Angle, omega: f64| {
-            let (_, touch) = sliding.state(f64::MIN_POSITIVE, angle, omega);
+            let (_, touch) = guide.state(f64::MIN_POSITIVE, angle, omega);
             touch.friction * linkage.pose(angle.rest).dx
         };
         add("friction at the guide".to_owned(), None, &torque);

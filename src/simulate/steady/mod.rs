@@ -8,8 +8,8 @@ mod result;
 
 use std::f64::consts::TAU;
 
-use super::error_estimate::MARGIN;
-use crate::engine::WorkLimit;
+use super::options::Options;
+use super::second_run::MARGIN;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::fourier;
@@ -34,7 +34,7 @@ impl Default for SteadyOptions {
     fn default() -> SteadyOptions {
         SteadyOptions {
             fluctuation: None,
-            max_evaluations: super::Options::default().max_evaluations,
+            max_evaluations: Options::default().max_evaluations,
             stop: None,
         }
     }
@@ -73,35 +73,27 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
 fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
     refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
-    let limit = WorkLimit {
-        evaluations: options.max_evaluations,
-        stop: options.stop.as_ref(),
+    let of_runs = &Options {
+        max_evaluations: options.max_evaluations,
+        stop: options.stop.clone(),
+        events_kept: 0,
+        ..Options::default()
     };
-    let found = first(scene, rests, limit)?;
+    let found = first(scene, rests, of_runs)?;
     let (any_speed, approached) = (found.any_speed, found.approached);
     let speed = found.cycle.speed;
-    let mut steady = Both::with_check(scene, found, limit)?.described(scene);
+    let mut steady = Verified::new(scene, found, of_runs)?.described(scene);
     steady.approached_from_start = (!rests).then_some(approached);
     steady.flywheel = options
         .fluctuation
-        .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, limit))
+        .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, of_runs))
         .transpose()?;
     let notes = [
-        (
-            rests,
-            "the scene starts at rest, so its loads decide the sense of rotation",
-        ),
-        (
-            !rests && !approached,
-            "the motion from the scene's start stops; this is the next faster periodic one",
-        ),
-        (
-            any_speed,
-            "no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which",
-        ),
+        rests.then_some("the scene starts at rest, so its loads decide the sense of rotation"),
+        (!rests && !approached).then_some("the motion from the scene's start stops; this is the next faster periodic one"),
+        any_speed.then_some("no load depends on the speed: every speed at which the crank turns fully is periodic, and the scene's start says which"),
     ];
-    let notes = notes.into_iter().filter(|(holds, _)| *holds);
-    steady.notes = notes.map(|(_, note)| note.to_owned()).collect();
+    steady.notes = notes.into_iter().flatten().map(str::to_owned).collect();
     Ok(steady)
 }
 
@@ -135,12 +127,12 @@ fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
 }
 
 /// Finds the steady state in the sense of the start speed; from rest both senses are tried.
-fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrbit, Error> {
+fn first(scene: &Scene, rests: bool, options: &Options) -> Result<PeriodicOrbit, Error> {
     if !rests {
-        return find(scene, scene.motion.speed, limit);
+        return find(scene, scene.motion.speed, options);
     }
     // Any speed serves as a first guess.
-    match [1.0, -1.0].map(|speed| find(scene, speed, limit)) {
+    match [1.0, -1.0].map(|speed| find(scene, speed, options)) {
         [Ok(found), _] | [_, Ok(found)] if found.any_speed => Err(Error::refused(
             "the start is at rest, and no load depends on the speed: every speed is periodic",
             "give a start speed: motion.speed",
@@ -155,21 +147,17 @@ fn first(scene: &Scene, rests: bool, limit: WorkLimit<'_>) -> Result<PeriodicOrb
 }
 
 /// Two computations of one periodic motion: their difference gives the error.
-struct Both {
+struct Verified {
     found: PeriodicOrbit,
     check: PeriodicOrbit,
     /// Relative uncertainty of the speeds: half that of the energies, and rounding.
     relative: f64,
 }
 
-impl Both {
-    fn with_check(
-        scene: &Scene,
-        found: PeriodicOrbit,
-        limit: WorkLimit<'_>,
-    ) -> Result<Both, Error> {
-        Ok(Both {
-            check: periodic_orbit::again(scene, found.cycle.speed, limit)?,
+impl Verified {
+    fn new(scene: &Scene, found: PeriodicOrbit, options: &Options) -> Result<Verified, Error> {
+        Ok(Verified {
+            check: periodic_orbit::again(scene, found.cycle.speed, options)?,
             relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
             found,
         })
@@ -202,12 +190,12 @@ impl Both {
     }
 
     fn described(&self, scene: &Scene) -> SteadyState {
-        let Both { found, check, .. } = self;
+        let Verified { found, check, .. } = self;
         let fluctuation = self.fluctuation();
         let varies = found.fluctuation() > 4.0 * fluctuation.error;
         let extreme = |which: usize| SpeedExtreme {
             omega_rad_per_s: self.relative(|f| f.extremes[which].omega),
-            theta_rad: varies.then(|| self.place(which)),
+            theta_rad: varies.then(|| self.extreme_angle(which)),
         };
         let loads = loads::works(scene, self);
         let power = |sign: f64| {
@@ -245,8 +233,8 @@ impl Both {
 
     /// Estimates the crank angle of an extreme of the speed: an error of the acceleration by a part `relative` of the
     /// speed moves the extreme the more, the less the speed varies.
-    fn place(&self, which: usize) -> Estimated {
-        let Both { found, check, .. } = self;
+    fn extreme_angle(&self, which: usize) -> Estimated {
+        let Verified { found, check, .. } = self;
         let [here, there] = [found, check].map(|f| f.extremes[which].turned);
         let apart = (here - there).abs();
         let apart = apart.min((found.way() - apart).abs());

@@ -6,15 +6,14 @@ use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
 use super::super::stop::unserved;
-use super::cycles::{Cycle, Cycles, one_cycle};
-use crate::engine::WorkLimit;
+use super::cycles::{Cycle, Cycles};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::plan::cycle_over_angle;
-use crate::scene::{Scene, Variable};
+use crate::scene::{Extent, LEAST_TOLERANCE, Scene, Variable};
 
 /// Relative roundoff of speeds and times.
 pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -72,40 +71,32 @@ impl PeriodicOrbit {
 }
 
 /// Finds the periodic motion that a scene's start approaches from a speed, rad/s.
-pub(super) fn find(
-    scene: &Scene,
-    speed: f64,
-    limit: WorkLimit<'_>,
-) -> Result<PeriodicOrbit, Error> {
-    search(scene, speed, limit, FIRST_LOG_STEP, false)
+pub(super) fn find(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
+    let tolerance = LEAST_TOLERANCE;
+    search(scene, speed, options, tolerance, FIRST_LOG_STEP)
 }
 
 /// Computes a second time, for comparison, a periodic motion that begins at about this speed, rad/s.
-pub(super) fn again(
-    scene: &Scene,
-    speed: f64,
-    limit: WorkLimit<'_>,
-) -> Result<PeriodicOrbit, Error> {
-    search(scene, speed, limit, STEP_BESIDE, true)
+pub(super) fn again(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
+    let tolerance = 10.0 * LEAST_TOLERANCE;
+    search(scene, speed, options, tolerance, STEP_BESIDE)
 }
 
 fn search(
     scene: &Scene,
     speed: f64,
-    limit: WorkLimit<'_>,
+    options: &Options,
+    tolerance: f64,
     step: f64,
-    other: bool,
 ) -> Result<PeriodicOrbit, Error> {
     // A scene without a cycle is already refused.
     let turns = cycle_over_angle(scene).unwrap_or(1);
-    let scene = one_cycle(scene, speed, turns, other);
-    let options = Options {
-        max_evaluations: limit.evaluations,
-        stop: limit.stop.cloned(),
-        events_kept: 0,
-        ..Options::default()
-    };
-    let task = RunSetup::new(&scene, &options, 0)?;
+    let mut scene = scene.clone();
+    scene.motion.speed = speed;
+    scene.run.extent = Some(Extent::Revolutions(turns.into()));
+    scene.run.output_every = None;
+    scene.run.tolerance = tolerance;
+    let task = RunSetup::new(&scene, options, 0)?;
     if task.inertia_vanishes() {
         return Err(unbounded());
     }
@@ -129,7 +120,7 @@ impl Seeker<'_> {
     fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
         let reads = self.task.equation().loads().reads();
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
-        if !by_speed && self.task.maker.sliding.is_none() {
+        if !by_speed && self.task.maker.guide.is_none() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
             if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
                 let (what, load) = match cycle.gain > 0.0 {
@@ -201,17 +192,11 @@ impl Seeker<'_> {
         let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
         let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
         let best = best.unwrap_or(0);
-        let count = ways.len();
-        let before = if best == 0 {
-            ways[count - 1] - whole
-        } else {
-            ways[best - 1]
+        let before = match best {
+            0 => ways[ways.len() - 1] - whole,
+            _ => ways[best - 1],
         };
-        let after = if best + 1 == count {
-            whole
-        } else {
-            ways[best + 1]
-        };
+        let after = ways.get(best + 1).copied().unwrap_or(whole);
         let slope = |way: f64| {
             let way = way.rem_euclid(whole);
             // Any time but the start, at which the guide takes its sign from ahead.

@@ -52,17 +52,17 @@ const SAMPLES_KEPT: usize = 1024;
 
 /// Journal positions and contact statistics of one run, at a spacing that grows with the run.
 #[derive(Clone, Debug)]
-pub(super) struct Record {
+pub(super) struct JournalRecord {
     /// Spacing of the samples, s.
     width: f64,
     samples: Vec<[f64; 2]>,
     tallies: Vec<Tally>,
 }
 
-impl Record {
+impl JournalRecord {
     /// Makes a record with samples at this spacing, s; the spacing doubles whenever a long run fills the record.
-    pub fn new(width: f64) -> Record {
-        Record {
+    pub fn new(width: f64) -> JournalRecord {
+        JournalRecord {
             width,
             samples: Vec::with_capacity(SAMPLES_KEPT + 1),
             tallies: Vec::with_capacity(SAMPLES_KEPT + 1),
@@ -143,7 +143,7 @@ impl Record {
     }
 
     /// Returns the last sample time, s, up to which two records agree within a distance, m; none if throughout.
-    pub fn agrees_until(&self, other: &Record, distance: f64) -> Option<f64> {
+    pub fn agrees_until(&self, other: &JournalRecord, distance: f64) -> Option<f64> {
         let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
             let off = (a[0] - b[0]).hypot(a[1] - b[1]);
             off > distance || off.is_nan()
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_contact_without_end_takes_all_of_the_time() {
         let (end, step) = (10.0, 0.7);
-        let mut record = Record::new(1.0);
+        let mut record = JournalRecord::new(1.0);
         let steps = (0..15).map(|i| step * f64::from(i));
         for from in steps {
             let to = f64::min(from + step, end);

@@ -2,19 +2,18 @@
 
 use super::super::recorder::Recorder;
 use super::super::result::{Event, FORCES, Peak};
-use super::super::row::{LooseRow, Row};
+use super::super::row::Row;
 use super::super::row_writer::RowSource;
-use super::super::run_setup::RunSetup;
-use super::motion::{Loose, touch};
-use super::record::{Record, Tally};
+use super::journal_record::{JournalRecord, Tally};
+use super::motion::{FREE, Loose};
 use crate::engine::contact::{AcceptedStep, Phase};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::mechanism::LooseState;
 use crate::numeric::root;
 
-pub(super) struct Followed {
-    pub record: Record,
+pub(super) struct ContactHistory {
+    pub record: JournalRecord,
     pub total: Tally,
     pub separations: u64,
     /// Largest absolute energy up to now, J: of the start, and of work minus loss.
@@ -25,10 +24,10 @@ pub(super) struct Followed {
     sticking: bool,
 }
 
-impl Followed {
-    pub fn new(width: f64, energy: f64) -> Followed {
-        Followed {
-            record: Record::new(width),
+impl ContactHistory {
+    pub fn new(width: f64, energy: f64) -> ContactHistory {
+        ContactHistory {
+            record: JournalRecord::new(width),
             total: Tally::default(),
             separations: 0,
             energy,
@@ -40,37 +39,36 @@ impl Followed {
     }
 }
 
-pub(super) struct Follow<'a, const N: usize> {
+pub(super) struct ContactFollower<'a, const N: usize> {
     pub model: &'a Loose<'a, N>,
-    pub task: &'a RunSetup<'a>,
     /// Dead centres, rad in [0, 2π).
     pub dead_centres: Vec<f64>,
     /// Recorder of rows and events; none for the run of comparison.
     pub recorder: Option<Recorder<'a>>,
-    pub seen: Followed,
+    pub seen: ContactHistory,
 }
 
-impl<'a, const N: usize> Follow<'a, N> {
+impl<const N: usize> ContactFollower<'_, N> {
     /// Follows an accepted step; true ends the run.
-    pub fn take(&mut self, stretch: &mut AcceptedStep<'_, N>) -> bool {
-        self.follow_phase(stretch);
-        self.follow_guide(stretch);
-        if N == super::motion::FREE {
-            self.follow_crank(stretch);
+    pub fn take(&mut self, accepted: &mut AcceptedStep<'_, N>) -> bool {
+        self.follow_phase(accepted);
+        self.follow_guide(accepted);
+        if N == FREE {
+            self.follow_crank(accepted);
         }
-        self.follow_contact(stretch);
-        self.follow_forces(stretch);
-        while self.task.options.estimate && self.seen.record.due() <= stretch.end[0] {
-            let y = stretch.at(self.seen.record.due());
+        self.follow_contact(accepted);
+        self.follow_forces(accepted);
+        while self.model.task.options.estimate && self.seen.record.due() <= accepted.end[0] {
+            let y = accepted.at(self.seen.record.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));
             self.seen.record.sample(journal);
         }
-        let [work, lost] = self.model.work(&stretch.end);
+        let [work, lost] = self.model.work(&accepted.end);
         self.seen.energy = self.seen.energy.max((work - lost).abs());
-        let mut part = InStretch {
-            until: self.until(stretch),
-            stretch,
-            loose: self.rows(),
+        let mut part = InAccepted {
+            until: self.until(accepted),
+            accepted,
+            model: self.model,
         };
         let recorder = self.recorder.as_mut();
         let fails = recorder.is_some_and(|recorder| recorder.rows(&mut part));
@@ -78,21 +76,14 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     /// Returns the last time (s) of a step that belongs to the run.
-    pub(super) fn until(&self, stretch: &AcceptedStep<'_, N>) -> f64 {
-        self.seen.ends_at.map_or(stretch.end[0], |s| s.t)
-    }
-
-    pub fn rows(&self) -> LooseRows<'a, N> {
-        LooseRows {
-            model: self.model,
-            task: self.task,
-        }
+    pub(super) fn until(&self, accepted: &AcceptedStep<'_, N>) -> f64 {
+        self.seen.ends_at.map_or(accepted.end[0], |s| s.t)
     }
 
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
-        let theta_rad = self.task.angle(theta).radians();
+        let theta_rad = self.model.task.angle(theta).radians();
         if let Some(recorder) = &mut self.recorder {
-            recorder.event(|| Event {
+            recorder.event(Event {
                 kind,
                 t_s: t,
                 theta_rad,
@@ -101,9 +92,10 @@ impl<'a, const N: usize> Follow<'a, N> {
         }
     }
 
-    fn follow_phase(&mut self, stretch: &AcceptedStep<'_, N>) {
-        let s = self.model.state(&stretch.start);
-        let kind = match (self.seen.phase, stretch.phase) {
+    fn follow_phase(&mut self, accepted: &AcceptedStep<'_, N>) {
+        let s = self.model.state(&accepted.start);
+        let before = std::mem::replace(&mut self.seen.phase, accepted.phase);
+        let kind = match (before, accepted.phase) {
             (Phase::Flight, Phase::Contact { .. }) => {
                 let one = Tally {
                     impacts: 1,
@@ -117,21 +109,14 @@ impl<'a, const N: usize> Follow<'a, N> {
                 self.seen.separations += 1;
                 "separation"
             }
-            _ => {
-                self.seen.phase = stretch.phase;
-                return;
-            }
+            _ => return,
         };
-        self.seen.phase = stretch.phase;
         self.event(kind, s.t, s.theta, s.omega);
     }
 
     /// Records where friction holds and releases the slider; a held slider has exactly zero velocity.
-    fn follow_guide(&mut self, stretch: &AcceptedStep<'_, N>) {
-        let (from, to) = (
-            self.model.state(&stretch.start),
-            self.model.state(&stretch.end),
-        );
+    fn follow_guide(&mut self, accepted: &AcceptedStep<'_, N>) {
+        let [from, to] = [accepted.start, accepted.end].map(|y| self.model.state(&y));
         let sticking = self.model.mechanism.rubs() && from.v == 0.0 && to.v == 0.0;
         if sticking != self.seen.sticking {
             let kind = if sticking { "stick" } else { "slip" };
@@ -141,7 +126,7 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 
     /// Records dead centres, turning points, extreme speeds and the turn limit of a free crank.
-    fn follow_crank(&mut self, stretch: &mut AcceptedStep<'_, N>) {
+    fn follow_crank(&mut self, accepted: &mut AcceptedStep<'_, N>) {
         let node = |s: LooseState, alpha: f64| Node {
             t: s.t,
             theta: s.theta,
@@ -149,30 +134,27 @@ impl<'a, const N: usize> Follow<'a, N> {
             alpha,
             work: 0.0,
         };
-        let (from, to) = (
-            self.model.state(&stretch.start),
-            self.model.state(&stretch.end),
-        );
+        let [from, to] = [accepted.start, accepted.end].map(|y| self.model.state(&y));
         let step = Step::new(
-            self.task.start().turns,
-            node(from, stretch.before.rates[4]),
-            node(to, stretch.after.rates[4]),
+            self.model.task.start().turns,
+            node(from, accepted.before.rates[4]),
+            node(to, accepted.after.rates[4]),
         );
         let Some(recorder) = &mut self.recorder else {
             return;
         };
         *recorder.speed() = events::speed_range(&step, *recorder.speed());
         recorder.keep_step(step);
-        let start = self.model.start.0;
+        let start = self.model.start.theta;
         let turned = |theta: f64| theta - start;
-        if let Some(limit) = self.task.extent.angle()
+        if let Some(limit) = self.model.task.extent.angle()
             && turned(to.theta).abs() >= limit
         {
             let target = start + limit.copysign(turned(to.theta));
             let t = step.time_of_angle(target, from.t, to.t).unwrap_or(to.t);
-            self.seen.ends_at = Some(self.model.state(&stretch.at(t)));
+            self.seen.ends_at = Some(self.model.state(&accepted.at(t)));
         }
-        let last = self.seen.ends_at.map_or(to.t, |s| s.t);
+        let last = self.until(accepted);
         let mut found = Vec::new();
         events::crossings(&step, &self.dead_centres, &mut found);
         for (t, what) in found.into_iter().filter(|(t, _)| *t <= last) {
@@ -185,56 +167,21 @@ impl<'a, const N: usize> Follow<'a, N> {
     }
 }
 
-pub(super) struct LooseRows<'a, const N: usize> {
-    model: &'a Loose<'a, N>,
-    task: &'a RunSetup<'a>,
-}
-
-impl<const N: usize> LooseRows<'_, N> {
-    /// Makes the row of slider and rod, with the slider of ideal joints for comparison.
-    pub fn row(&self, s: &LooseState, phase: Phase) -> Row {
-        let mechanism = self.model.mechanism;
-        let linked = matches!(phase, Phase::Link).then(|| mechanism.relinked(s));
-        let s = linked.as_ref().unwrap_or(s);
-        let rates = mechanism.rates(s, touch(phase, None));
-        let maker = &self.task.maker;
-        let ideal = maker.row(s.t, self.task.angle(s.theta), s.omega, Some(rates.alpha));
-        Row {
-            x: s.x,
-            v: s.v,
-            a: rates.a,
-            phi: phi(s.psi, self.task.scene.geometry.branch.sign()),
-            reactions: maker
-                .reactor
-                .as_ref()
-                .map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
-            driving_torque: maker.driving_torque.then_some(rates.driving_torque),
-            clearance: Some(LooseRow {
-                ideal: [ideal.x, ideal.v, ideal.a],
-                journal: mechanism.journal(s),
-                force: rates.normal,
-            }),
-            ..ideal
-        }
-    }
-}
-
 /// Accepted step until a time inside it.
-struct InStretch<'s, 'y, 'a, const N: usize> {
-    stretch: &'s mut AcceptedStep<'y, N>,
+struct InAccepted<'s, 'y, 'a, const N: usize> {
+    accepted: &'s mut AcceptedStep<'y, N>,
     /// Last time, s.
     until: f64,
-    loose: LooseRows<'a, N>,
+    model: &'a Loose<'a, N>,
 }
 
-impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
+impl<const N: usize> RowSource for InAccepted<'_, '_, '_, N> {
     fn times(&self) -> [f64; 2] {
-        [self.stretch.start[0], self.until]
+        [self.accepted.start[0], self.until]
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        let model = self.loose.model;
-        model.state(&self.stretch.at(t)).theta - model.start.0
+        self.model.state(&self.accepted.at(t)).theta - self.model.start.theta
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
@@ -242,13 +189,7 @@ impl<const N: usize> RowSource for InStretch<'_, '_, '_, N> {
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let s = self.loose.model.state(&self.stretch.at(t));
-        self.loose.row(&s, self.stretch.phase)
+        let s = self.model.state(&self.accepted.at(t));
+        self.model.row(&s, self.accepted.phase)
     }
-}
-
-/// Returns the inclination φ of the rod from its direction ψ, rad.
-pub(super) fn phi(psi: f64, branch: f64) -> f64 {
-    let (sin, cos) = psi.sin_cos();
-    (-sin).atan2(branch * cos)
 }

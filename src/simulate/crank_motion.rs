@@ -1,4 +1,4 @@
-//! Equation of motion as the integrators see it, and tolerances of the second run of an error estimate.
+//! Equation of motion with the crank angle as the coordinate, as the integrators see it.
 
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
@@ -6,9 +6,9 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, Reach};
 use crate::scene::Variable;
 
-pub(super) struct Forward<'a>(pub &'a Equation);
+pub(super) struct CrankMotion<'a>(pub &'a Equation);
 
-impl Motion for Forward<'_> {
+impl Motion for CrankMotion<'_> {
     fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
         self.0.acceleration(t, angle, speed)
     }
@@ -63,29 +63,4 @@ impl Motion for Forward<'_> {
         self.0
             .accelerations(&at, &mut batch.alpha, &mut batch.power);
     }
-}
-
-/// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
-pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// Largest tolerance of a second run by collocation. Below it rounding inside the steps dominates: a tenth of it takes up
-/// to four times as many evaluations for equal stated errors.
-const TIGHT: f64 = 1e-14;
-/// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
-pub(super) const TIGHTER: f64 = 50.0;
-/// Least ratio of the tolerances of both runs, near rounding.
-const LEAST_RATIO: f64 = 5.0;
-/// Least tolerance of a second run by the method of the first, unless [`LEAST_RATIO`] asks for less: below it rounding
-/// inside the steps would make them collapse.
-const TIGHT_AGAIN: f64 = 1e-13;
-/// Factor from the distance of two runs to the stated error, for the error of the second run.
-pub(super) const MARGIN: f64 = 1.5;
-
-/// Returns the tolerance of a second run by collocation, with negligible error.
-pub(super) fn much_tighter(tolerance: f64) -> f64 {
-    TIGHT.min(tolerance / LEAST_RATIO)
-}
-
-/// Returns the tolerance of a second run by the method of the first.
-pub(super) fn tighter(tolerance: f64) -> f64 {
-    (tolerance / TIGHTER).max(TIGHT_AGAIN.min(tolerance / LEAST_RATIO))
 }

@@ -1,16 +1,41 @@
-//! Comparison of a second run with states of the first: runs that return to one course may agree only at the end.
+//! Second run of an error estimate: its tolerances, and its comparison with states of the first. Runs that return to
+//! one course may agree only at the end.
 
 use std::iter::{Chain, Peekable};
 use std::slice::Iter;
 
-use super::error_estimate::MARGIN;
 use super::result::ErrorEstimate;
 use crate::engine::step::Step;
+
+/// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
+pub(super) const LEAST_TAIL: f64 = 4e-15;
+/// Largest tolerance of a second run by collocation. Below it rounding inside the steps dominates: a tenth of it takes up
+/// to four times as many evaluations for equal stated errors.
+const LARGEST_BY_COLLOCATION: f64 = 1e-14;
+/// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
+pub(super) const TOLERANCE_RATIO: f64 = 50.0;
+/// Least ratio of the tolerances of both runs, near rounding.
+const LEAST_RATIO: f64 = 5.0;
+/// Least tolerance of a second run by the method of the first, unless [`LEAST_RATIO`] asks for less: below it rounding
+/// inside the steps would make them collapse.
+const LEAST_BY_SAME_METHOD: f64 = 1e-13;
+/// Factor from the distance of two runs to the stated error, for the error of the second run.
+pub(super) const MARGIN: f64 = 1.5;
 
 /// Number of first steps of a run that are kept: 1 MB.
 const FIRST_KEPT: usize = 4096;
 /// Largest number of later steps that are kept; when it is reached, every other one is dropped.
 const LATER_KEPT: usize = 128;
+
+/// Returns the tolerance of a second run by collocation, with negligible error.
+pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
+    LARGEST_BY_COLLOCATION.min(tolerance / LEAST_RATIO)
+}
+
+/// Returns the tolerance of a second run by the method of the first.
+pub(super) fn same_method_tolerance(tolerance: f64) -> f64 {
+    (tolerance / TOLERANCE_RATIO).max(LEAST_BY_SAME_METHOD.min(tolerance / LEAST_RATIO))
+}
 
 /// Steps of a run, kept for comparison with a second run and as a predictor for it.
 #[derive(Clone, Debug, Default)]

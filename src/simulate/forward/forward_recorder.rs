@@ -4,16 +4,17 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{Observer, OnCurve, crank_state};
+use super::super::configuration_curve::{Observer, OnCurve, crank_state, met};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
-use super::super::passages::{Stretch, is_dead_centre};
+use super::super::marks::SAME_ANGLE;
+use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::super::stick_slip::Phase;
 use super::super::stop::Why;
-use super::arrived::{Arrived, Driven, Sink};
+use super::arrived::{AnglePiece, Arrived, Sink};
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -24,11 +25,8 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// Distance, rad, below which two passages of a dead centre are one, at the end of a piece and the start of the next.
-const SAME_PLACE: f64 = 1e-9;
-
 /// Sink and observer that records a free motion: rows, dead centres, turning points and speeds.
-pub(super) struct Notes<'a> {
+pub(super) struct ForwardRecorder<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
     motion: &'a Counted<'a>,
@@ -56,18 +54,17 @@ enum EndsBy {
     Swing,
 }
 
-impl<'a> Notes<'a> {
+impl<'a> ForwardRecorder<'a> {
     pub fn new(
         task: &'a RunSetup<'a>,
         motion: &'a Counted<'a>,
         rows: &'a mut dyn RowSink,
-    ) -> Notes<'a> {
-        let dead_centres = task.limits.dead_centres.iter();
-        Notes {
+    ) -> ForwardRecorder<'a> {
+        ForwardRecorder {
             task,
             recorder: Recorder::new(task, rows, task.schedule()),
             motion,
-            dead_centres: dead_centres.map(|dc| dc.theta).collect(),
+            dead_centres: task.dead_centres(),
             swing: Swing::new(task, task.start()),
             ends_at: None,
             passed: None,
@@ -87,12 +84,13 @@ impl<'a> Notes<'a> {
     /// Returns the record, with the row of the end.
     pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
         let Start { t, angle, speed } = arrived.now;
-        let Notes {
+        let ForwardRecorder {
             task, on, phase, ..
         } = self;
         let last = || match (arrived.last, on.filter(|_| arrived.on_curve)) {
             (Some(last), Some(on)) => {
-                along(task, &on, phase).row(t, last.angle(last.end.theta), last.end.omega)
+                let along = AlongCurve::new(&on, phase, &task.maker);
+                along.row(t, last.angle(last.end.theta), last.end.omega)
             }
             _ => task.maker.row(t, angle, speed, None),
         };
@@ -117,7 +115,7 @@ impl<'a> Notes<'a> {
     /// Records a step along the configuration curve; true ends the run.
     fn step_on_curve(&mut self, mut step: Step, on: &CurveEquation, phase: Phase) -> bool {
         self.phase = phase;
-        let along = along(self.task, on, phase);
+        let along = AlongCurve::new(on, phase, &self.task.maker);
         if phase != Phase::Sticking {
             let speed = self.recorder.speed();
             let crank = |step: &Step, t: f64| along.crank_speed(step, t);
@@ -133,9 +131,9 @@ impl<'a> Notes<'a> {
         *speed = events::follow_speed(step, self.motion, *speed);
     }
 
-    /// Returns the rotation of the crank since the start at an angle of a step, rad.
-    fn turned(&self, step: &Step, theta: f64) -> f64 {
-        step.angle(theta).minus(self.task.start())
+    /// Returns the rotation of the crank from the start of the run to the end of a step, rad.
+    fn turned(&self, step: &Step) -> f64 {
+        step.angle(step.end.theta).minus(self.task.start())
     }
 
     /// Integrates the last step anew up to the end of the run inside it; iterates at a turn limit to meet it exactly.
@@ -150,15 +148,11 @@ impl<'a> Notes<'a> {
         };
         let (mut t, by) = self.ends_at?;
         if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
-            for _ in 0..3 {
-                let end = until(t, &mut |_| false);
-                let turned = self.turned(&end, end.end.theta);
-                let missing = limit.copysign(turned) - turned;
-                if missing == 0.0 || end.end.omega == 0.0 {
-                    break;
-                }
-                t = (t + missing / end.end.omega).clamp(step.start.t, step.end.t);
-            }
+            t = met(t, step, 3, |t| {
+                let last = until(t, &mut |_| false);
+                let turned = self.turned(&last);
+                [limit.copysign(turned) - turned, last.end.omega]
+            });
         }
         Some(until(t, &mut |step| {
             self.follow_speed(&mut step.clone());
@@ -170,12 +164,12 @@ impl<'a> Notes<'a> {
         let Some(limit) = self.task.extent.angle() else {
             return;
         };
-        if self.turned(step, step.end.theta).abs() < limit {
+        let turned = self.turned(step);
+        if turned.abs() < limit {
             return;
         }
         step.refine(self.motion);
-        let beyond = self.turned(step, step.end.theta);
-        let target = step.end.theta - (beyond - limit.copysign(beyond));
+        let target = step.end.theta - (turned - limit.copysign(turned));
         let t = step.time_of_angle(target, step.start.t, step.end.t);
         self.ends_at = Some((t.unwrap_or(step.end.t), EndsBy::Turns));
     }
@@ -207,7 +201,7 @@ impl<'a> Notes<'a> {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
         if let Some(passed) = self.passed.take()
-            && at.minus(passed.angle).abs() < SAME_PLACE
+            && at.minus(passed.angle).abs() < SAME_ANGLE
             && omega * passed.speed > 0.0
         {
             return;
@@ -222,12 +216,7 @@ impl<'a> Notes<'a> {
     }
 }
 
-/// Returns the coordinate of a curve in one phase.
-fn along<'a>(task: &'a RunSetup<'_>, on: &'a CurveEquation, phase: Phase) -> AlongCurve<'a> {
-    AlongCurve::new(on, phase, task.maker.reactor.as_deref())
-}
-
-impl Observer for Notes<'_> {
+impl Observer for ForwardRecorder<'_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
         match self.on.clone().zip(phase) {
             Some((on, phase)) => self.step_on_curve(*step, &on, phase),
@@ -244,7 +233,7 @@ impl Observer for Notes<'_> {
         let at = Start { t, angle, speed };
         let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
         let at = self.on.as_ref().map_or(at, crank);
-        self.recorder.event(|| Event {
+        self.recorder.event(Event {
             kind,
             t_s: t,
             theta_rad: at.angle.radians(),
@@ -253,13 +242,13 @@ impl Observer for Notes<'_> {
     }
 }
 
-impl Sink for Notes<'_> {
+impl Sink for ForwardRecorder<'_> {
     fn begins(&mut self, engine: Engine, from: f64, why: Cow<'static, str>) {
         self.recorder.begins(engine, from, why);
     }
 
-    fn over_angle(&mut self, driven: &Driven) -> Result<(), Error> {
-        self.recorder.stretch(&mut Stretch {
+    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
+        self.recorder.orbit_piece(&mut OrbitPiece {
             orbit: &driven.driving.orbit,
             begin: driven.from.t,
             end: driven.driving.end,
@@ -267,7 +256,7 @@ impl Sink for Notes<'_> {
         })
     }
 
-    fn keep(&mut self, driven: Driven) {
+    fn keep(&mut self, driven: AnglePiece) {
         let (from, until) = (driven.from.t, driven.to.t);
         self.recorder
             .keep(|| Trajectory::orbit(driven.driving.orbit, from, until));

@@ -1,0 +1,152 @@
+//! Contact statistics and largest joint forces of a step: impacts are too short for rows.
+
+use super::super::joint_force_maxima::sizes;
+use super::super::result::{FORCES, Peak};
+use super::contact_follower::ContactFollower;
+use super::journal_record::Tally;
+use super::motion::touch;
+use crate::engine::PIECES;
+use crate::engine::contact::{AcceptedStep, Phase, Sample};
+use crate::numeric::interpolate::quintic;
+use crate::numeric::maximum;
+
+/// Number of intervals at whose ends a step with a large force is sampled.
+const PLACES: u32 = 32;
+/// Part of the largest force up to now from which a force may exceed it between the samples of a step.
+const NEAR_LARGEST: f64 = 0.9;
+
+impl<const N: usize> ContactFollower<'_, N> {
+    /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
+    pub(super) fn follow_contact(&mut self, accepted: &mut AcceptedStep<'_, N>) {
+        let begin = accepted.start[0];
+        let end = self.until(accepted);
+        let h = end - begin;
+        let tally = match accepted.phase {
+            Phase::Flight => return,
+            Phase::Release { .. } => Tally {
+                touching: h,
+                ..Tally::default()
+            },
+            Phase::Contact { approach } => self.pressed(accepted, approach, h),
+            Phase::Link => self.linked(accepted, h),
+        };
+        self.seen.total.add(&tally);
+        self.seen.record.spread(begin, end, &tally);
+    }
+
+    /// Returns the statistics of the first `h` seconds of a step in contact.
+    fn pressed(&self, accepted: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
+        let (length, begin) = (accepted.length(), accepted.start[0]);
+        let (before, after) = (&accepted.before, &accepted.after);
+        let end = |s: &Sample<N>| {
+            let bend = 0.5 * length * length * s.depth_acceleration;
+            [length * s.depth_rate, bend]
+        };
+        let (from, to, deeper) = (end(before), end(after), after.depth - before.depth);
+        let begun = before.depth;
+        let law = self.model.mechanism.force();
+        let at = |u: f64| {
+            let [deeper, rate, _] = quintic(from, to, deeper, u);
+            let (depth, rate) = (begun + deeper, rate / length);
+            let force = law.elastic(depth.max(0.0)) * law.factor(rate, approach).max(0.0);
+            (force, depth)
+        };
+        let part = h / length;
+        let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
+        let mut tally = simpson([first.0, middle.0, last.0], h);
+        tally.deepest = first.1.max(middle.1).max(last.1);
+        // A peak inside the step is sought only where it could be the largest.
+        if 1.05 * tally.peak > self.seen.total.peak {
+            let places = (0..=PLACES).map(|i| part * f64::from(i) / f64::from(PLACES));
+            let top = |value: &dyn Fn(f64) -> f64| {
+                let known: Vec<_> = places.clone().map(|u| (u, value(u))).collect();
+                maximum::beside_best(value, &known)
+            };
+            let (u, force) = top(&|u| at(u).0);
+            // The quintic gives the place, the motion the force there.
+            let s = self.model.state(&accepted.at(begin + u * length));
+            let phase = Phase::Contact { approach };
+            let moved = self.model.mechanism.rates(&s, touch(phase, None)).normal;
+            tally.peak = tally
+                .peak
+                .max(if moved.is_finite() { moved } else { force });
+            tally.deepest = tally.deepest.max(top(&|u| at(u).1).1);
+        }
+        tally
+    }
+
+    fn linked(&self, accepted: &mut AcceptedStep<'_, N>, h: f64) -> Tally {
+        let t = accepted.start[0];
+        let force = [0.0, 0.5, 1.0].map(|u| {
+            let s = self.model.state(&accepted.at(t + u * h));
+            let rates = self.model.mechanism.rates(&s, touch(Phase::Link, None));
+            rates.normal
+        });
+        let mut tally = simpson(force.map(f64::abs), h);
+        if force[1] < 0.0 {
+            tally.drawn = h;
+        }
+        tally
+    }
+
+    /// Returns the sizes of the joint forces in a state of a step, N.
+    fn sizes(&self, y: &[f64; N], phase: Phase) -> [f64; FORCES] {
+        let mechanism = self.model.mechanism;
+        let s = match phase {
+            Phase::Link => mechanism.relinked(&self.model.state(y)),
+            _ => self.model.state(y),
+        };
+        let rates = mechanism.rates(&s, touch(phase, None));
+        let reactor = self.model.task.maker.reactor.as_ref();
+        reactor.map_or([0.0; FORCES], |reactor| {
+            sizes(&reactor.loose(mechanism.joint(), &s, &rates))
+        })
+    }
+
+    /// Updates the largest sizes: over samples of the step, then by Brent's method where one may be exceeded.
+    pub(super) fn follow_forces(&mut self, accepted: &mut AcceptedStep<'_, N>) {
+        if !self.model.task.options.reactions || self.recorder.is_none() {
+            return;
+        }
+        let phase = accepted.phase;
+        let start = accepted.start[0];
+        let end = self.until(accepted);
+        let places: [f64; PIECES + 1] = std::array::from_fn(|i| match i {
+            PIECES => end,
+            _ => start + (end - start) * i as f64 / PIECES as f64,
+        });
+        let found = places.map(|t| (t, self.sizes(&accepted.at(t), phase)));
+        let mut peaks = self.seen.peaks.unwrap_or_default();
+        for (k, peak) in peaks.iter_mut().enumerate() {
+            let known = found.map(|(t, sizes)| (t, sizes[k]));
+            let seen = known
+                .iter()
+                .fold(0.0, |seen: f64, (_, size)| seen.max(*size));
+            if seen <= NEAR_LARGEST * peak.value_n {
+                continue;
+            }
+            let size = |t: f64| self.sizes(&accepted.at(t), phase)[k];
+            let (t, value) = maximum::beside_best(size, &known);
+            if value > peak.value_n {
+                let theta = self.model.state(&accepted.at(t)).theta;
+                *peak = Peak {
+                    value_n: value,
+                    t_s: t,
+                    theta_rad: self.model.task.angle(theta).radians(),
+                    added_n: value - seen,
+                };
+            }
+        }
+        self.seen.peaks = Some(peaks);
+    }
+}
+
+fn simpson([first, middle, last]: [f64; 3], h: f64) -> Tally {
+    Tally {
+        touching: h,
+        impulse: h / 6.0 * (first + 4.0 * middle + last),
+        squared: h / 6.0 * (first * first + 4.0 * middle * middle + last * last),
+        peak: first.max(middle).max(last),
+        ..Tally::default()
+    }
+}
