@@ -9,9 +9,13 @@ use crate::engine::step::Step;
 
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// Largest tolerance of a second run by collocation. Below it rounding inside the steps dominates: a tenth of it takes up
-/// to four times as many evaluations for equal stated errors.
+/// Ratio of the tolerances of both runs where the second is by collocation: the error of the second run is negligible. At
+/// the order of collocation two more digits take a fifth more evaluations.
+const COLLOCATION_RATIO: f64 = 1e4;
+/// Largest tolerance of a second run by collocation, for the default 1e-10: short runs are far better than loose tolerances.
 const LARGEST_BY_COLLOCATION: f64 = 1e-14;
+/// Least tolerance of a second run: below it rounding inside a step dominates.
+pub(super) const LEAST_TOLERANCE: f64 = 1e-15;
 /// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
 pub(super) const TOLERANCE_RATIO: f64 = 50.0;
 /// Least ratio of the tolerances of both runs, near rounding.
@@ -29,7 +33,7 @@ const LATER_KEPT: usize = 128;
 
 /// Returns the tolerance of a second run by collocation, with negligible error.
 pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
-    LARGEST_BY_COLLOCATION.min(tolerance / LEAST_RATIO)
+    (tolerance / COLLOCATION_RATIO).clamp(LEAST_TOLERANCE, LARGEST_BY_COLLOCATION)
 }
 
 /// Returns the tolerance of a second run by the method of the first.
