@@ -2,9 +2,9 @@
 
 use super::friction::Free;
 use super::nonlinear_loads::sign;
-use super::{Arms, CurveEquation, CurveTerms, LoadValue};
+use super::{CurveEquation, CurveTerms, LoadValue, UnitLoadEffects};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Interval, Reach};
+use crate::numeric::enclosure::{Interval, MotionPiece};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Mechanism at rest at a coordinate q.
@@ -19,7 +19,7 @@ impl CurveEquation {
     pub fn at_rest(&self, q: Angle) -> AtRest<'_> {
         AtRest {
             equation: self,
-            terms: self.across(q.rest),
+            terms: self.terms(q.rest),
             q,
         }
     }
@@ -44,7 +44,7 @@ impl Held {
         let arm = self.free.dx.abs();
         let pressed = |normal: f64| mu_static * normal.abs() * arm;
         match (self.spare >= 0.0, self.free.holding()) {
-            (true, _) => self.spare + pressed(self.free.held),
+            (true, _) => self.spare + pressed(self.free.normal_at_rest),
             (false, Some(touch)) => pressed(touch.normal) - self.free.pull.abs(),
             (false, None) => self.spare,
         }
@@ -70,19 +70,22 @@ impl AtRest<'_> {
         if !loads.have_detail() {
             return 0.0;
         }
-        let reach = Reach {
+        let piece = MotionPiece {
             t: Interval::new(from, to),
             angle: Interval::point(self.q.radians()),
             speed: Interval::point(0.0),
         };
-        let seen = self.equation.curve().seen(&reach, loads.meet_slider());
+        let state = self
+            .equation
+            .curve()
+            .enclosed_state(&piece, loads.meet_slider());
         let terms = &self.terms;
-        let arms = Arms {
+        let effects = UnitLoadEffects {
             torque: terms.place.dtheta,
             force: terms.place.dx,
         };
         // Only the range of a load on the interval is used: any size of the ellipse serves.
-        let detail = loads.detail(&seen, arms, 2.0);
+        let detail = loads.detail(&state, effects, 2.0);
         let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
         // A change of Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);

@@ -51,7 +51,7 @@ impl CurveTerms {
     }
 
     /// Returns Q_n of a load, N.
-    pub(super) fn aside(&self, load: LoadValue) -> f64 {
+    pub(super) fn off_guide(&self, load: LoadValue) -> f64 {
         load.torque * self.theta_n + load.force * self.x_n
     }
 }
@@ -83,7 +83,7 @@ impl CurveEquation {
     }
 
     /// Computes the terms at coordinate q, rad.
-    pub fn across(&self, q: f64) -> CurveTerms {
+    pub fn terms(&self, q: f64) -> CurveTerms {
         let place = self.curve.place(q);
         let linkage = self.curve.linkage();
         let rod = &self.equation.rod;
@@ -92,8 +92,8 @@ impl CurveEquation {
         let [along, bend] = VirtualDisplacement::along(turn, &path, [place.dx, place.d2x]);
         let pin = [linkage.r * place.cos, linkage.r * place.sin];
         let axis = [place.rod_cos, -place.rod_sin];
-        let aside =
-            VirtualDisplacement::aside(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
+        let off_guide =
+            VirtualDisplacement::off_guide(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
         let inertia =
             |a: &VirtualDisplacement, b: &VirtualDisplacement| self.equation.inertia_over(a, b);
         let lift =
@@ -102,18 +102,18 @@ impl CurveEquation {
             m: inertia(&along, &along),
             half_dm: inertia(&along, &bend),
             dv: lift(&along),
-            a: inertia(&aside, &along),
-            b: inertia(&aside, &bend),
-            dv_n: lift(&aside) - self.equation.weight.slider[1],
-            theta_n: aside.theta,
-            x_n: aside.x,
+            a: inertia(&off_guide, &along),
+            b: inertia(&off_guide, &bend),
+            dv_n: lift(&off_guide) - self.equation.weight.slider[1],
+            theta_n: off_guide.theta,
+            x_n: off_guide.x,
             place,
         }
     }
 
     /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
     pub fn vanishes_at(&self, q: f64) -> bool {
-        self.across(q).m < 1e-9 * self.across(q + 0.3).m
+        self.terms(q).m < 1e-9 * self.terms(q + 0.3).m
     }
 
     /// Whether M vanishes at a limit or a dead centre.
@@ -173,7 +173,7 @@ impl CurveEquation {
     }
 
     fn against(&self, t: f64, q: Angle, speed: f64, sense: Option<Sense>) -> Free {
-        let terms = self.across(q.rest);
+        let terms = self.terms(q.rest);
         let mut free = self.without_dry(&terms, t, q, speed);
         if self.equation.loads().are_dry() {
             let now = self.instant(&terms.place, t, q, speed);
@@ -198,14 +198,14 @@ impl CurveEquation {
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
-        let held = terms.b * squared + terms.dv_n - terms.aside(load);
+        let normal_at_rest = terms.b * squared + terms.dv_n - terms.off_guide(load);
         Free {
             acceleration,
-            normal: terms.a * acceleration + held,
+            normal: terms.a * acceleration + normal_at_rest,
             gain: place.dx / terms.m,
             kappa: terms.a * place.dx / terms.m - terms.x_n,
             pull,
-            held,
+            normal_at_rest,
             x_n: terms.x_n,
             dx: place.dx,
             power: terms.along(non_conservative) * speed,
@@ -215,7 +215,7 @@ impl CurveEquation {
     /// Returns normal and friction force of the guide where a drive of the crank keeps up an acceleration (rad/s² of
     /// the coordinate); none where the guide locks itself.
     pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
-        let terms = self.across(q.rest);
+        let terms = self.terms(q.rest);
         let load = self.load(&terms.place, t, q, speed);
         let place = &terms.place;
         let squared = speed * speed;
@@ -232,7 +232,7 @@ impl CurveEquation {
 
     /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, q: Angle, speed: f64) -> f64 {
-        0.5 * self.across(q.rest).m * speed * speed
+        0.5 * self.terms(q.rest).m * speed * speed
     }
 
     /// Returns the potential energy of gravity and of the loads that have a potential, J. The crank angle counts
@@ -250,11 +250,11 @@ impl CurveEquation {
 impl Free {
     /// Adds a load to a motion at a speed (rad/s) of the coordinate.
     pub(super) fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
-        let (along, aside) = (terms.along(load), terms.aside(load));
+        let (along, off_guide) = (terms.along(load), terms.off_guide(load));
         self.pull += along;
         self.acceleration += along / terms.m;
-        self.held -= aside;
-        self.normal += terms.a * along / terms.m - aside;
+        self.normal_at_rest -= off_guide;
+        self.normal += terms.a * along / terms.m - off_guide;
         self.power += along * speed;
     }
 }

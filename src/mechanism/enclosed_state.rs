@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::configuration_curve::Chart;
 use super::rocker::Rocker;
 use super::{Curve, Linkage};
-use crate::numeric::enclosure::{Interval, Reach};
+use crate::numeric::enclosure::{Interval, MotionPiece};
 
 /// Ranges of the variables of loads; the whole line for a variable that no load depends on.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub struct EnclosedState {
 
 /// Effects of a unit load.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Arms {
+pub struct UnitLoadEffects {
     /// Effect of a torque, per N m.
     pub torque: f64,
     /// Effect of a slider force, per N.
@@ -35,26 +35,26 @@ pub struct Arms {
 
 impl EnclosedState {
     /// Returns the arms of the generalized force over the crank angle: Q = τ + F x'.
-    pub fn arms(&self) -> Arms {
-        Arms {
+    pub fn unit_load_effects(&self) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: 1.0,
             force: self.dx.largest(),
         }
     }
 }
 
-impl Arms {
+impl UnitLoadEffects {
     /// Returns the sums of the magnitudes of two pairs of arms, for loads that act in two ways.
-    pub fn plus(self, other: Arms) -> Arms {
-        Arms {
+    pub fn plus(self, other: UnitLoadEffects) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: self.torque.abs() + other.torque.abs(),
             force: self.force.abs() + other.force.abs(),
         }
     }
 
     /// Returns the larger magnitudes of the arms at two positions.
-    pub fn larger(self, other: Arms) -> Arms {
-        Arms {
+    pub fn larger(self, other: UnitLoadEffects) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: self.torque.abs().max(other.torque.abs()),
             force: self.force.abs().max(other.force.abs()),
         }
@@ -103,19 +103,19 @@ impl Linkage {
     }
 
     /// Returns the enclosed state of a motion over the crank angle; `by_place`: with x and x', where loads need them.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
+    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
         let (x, dx) = if by_place {
-            let places = self.enclose(reach.angle);
+            let places = self.enclose(piece.angle);
             (places.x, places.dx)
         } else {
             (Interval::WHOLE, Interval::WHOLE)
         };
         EnclosedState {
-            t: reach.t,
-            theta: reach.angle,
-            omega: reach.speed,
+            t: piece.t,
+            theta: piece.angle,
+            omega: piece.speed,
             x,
-            v: dx * reach.speed,
+            v: dx * piece.speed,
             dx,
         }
     }
@@ -173,17 +173,17 @@ impl Curve {
     }
 
     /// Returns the enclosed state of a motion over the coordinate; `by_place`: with x and x', always if q is not θ.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
+    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
         if self.is_crank_angle() {
-            return self.linkage().seen(reach, by_place);
+            return self.linkage().enclosed_state(piece, by_place);
         }
-        let places = self.enclose(reach.angle);
+        let places = self.enclose(piece.angle);
         EnclosedState {
-            t: reach.t,
+            t: piece.t,
             theta: places.angle,
-            omega: places.dangle * reach.speed,
+            omega: places.dangle * piece.speed,
             x: places.x,
-            v: places.dx * reach.speed,
+            v: places.dx * piece.speed,
             dx: places.dx,
         }
     }

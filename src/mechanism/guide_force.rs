@@ -42,18 +42,18 @@ impl Equation {
         let path = Path::on_rod(linkage, pose, rod.along, rod.lateral);
         let [along, bend] = VirtualDisplacement::along([1.0, 0.0], &path, [pose.dx, pose.d2x]);
         let axis = [linkage.s * pose.cos_phi, -pose.sin_phi];
-        let aside = VirtualDisplacement::aside(
+        let off_guide = VirtualDisplacement::off_guide(
             [linkage.r * pose.cos, linkage.r * pose.sin],
             axis.map(|part| linkage.l * part),
             rod.arm(axis),
         );
-        let dv_n = self.weight_over([pose.cos, pose.sin], &aside) - self.weight.slider[1];
-        let share = self.inertia_over(&aside, &along) / inertia.m;
+        let dv_n = self.weight_over([pose.cos, pose.sin], &off_guide) - self.weight.slider[1];
+        let share = self.inertia_over(&off_guide, &along) / inertia.m;
         Normal {
             place: dv_n - share * dv,
-            torque: share - aside.theta,
-            force: share * pose.dx - aside.x,
-            square: self.inertia_over(&aside, &bend) - share * inertia.half_dm,
+            torque: share - off_guide.theta,
+            force: share * pose.dx - off_guide.x,
+            square: self.inertia_over(&off_guide, &bend) - share * inertia.half_dm,
             dx: pose.dx,
         }
     }

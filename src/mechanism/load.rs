@@ -113,7 +113,7 @@ impl Loads {
     }
 
     /// Whether a load depends on speed or time other than by linear damping.
-    pub fn are_called(&self) -> bool {
+    pub fn have_nonlinear_rates(&self) -> bool {
         !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())
     }
 

@@ -43,7 +43,7 @@ pub use clearance::{Depth, JointTouch, LooseMechanism, NormalForce, Rubbing, Spe
 pub use configuration_curve::Curve;
 pub use curve_equation::{CurveEquation, CurveTerms};
 pub use curve_pose::CurvePose;
-pub use enclosed_state::{Arms, EnclosedState};
+pub use enclosed_state::{EnclosedState, UnitLoadEffects};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;
@@ -63,5 +63,5 @@ pub use sensitivity::{Length, PoseSlope};
 pub use singularity::Singularity;
 pub use sizing::size_from_stroke;
 pub use solid::{MassProperties, Shape};
-pub use statics::{Balance, Band, Statics, drum_torque, friction_from_tilt};
+pub use statics::{Band, Equilibrium, Statics, drum_torque, friction_from_tilt};
 pub use torque_slope::TorqueSlope;

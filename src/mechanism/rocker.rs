@@ -10,8 +10,8 @@ use crate::numeric::exact::sum3;
 /// Half angles of crank and rod of a double rocker or a change point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rocker {
-    pub(super) crank: Half,
-    pub(super) rod: Half,
+    pub(super) crank: HalfAngle,
+    pub(super) rod: HalfAngle,
     /// −1 mirrors the mechanism about the x axis, for e < 0; else 1.
     pub(super) mirror: f64,
     /// −1 where crank and rod, of equal length, lie on top of each other and the slider is at O; else 1.
@@ -20,7 +20,7 @@ pub(super) struct Rocker {
 
 /// Half angle a with sin a = root · (sine or cosine of q) and cos a > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Half {
+pub(super) struct HalfAngle {
     root: f64,
     /// 1 − root²; if zero, cos a takes the sign of the other function of q.
     rest: f64,
@@ -38,12 +38,12 @@ impl Rocker {
         let exact = class == Class::ChangePoint;
         let half = |length: f64, beside: f64| {
             if exact && beside.abs() <= 8.0 * f64::EPSILON * (l + r) {
-                Half {
+                HalfAngle {
                     root: 1.0,
                     rest: 0.0,
                 }
             } else {
-                Half {
+                HalfAngle {
                     root: (h / length).sqrt(),
                     rest: beside / length,
                 }
@@ -149,7 +149,7 @@ struct Double {
     d2: f64,
 }
 
-impl Half {
+impl HalfAngle {
     fn cosine(&self, sin: f64, cos: f64) -> f64 {
         if self.rest == 0.0 {
             cos

@@ -17,7 +17,7 @@ pub struct Statics {
 /// Values that do not exist are `None`: a slider force against a torque at a dead centre, and every value where the rod
 /// does not reach the guide or stands normal to it, or a load has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
+pub struct Equilibrium {
     /// Slider force (N) or crank torque (N m) of equilibrium beside the loads of the scene: without friction, and the
     /// least and the greatest that hold with friction.
     pub band: Option<Band>,
@@ -68,7 +68,7 @@ impl Statics {
     /// does: the band is F ± μ |N|, Ng (8) with both edges.
     ///
     /// Dry loads hold with any value up to their magnitudes.
-    pub fn slider_force(&self, theta: f64) -> Balance {
+    pub fn slider_force(&self, theta: f64) -> Equilibrium {
         let (terms, load) = self.at(theta);
         let mut balance = self.force_beside(&terms, load, theta);
         if let Some(most) = self.dry(&terms, theta) {
@@ -81,11 +81,11 @@ impl Statics {
         balance
     }
 
-    fn force_beside(&self, terms: &Terms, load: LoadValue, theta: f64) -> Balance {
+    fn force_beside(&self, terms: &Terms, load: LoadValue, theta: f64) -> Equilibrium {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
         let linkage = self.equation.linkage();
-        if !pose.exists() || !load.is_finite() || dead_centre(linkage, pose, theta) {
+        if !pose.is_regular() || !load.is_finite() || dead_centre(linkage, pose, theta) {
             return balance;
         }
         let whole = (terms.dv - load.torque) / pose.dx;
@@ -109,7 +109,7 @@ impl Statics {
     /// holds a torque of any size; no edge is stated there.
     ///
     /// Dry loads hold with any value up to their magnitudes.
-    pub fn crank_torque(&self, theta: f64) -> Balance {
+    pub fn crank_torque(&self, theta: f64) -> Equilibrium {
         let (terms, load) = self.at(theta);
         let mut balance = self.torque_beside(&terms, load);
         if let Some(most) = self.dry(&terms, theta) {
@@ -122,10 +122,10 @@ impl Statics {
         balance
     }
 
-    fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Balance {
+    fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Equilibrium {
         let pose = &terms.pose;
         let mut balance = self.unknown(pose);
-        if !pose.exists() || !load.is_finite() {
+        if !pose.is_regular() || !load.is_finite() {
             return balance;
         }
         let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
@@ -166,11 +166,11 @@ impl Statics {
         )
     }
 
-    fn unknown(&self, pose: &Pose) -> Balance {
-        Balance {
+    fn unknown(&self, pose: &Pose) -> Equilibrium {
+        Equilibrium {
             band: None,
             side_thrust: None,
-            self_locking: pose.exists()
+            self_locking: pose.is_regular()
                 && self.friction * pose.sin_phi.abs() >= pose.cos_phi
                 && self.friction > 0.0,
         }

@@ -33,7 +33,7 @@ impl VirtualDisplacement {
     /// Returns the displacement that lifts the slider pin by one off the guide with the least change of both angles,
     /// from the vectors of the crank, the rod and the arm of its centre of gravity.
     #[inline(always)]
-    pub(super) fn aside(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> VirtualDisplacement {
+    pub(super) fn off_guide(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> VirtualDisplacement {
         let squared = crank[0] * crank[0] + rod[0] * rod[0];
         let (theta, psi) = (crank[0] / squared, rod[0] / squared);
         VirtualDisplacement {

@@ -4,17 +4,17 @@
 //! The rod stays pinned at its other end: to the slider with the clearance at the crank pin, to the crank with the
 //! clearance at the wrist pin. Equations by Newton and Euler, about the pinned end.
 
+mod detail;
 mod energy;
 mod forces;
 mod law;
 mod rubbing;
-mod seen;
 mod start;
 mod turn;
 
+pub use detail::SpeedSizes;
 pub use law::NormalForce;
 pub use rubbing::Rubbing;
-pub use seen::SpeedSizes;
 pub use turn::Turned;
 
 use super::{Loads, LooseRates, LooseState};

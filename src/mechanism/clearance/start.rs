@@ -139,7 +139,7 @@ impl LooseMechanism {
         let theta = Angle::from(scene.motion.angle).reduced().rest;
         let linkage = Linkage::new(&geometry);
         let pose = linkage.pose(theta);
-        if !pose.exists() {
+        if !pose.is_regular() {
             return Err(Problems::in_code(vec![Problem::new(
                 "motion.angle",
                 format!(

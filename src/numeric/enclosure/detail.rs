@@ -4,7 +4,7 @@ use super::{Enclosed, Interval};
 
 /// Piece of a motion: ranges of time, angle and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct MotionPiece {
     /// Time, s.
     pub t: Interval,
     /// Crank angle, or coordinate of the configuration curve, rad, unwrapped.
@@ -100,7 +100,7 @@ pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
 
 /// Returns the detail of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
 /// ellipses, if no more than `most`.
-pub fn shown(
+pub fn resolved(
     detail: impl Fn(f64) -> Detail,
     ellipses: [f64; 2],
     allowed: f64,

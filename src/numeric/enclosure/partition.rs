@@ -1,10 +1,10 @@
 //! Partition of an interval into panels whose nodes resolve a function, by bisection.
 
-use super::{Detail, Interval, ellipses, shown};
+use super::{Detail, Interval, ellipses, resolved};
 
 /// Required resolution of the panels.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct PanelResolution {
     /// Nodes of a panel.
     pub nodes: usize,
     /// Allowed error, as a part of the change of the function over the whole, or of a unit.
@@ -29,14 +29,14 @@ enum Piece {
 pub fn partition(
     detail: impl Fn(Interval, f64) -> Detail,
     over: Interval,
-    wanted: Wanted,
+    wanted: PanelResolution,
     unit: f64,
 ) -> Vec<f64> {
     let ellipses = ellipses(wanted.nodes, wanted.part);
     let real = |part: Interval| detail(part, ellipses[0]);
     let allowed = wanted.part * scale(&real, over, unit);
     let is_shown = |part: Interval| {
-        let (_, nodes) = shown(|size| detail(part, size), ellipses, allowed, wanted.nodes);
+        let (_, nodes) = resolved(|size| detail(part, size), ellipses, allowed, wanted.nodes);
         nodes.is_some()
     };
     if is_shown(over) {

@@ -14,7 +14,7 @@ use crate::engine::angle::{Driven, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 
@@ -146,7 +146,7 @@ impl Driven for AngleModel<'_> {
         let driven = self.is_driven();
         let mut guide = None;
         let at = match self.sliding {
-            None => self.equation.first_positions(angles, count),
+            None => self.equation.first_terms(angles, count),
             Some(sliding) => {
                 let (at, normals) = self.equation.first_guided(angles, count);
                 guide = Some((sliding, normals));
@@ -192,7 +192,7 @@ impl Driven for AngleModel<'_> {
     }
 
     fn is_driven(&self) -> bool {
-        self.equation.loads().are_called()
+        self.equation.loads().have_nonlinear_rates()
     }
 
     fn reads_time(&self) -> bool {
@@ -214,12 +214,17 @@ impl Driven for AngleModel<'_> {
         self.is_driven() && self.equation.loads().have_detail()
     }
 
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
         let loads = self.equation.loads();
-        let seen = self.equation.linkage().seen(reach, loads.meet_slider());
-        let rubbed = self.sliding.map(|sliding| sliding.arms(reach.angle));
-        let arms = seen.arms().plus(rubbed.unwrap_or_default());
-        loads.detail_of_state(&seen, arms, ellipse)
+        let seen = self
+            .equation
+            .linkage()
+            .enclosed_state(reach, loads.meet_slider());
+        let rubbed = self
+            .sliding
+            .map(|sliding| sliding.unit_load_effects(reach.angle));
+        let effects = seen.unit_load_effects().plus(rubbed.unwrap_or_default());
+        loads.detail_of_state(&seen, effects, ellipse)
     }
 
     fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {

@@ -19,7 +19,7 @@ impl Profile for AngleModel<'_> {
     fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
         self.count(count);
         let loads = self.equation.loads();
-        let at = self.equation.positions(angles);
+        let at = self.equation.term_arrays(angles);
         for (i, angle) in angles.iter().enumerate().take(count) {
             let load = loads
                 .with_potential_at(at.x[i])
