@@ -31,12 +31,11 @@ impl TableInterpolant {
     /// Builds the curve through the points (x, y); x must rise strictly and have at least two values. With a period the
     /// last point must lie less than one period after the first.
     pub fn new(
-        x: Vec<f64>,
-        y: Vec<f64>,
+        mut x: Vec<f64>,
+        mut y: Vec<f64>,
         kind: Interpolation,
         period: Option<f64>,
     ) -> TableInterpolant {
-        let (mut x, mut y) = (x, y);
         if let Some(period) = period {
             x.push(x[0] + period);
             y.push(y[0]);
@@ -218,15 +217,10 @@ fn slopes(x: &[f64], y: &[f64], periodic: bool) -> Vec<f64> {
         let (w1, w2) = (2.0 * h[right] + h[left], h[right] + 2.0 * h[left]);
         (w1 + w2) / (w1 / rise[left] + w2 / rise[right])
     };
-    let mut slope: Vec<f64> = (0..n)
-        .map(|i| {
-            if i == 0 || i == n - 1 {
-                0.0
-            } else {
-                inner(i - 1, i)
-            }
-        })
-        .collect();
+    let mut slope = vec![0.0; n];
+    for i in 1..n - 1 {
+        slope[i] = inner(i - 1, i);
+    }
     if periodic {
         slope[0] = inner(n - 2, 0);
         slope[n - 1] = slope[0];

@@ -160,7 +160,7 @@ fn advance<T: Real>(
 
 impl<T: Copy> Expansion<T> {
     /// Converts the expansion to another number type.
-    pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {
+    pub fn convert<S>(&self, number: impl Fn(T) -> S) -> Expansion<S> {
         let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
         Expansion {
             middle: self.middle,

@@ -70,16 +70,15 @@ impl PolynomialFit {
         degree: Option<usize>,
     ) -> Result<PolynomialFit, TooFewArguments> {
         if equations.t.len() <= MOST_IN_DOUBLE {
-            PolynomialFit::with::<DoubleDouble>(equations, degree, |x| x)
+            PolynomialFit::with::<DoubleDouble>(equations, degree)
         } else {
-            PolynomialFit::with::<f64>(equations, degree, DoubleDouble::from)
+            PolynomialFit::with::<f64>(equations, degree)
         }
     }
 
     fn with<T: Real>(
         equations: &Equations<'_>,
         degree: Option<usize>,
-        extended: impl Fn(T) -> DoubleDouble,
     ) -> Result<PolynomialFit, TooFewArguments> {
         let Equations {
             t,
@@ -109,13 +108,13 @@ impl PolynomialFit {
         found.truncate(degree);
         let free = (rows - degree - 1) as f64;
         let sigma = (squares[degree] / free).sqrt().max(floor);
-        let powers = Powers::new(&found.convert(&extended));
+        let powers = Powers::new(&found.convert(T::into));
         Ok(PolynomialFit {
             coefficients: powers.coefficients,
             standard_errors: powers.errors.iter().map(|e| e * sigma).collect(),
             sigma,
             condition: powers.condition,
-            basis: found.convert(&|x: T| x.value()),
+            basis: found.convert(T::value),
         })
     }
 

@@ -14,6 +14,7 @@ pub trait Real:
     + Mul<Output = Self>
     + Div<Output = Self>
     + From<f64>
+    + Into<DoubleDouble>
 {
     /// Returns the nearest float.
     fn value(self) -> f64;
