@@ -72,12 +72,14 @@ impl Equation {
             let angle = Angle::new(at.turns, at.theta[i]);
             let now = instant(at.t[i], angle, omega, [x, dx]);
             let steady = loads.with_potential_at(x);
-            let spent = loads.without_potential_beside(at.of_time[i], &now).over(dx);
+            let spent = loads
+                .without_potential_beside(at.of_time[i], &now)
+                .generalized(dx);
             let inertia = Inertia {
                 m: sides.m[i],
                 half_dm: sides.half_dm[i],
             };
-            let q = steady.over(dx) + spent;
+            let q = steady.generalized(dx) + spent;
             alpha[i] = forward(&inertia, sides.dv[i], q, omega);
             power[i] = spent * omega;
         }

@@ -112,22 +112,15 @@ impl Curve {
             Chart::Crank => q,
             Chart::Rod(swapped) => {
                 let inclination = swapped.pose(q.rest).phi();
-                let turned = swapped.s < 0.0;
-                Angle {
-                    turns: self.turns,
-                    rest: if turned {
-                        PI - inclination
-                    } else {
-                        inclination
-                    },
-                }
+                let rest = match swapped.s < 0.0 {
+                    true => PI - inclination,
+                    false => inclination,
+                };
+                Angle::new(self.turns, rest)
             }
             Chart::Rocker(rocker) => {
                 let angle = rocker.crank_angle(q);
-                Angle {
-                    turns: self.turns + angle.turns,
-                    ..angle
-                }
+                Angle::new(self.turns + angle.turns, angle.rest)
             }
         }
     }

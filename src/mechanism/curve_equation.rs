@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use super::friction::{Free, GuideForces};
 use super::virtual_displacement::VirtualDisplacement;
-use super::{Curve, CurvePose, Equation, LoadValue, Loads, Sense};
+use super::{Curve, CurvePose, Equation, Linkage, LoadValue, Loads, Path, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -85,30 +85,8 @@ impl CurveEquation {
     /// Computes the terms at coordinate q, rad.
     pub fn terms(&self, q: f64) -> CurveTerms {
         let place = self.curve.place(q);
-        let linkage = self.curve.linkage();
-        let rod = &self.equation.rod;
-        let path = place.path(linkage, rod);
-        let turn = [place.dtheta, place.d2theta];
-        let [along, bend] = VirtualDisplacement::along(turn, &path, [place.dx, place.d2x]);
-        let pin = [linkage.r * place.cos, linkage.r * place.sin];
-        let axis = [place.rod_cos, -place.rod_sin];
-        let off_guide =
-            VirtualDisplacement::off_guide(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
-        let inertia =
-            |a: &VirtualDisplacement, b: &VirtualDisplacement| self.equation.inertia_over(a, b);
-        let lift =
-            |way: &VirtualDisplacement| self.equation.weight_over([place.cos, place.sin], way);
-        CurveTerms {
-            m: inertia(&along, &along),
-            half_dm: inertia(&along, &bend),
-            dv: lift(&along),
-            a: inertia(&off_guide, &along),
-            b: inertia(&off_guide, &bend),
-            dv_n: lift(&off_guide) - self.equation.weight.slider[1],
-            theta_n: off_guide.theta,
-            x_n: off_guide.x,
-            place,
-        }
+        let path = place.path(self.curve.linkage(), &self.equation.rod);
+        self.equation.curve_terms(place, &path)
     }
 
     /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
@@ -138,7 +116,7 @@ impl CurveEquation {
 
     /// Returns torque and force of the loads without guide friction; dry loads oppose this speed.
     pub fn load(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
-        self.equation.loads().at(&self.instant(place, t, q, speed))
+        self.loads().at(&self.instant(place, t, q, speed))
     }
 
     /// Returns torque and force of the loads, with a known value of the dry ones.
@@ -151,14 +129,10 @@ impl CurveEquation {
         speed: f64,
     ) -> LoadValue {
         let non_conservative = self
-            .equation
             .loads()
             .non_conservative(&self.instant(place, t, q, speed));
-        self.equation
-            .loads()
-            .with_potential_at(place.x)
-            .plus(non_conservative)
-            .plus(dry)
+        let potential = self.loads().with_potential_at(place.x);
+        potential.plus(non_conservative).plus(dry)
     }
 
     /// Returns acceleration and normal force without guide friction, and their derivatives with respect to a force
@@ -175,10 +149,10 @@ impl CurveEquation {
     fn against(&self, t: f64, q: Angle, speed: f64, sense: Option<Sense>) -> Free {
         let terms = self.terms(q.rest);
         let mut free = self.without_dry(&terms, t, q, speed);
-        if self.equation.loads().are_dry() {
+        if self.loads().are_dry() {
             let now = self.instant(&terms.place, t, q, speed);
             let sense = sense.unwrap_or_else(|| Sense::of(now.omega, now.v));
-            free.push(&terms, self.equation.loads().dry(&now, sense), speed);
+            free.push(&terms, self.loads().dry(&now, sense), speed);
         }
         free
     }
@@ -186,15 +160,9 @@ impl CurveEquation {
     /// Computes the motion without guide friction and without dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
-        let non_conservative = self
-            .equation
-            .loads()
-            .non_conservative(&self.instant(place, t, q, speed));
-        let load = self
-            .equation
-            .loads()
-            .with_potential_at(place.x)
-            .plus(non_conservative);
+        let loads = self.loads();
+        let non_conservative = loads.non_conservative(&self.instant(place, t, q, speed));
+        let load = loads.with_potential_at(place.x).plus(non_conservative);
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
@@ -244,6 +212,35 @@ impl CurveEquation {
         let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
         let gravity = self.equation.gravity_at(crank, axis, place.x);
         self.loads().potential(theta.radians(), place.x) + gravity
+    }
+}
+
+impl Equation {
+    /// Computes the terms along and across a curve at a position with a path of the rod.
+    #[inline(always)]
+    pub(super) fn curve_terms(&self, place: CurvePose, path: &Path) -> CurveTerms {
+        let Linkage { r, l, .. } = *self.linkage();
+        let crank = [place.cos, place.sin];
+        let rod = [place.rod_cos, -place.rod_sin];
+        let turn = [place.dtheta, place.d2theta];
+        let [along, bend] = VirtualDisplacement::along(turn, path, [place.dx, place.d2x]);
+        let arm = self.rod.arm(rod);
+        let off_guide = VirtualDisplacement::off_guide(
+            crank.map(|part| r * part),
+            rod.map(|part| l * part),
+            arm,
+        );
+        CurveTerms {
+            m: self.inertia_over(&along, &along),
+            half_dm: self.inertia_over(&along, &bend),
+            dv: self.weight_over(crank, &along),
+            a: self.inertia_over(&off_guide, &along),
+            b: self.inertia_over(&off_guide, &bend),
+            dv_n: self.weight_over(crank, &off_guide) - self.weight.slider[1],
+            theta_n: off_guide.theta,
+            x_n: off_guide.x,
+            place,
+        }
     }
 }
 

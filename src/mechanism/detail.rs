@@ -73,40 +73,29 @@ impl Around<'_> {
             };
             self.detail(load).times(arm.abs())
         };
-        loads
-            .list()
-            .iter()
-            .map(one)
-            .fold(Detail::NONE, Detail::plus)
+        loads.0.iter().map(one).fold(Detail::NONE, Detail::plus)
     }
-}
-
-/// Whether a load is a table over x; the rows of tables over the crank angle are known corners.
-fn is_over_x(load: &Load) -> bool {
-    matches!(load, Load::Table(table) if table.of() == Variable::X)
-}
-
-fn states_scale(load: &Load) -> bool {
-    matches!(load, Load::Function { scales, .. } if !scales.is_empty())
 }
 
 impl Loads {
     /// Whether a load may vary between nodes: formulas, tables, gas pressures, dry loads, and closures that state a
     /// scale.
     pub fn have_detail(&self) -> bool {
-        self.called().any(|load| {
-            matches!(
-                load,
-                Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
-            ) || states_scale(load)
+        self.called().any(|load| match load {
+            Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_) => true,
+            Load::Function { scales, .. } => !scales.is_empty(),
+            _ => false,
         })
     }
 
     /// Whether a load of the position alone may vary between nodes: a formula, a table over x, a closure with a scale.
     pub fn have_detail_of_place(&self) -> bool {
-        let mut placed = self.placed.loads();
-        placed.any(|load| {
-            matches!(load, Load::Expression(_)) || is_over_x(load) || states_scale(load)
+        self.placed.loads().any(|load| match load {
+            Load::Expression(_) => true,
+            // Rows of tables over the crank angle are known corners.
+            Load::Table(table) => table.of() == Variable::X,
+            Load::Function { scales, .. } => !scales.is_empty(),
+            _ => false,
         })
     }
 
@@ -115,10 +104,9 @@ impl Loads {
         self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
-    /// Returns the detail of the loads, times their arms, on a piece of a motion and in an `ellipse` around it.
+    /// Returns the detail of the loads, times their effects, on a piece of a motion and in an `ellipse` around it.
     pub fn detail(&self, state: &EnclosedState, effects: UnitLoadEffects, ellipse: f64) -> Detail {
-        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        Self::detail_of(&classes, state, effects, ellipse)
+        Self::detail_of(&self.classes(), state, effects, ellipse)
     }
 
     /// Returns the detail of the generalized force, N m, of the loads that depend on the position alone.

@@ -106,13 +106,13 @@ impl Limits {
             (Some(outer), None) => 2.0 * outer.x.abs(),
             _ => 0.0,
         };
-        let (mut advance, mut retreat) = (None, None);
-        if let (Class::RotatingCrank, Some(outer), Some(inner)) = (class, outer, inner) {
-            let along = (outer.theta - inner.theta).rem_euclid(TAU);
-            let outward = if speed < 0.0 { TAU - along } else { along };
-            advance = Some(outward);
-            retreat = Some(TAU - outward);
-        }
+        let advance = match (class, outer, inner) {
+            (Class::RotatingCrank, Some(outer), Some(inner)) => {
+                let along = (outer.theta - inner.theta).rem_euclid(TAU);
+                Some(if speed < 0.0 { TAU - along } else { along })
+            }
+            _ => None,
+        };
         let transmission_min = if class == Class::RotatingCrank {
             let u = linkage.r + linkage.e.abs();
             (linkage.margin() * (linkage.l + u)).sqrt().atan2(u)
@@ -124,7 +124,7 @@ impl Limits {
             dead_centres,
             stroke,
             advance,
-            retreat,
+            retreat: advance.map(|outward| TAU - outward),
             transmission_min,
             reach: reach(linkage, class),
         }

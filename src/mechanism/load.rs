@@ -52,7 +52,10 @@ impl Loads {
                 }
                 other => match other.fixed() {
                     Some(value) => *loads.constant.on(on_slider) += value,
-                    None => loads.class(other, on_slider).push(other, on_slider),
+                    None => {
+                        let class = loads.class(other, on_slider);
+                        class.0.push((other.clone(), on_slider));
+                    }
                 },
             }
         }
@@ -98,7 +101,7 @@ impl Loads {
         }
     }
 
-    fn classes(&self) -> [&NonlinearLoads; 4] {
+    pub(super) fn classes(&self) -> [&NonlinearLoads; 4] {
         [&self.placed, &self.timed, &self.mixed, &self.dry]
     }
 

@@ -24,6 +24,7 @@ mod load;
 mod loop_closure;
 mod loose_state;
 mod nonlinear_loads;
+mod plane;
 mod positions;
 mod reactions;
 mod rocker;

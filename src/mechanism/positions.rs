@@ -104,7 +104,7 @@ impl Linkage {
     /// Returns the crank angles, rad, at which the angle between crank and rod is 90°: |OP|² = r² + l².
     ///
     /// (l² − u²) cos²θ = u² sin²θ with u = e + r sin θ is quadratic in sin θ.
-    pub fn crank_normal_to_rod(&self) -> Vec<f64> {
+    fn crank_normal_to_rod(&self) -> Vec<f64> {
         let Linkage { r, l, e, s, .. } = *self;
         let squares = l * l + r * r;
         let discriminant = l * l * (squares - e * e);

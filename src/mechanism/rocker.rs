@@ -184,20 +184,19 @@ impl HalfAngle {
 
     fn double(&self, sin: f64, cos: f64) -> Double {
         let (sine, cosine) = (self.root * sin, self.cosine(sin, cos));
-        if self.rest == 0.0 {
-            return Double {
-                sin: 2.0 * sine * cosine,
-                cos: 1.0 - 2.0 * sine * sine,
-                d1: 2.0,
-                d2: 0.0,
-            };
-        }
         let per = 1.0 / cosine;
+        let (d1, d2) = match self.rest {
+            0.0 => (2.0, 0.0),
+            rest => (
+                2.0 * self.root * cos * per,
+                -2.0 * sine * rest * per * per * per,
+            ),
+        };
         Double {
             sin: 2.0 * sine * cosine,
             cos: 1.0 - 2.0 * sine * sine,
-            d1: 2.0 * self.root * cos * per,
-            d2: -2.0 * sine * self.rest * per * per * per,
+            d1,
+            d2,
         }
     }
 }

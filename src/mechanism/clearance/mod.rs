@@ -17,6 +17,7 @@ pub use law::NormalForce;
 pub use rubbing::Rubbing;
 pub use turn::Turned;
 
+use super::plane::dot;
 use super::{Loads, LooseRates, LooseState};
 use crate::scene::{Clearance, Friction, Joint};
 
@@ -247,14 +248,4 @@ impl LooseMechanism {
             JointTouch::Linked => self.linked(&load, s, f),
         }
     }
-}
-
-#[inline(always)]
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-#[inline(always)]
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }

@@ -162,8 +162,8 @@ impl Driven for AngleModel<'_> {
                 loads.with_potential_at(x),
                 loads.of_place(Angle::new(turns, *angle), x),
             );
-            table.force[i] = stored.over(dx) - at.dv[i];
-            table.push[i] = placed.over(dx);
+            table.force[i] = stored.generalized(dx) - at.dv[i];
+            table.push[i] = placed.generalized(dx);
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
@@ -205,7 +205,7 @@ impl Driven for AngleModel<'_> {
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
             let Spot { at: [_, dx], grip } = *at.place;
-            *force = load.over(dx) + grip.rubbed(*load);
+            *force = load.generalized(dx) + grip.rubbed(*load);
         }
         forces
     }
