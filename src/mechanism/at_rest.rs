@@ -36,21 +36,6 @@ pub struct Held {
     spare: f64,
 }
 
-impl Held {
-    fn margin(&self, mu_static: f64, dry: bool) -> f64 {
-        if !dry {
-            return self.free.band(mu_static);
-        }
-        let arm = self.free.dx.abs();
-        let pressed = |normal: f64| mu_static * normal.abs() * arm;
-        match (self.spare >= 0.0, self.free.holding()) {
-            (true, _) => self.spare + pressed(self.free.normal_at_rest),
-            (false, Some(touch)) => pressed(touch.normal) - self.free.pull.abs(),
-            (false, None) => self.spare,
-        }
-    }
-}
-
 impl AtRest<'_> {
     /// Returns the next time after `t` at which a load has a corner, s.
     pub fn next_corner(&self, t: f64) -> f64 {
@@ -60,8 +45,17 @@ impl AtRest<'_> {
     /// Returns the margin at a time (s) of all that holds, zero where it gives way: static friction at the guide in N,
     /// or N m with dry loads. The dry loads hold first, the guide holds the rest.
     pub fn margin(&self, t: f64, mu_static: f64) -> f64 {
-        let dry = self.equation.loads().are_dry();
-        self.held(t).margin(mu_static, dry)
+        let Held { free, spare, .. } = self.held(t);
+        if !self.equation.loads().are_dry() {
+            return free.band(mu_static);
+        }
+        let arm = free.dx.abs();
+        let pressed = |normal: f64| mu_static * normal.abs() * arm;
+        match (spare >= 0.0, free.holding()) {
+            (true, _) => spare + pressed(free.normal_at_rest),
+            (false, Some(touch)) => pressed(touch.normal) - free.pull.abs(),
+            (false, None) => spare,
+        }
     }
 
     /// Bounds the change of [`AtRest::margin`] between two times (s), N or N m, from enclosures of the loads.

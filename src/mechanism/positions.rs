@@ -77,20 +77,17 @@ impl Linkage {
             }
         }
         let reach = &limits.reach;
-        for [from, to] in reach {
-            for theta in [*from, *to] {
-                found.push(at(
-                    "rod-normal-to-guide",
-                    theta,
-                    "the rod stands normal to the guide: the crank cannot turn on, its force on the slider is all side thrust",
-                ));
-            }
+        for theta in reach.iter().flatten() {
+            found.push(at(
+                "rod-normal-to-guide",
+                *theta,
+                "the rod stands normal to the guide: the crank cannot turn on, its force on the slider is all side thrust",
+            ));
         }
         for (i, [_, to]) in reach.iter().enumerate() {
-            let next = match reach.get(i + 1) {
-                Some([from, _]) => *from,
-                None => reach[0][0] + TAU,
-            };
+            let next = reach
+                .get(i + 1)
+                .map_or(reach[0][0] + TAU, |[from, _]| *from);
             found.push(range(
                 "blocked",
                 [*to, next],

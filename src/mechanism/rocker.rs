@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::linkage::SAME_LENGTHS;
 use super::{Class, CurvePose, Linkage};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
@@ -37,7 +38,7 @@ impl Rocker {
         let h = 0.5 * sum3(l, -e, r);
         let exact = class == Class::ChangePoint;
         let half = |length: f64, beside: f64| {
-            if exact && beside.abs() <= 8.0 * f64::EPSILON * (l + r) {
+            if exact && beside.abs() <= 2.0 * SAME_LENGTHS * (l + r) {
                 HalfAngle {
                     root: 1.0,
                     rest: 0.0,

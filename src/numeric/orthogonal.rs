@@ -3,7 +3,7 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) generates the columns of Q in the QR factorization of
 //! the matrix of powers, one after the other, in time and memory linear in the points.
 
-use super::real::Real;
+use super::double_double::Real;
 use super::{LANES, parallel};
 
 /// Expansion in orthonormal polynomials q_j of s = (t − middle)/half:

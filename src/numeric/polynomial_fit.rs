@@ -1,9 +1,8 @@
 //! Polynomials by weighted least squares on Forsythe's orthogonal basis, of a given degree or the likeliest (Schwarz).
 
-use super::double_double::DoubleDouble;
+use super::double_double::{DoubleDouble, Real};
 use super::orthogonal::{self, Expansion};
 use super::powers::Powers;
-use super::real::Real;
 
 /// Equations `weight`·p(t) = `target` + noise of equal standard deviation.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +52,7 @@ pub struct PolynomialFit {
 }
 
 /// Highest degree that is chosen from the samples.
-pub const HIGHEST_CHOSEN: usize = 12;
+const HIGHEST_CHOSEN: usize = 12;
 
 /// Largest number of equations that are solved in double-double arithmetic.
 const MOST_IN_DOUBLE: usize = 10_000;

@@ -28,12 +28,6 @@ pub struct Enclosed {
     pub plane: Option<Rectangle>,
 }
 
-impl Default for Enclosed {
-    fn default() -> Enclosed {
-        Enclosed::point(0.0)
-    }
-}
-
 impl Enclosed {
     /// Enclosure of an unknown function.
     pub const UNKNOWN: Enclosed = Enclosed::not_analytic(Interval::WHOLE);
