@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::linkage::SAME_LENGTHS;
 use super::rocker::Rocker;
 use super::{Class, CurvePose, Limits, Linkage};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, in_turn};
 use crate::scene::Branch;
 
 /// Connected set of positions of a mechanism, with a coordinate q.
@@ -149,7 +149,7 @@ impl Curve {
                         (Chart::Rocker(a), Chart::Rocker(b)) => a.joins(b),
                         _ => false,
                     };
-                    same.then_some(q.rest.rem_euclid(TAU) % TAU)
+                    same.then_some(in_turn(q.rest))
                 })
             });
         let mut found: Vec<f64> = found.collect();

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
+use crate::numeric::angle::in_turn;
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -92,7 +93,7 @@ fn range(
         };
         let here = Extreme {
             value: value(theta),
-            theta: theta.rem_euclid(TAU) % TAU,
+            theta: in_turn(theta),
         };
         let (low, high) = found.get_or_insert((here, here));
         if here.value < low.value {

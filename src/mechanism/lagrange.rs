@@ -18,14 +18,8 @@ impl Inertia {
     /// Adds one kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
     #[inline(always)]
     pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
-        let Path {
-            dp,
-            d2p,
-            dpsi,
-            d2psi,
-        } = *path;
-        self.m += mass * dot(dp, dp) + inertia * dpsi * dpsi;
-        self.half_dm += mass * dot(dp, d2p) + inertia * dpsi * d2psi;
+        self.m += mass * dot(path.dp, path.dp) + inertia * path.dpsi * path.dpsi;
+        self.half_dm += mass * dot(path.dp, path.d2p) + inertia * path.dpsi * path.d2psi;
     }
 }
 

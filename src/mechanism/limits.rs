@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::Linkage;
 use super::linkage::SAME_LENGTHS;
+use crate::numeric::angle::in_turn;
 use crate::numeric::exact::sum3;
 
 /// Class of the mechanism.
@@ -206,20 +207,11 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
     let towards = if !outer && l >= r { -1.0 } else { 1.0 };
     let theta = (towards * -e).atan2(towards * x);
     Some(DeadCentre {
-        theta: positive(theta),
+        // Plus zero: an angle of −0 is 0.
+        theta: in_turn(theta) + 0.0,
         x,
         outer,
     })
-}
-
-/// Reduces an angle from −π to π to [0, 2π).
-fn positive(theta: f64) -> f64 {
-    if theta < 0.0 {
-        let turned = theta + TAU;
-        if turned < TAU { turned } else { 0.0 }
-    } else {
-        theta + 0.0
-    }
 }
 
 /// Returns the intervals of angles at which |e + r sin θ| ≤ l; empty: all.

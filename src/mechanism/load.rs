@@ -3,7 +3,7 @@
 use super::nonlinear_loads::NonlinearLoads;
 use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load, LoadOf, Scene, Variables};
+use crate::scene::{Instant, Load, Scene, Variables};
 
 /// Loads of a scene. Loads with a potential (constant torque and force, springs) are kept apart from loads whose work
 /// must be integrated.
@@ -32,10 +32,8 @@ impl Loads {
             on_slider: !scene.forces.is_empty(),
             ..Loads::default()
         };
-        for LoadOf {
-            load, on_slider, ..
-        } in scene.loads()
-        {
+        for of in scene.loads() {
+            let (load, on_slider) = (of.load, of.on_slider);
             loads.reads = loads.reads.or(load.reads(on_slider));
             match load {
                 Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,

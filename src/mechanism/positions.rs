@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::Serialize;
 
 use super::{Class, Limits, Linkage};
+use crate::numeric::angle::in_turn;
 
 /// Named position, or named range of crank angles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -24,14 +25,14 @@ pub struct NamedPosition {
 fn at(kind: &'static str, theta: f64, reason: &'static str) -> NamedPosition {
     NamedPosition {
         kind,
-        theta_rad: theta.rem_euclid(TAU) % TAU,
+        theta_rad: in_turn(theta),
         to_rad: None,
         reason,
     }
 }
 
 fn range(kind: &'static str, [from, to]: [f64; 2], reason: &'static str) -> NamedPosition {
-    let begin = from.rem_euclid(TAU) % TAU;
+    let begin = in_turn(from);
     NamedPosition {
         kind,
         theta_rad: begin,

@@ -154,10 +154,7 @@ impl Reactor {
 
     fn accelerations(&self, place: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
         let squared = speed * speed;
-        let (crank, rod) = (
-            place.path(&self.linkage, &self.crank),
-            place.path(&self.linkage, &self.rod),
-        );
+        let [crank, rod] = [&self.crank, &self.rod].map(|body| place.path(&self.linkage, body));
         let second = |first: f64, second: f64| first * acceleration + second * squared;
         let of = |path: &Path| [0, 1].map(|i| second(path.dp[i], path.d2p[i]));
         Accelerations {

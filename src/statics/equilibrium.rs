@@ -216,7 +216,7 @@ impl StaticAnalysis {
                 };
                 let located = Located {
                     value,
-                    theta_rad: theta.rem_euclid(TAU) % TAU,
+                    theta_rad: angle::in_turn(theta),
                 };
                 located.value.is_finite().then_some(located)
             })

@@ -38,7 +38,8 @@ impl Detail {
         around: None,
     };
 
-    /// Returns the detail of a change and a bound; a change that is NaN and a bound that is not finite hide it.
+    /// Returns the detail of a change and a bound: a change that is NaN counts as infinite, a bound that is not finite as
+    /// none.
     fn new(change: f64, around: Option<f64>) -> Detail {
         Detail {
             change: if change.is_nan() {
