@@ -64,7 +64,7 @@ impl Equation {
     ) -> PyResult<Array<'py>> {
         self.at_states(py, [t, theta, omega], |equation, [t, theta, omega]| {
             let pose = equation.linkage().pose(theta);
-            equation.load(t, theta, omega).generalized(&pose)
+            equation.load(t, theta, omega).generalized(pose.dx)
         })
     }
 

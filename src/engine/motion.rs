@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 
 /// Equation of motion θ̈ = f(t, θ, θ̇) with a power to be integrated along the motion.
 pub trait Motion {
@@ -28,7 +28,7 @@ pub trait Motion {
     }
 
     /// Returns the variation of the acceleration, rad/s², on a piece and in its Bernstein ellipse, ρ = `ellipse`.
-    fn detail(&self, _reach: &Reach, _ellipse: f64) -> Detail {
+    fn detail(&self, _reach: &MotionPiece, _ellipse: f64) -> Detail {
         Detail::NONE
     }
 
@@ -147,7 +147,7 @@ impl Motion for Counted<'_> {
         self.motion.has_detail()
     }
 
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
         self.motion.detail(reach, ellipse)
     }
 

@@ -102,7 +102,7 @@ pub fn explain(scene: &Scene, method: Method, at: Option<f64>) -> Result<Explana
 fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, Error> {
     let terms = equation.terms(theta);
     let (pose, omega) = (&terms.pose, scene.motion.speed);
-    if !pose.exists() {
+    if !pose.is_regular() {
         return Err(Error::refused(
             format!(
                 "the mechanism has no position at crank angle {theta} rad, or is at its limit there"

@@ -41,8 +41,8 @@ impl Problem<'_> {
         let terms = self.equation.terms(theta);
         let t = self.record.origin + self.grid.times[node];
         let known = self.equation.loads().value(t, theta, omega, &terms.pose);
-        let torque =
-            self.equation.generalized_force(&terms, omega, alpha) - known.generalized(&terms.pose);
+        let torque = self.equation.generalized_force(&terms, omega, alpha)
+            - known.generalized(terms.pose.dx);
         let (r, dx) = (self.equation.linkage().r, terms.pose.dx);
         let unknown = match prior.unknown {
             Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),

@@ -111,7 +111,7 @@ impl Backwards<'_> {
         // One-sided at the limit of a rocker.
         let beside = |step: f64| {
             let there = self.equation.terms(theta + step);
-            match there.pose.exists() {
+            match there.pose.is_regular() {
                 true => (step, there),
                 false => (0.0, terms),
             }

@@ -48,7 +48,7 @@ pub(super) fn keeps_clear(
             let pose = linkage.pose(theta);
             let within = WITHIN * error + more;
             let far = pose.cos_phi > NEAR_LIMIT || !shown && distance(&limits, theta) > within;
-            if passed || !pose.exists() || !far {
+            if passed || !pose.is_regular() || !far {
                 return Err(refusal(linkage, measurement, sample, theta, error));
             }
         }

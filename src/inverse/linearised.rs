@@ -57,7 +57,7 @@ impl Motion<'_> {
             _ => 1.0,
         };
         let known =
-            load.generalized(&terms.pose) - terms.dv - terms.inertia.half_dm * omega * omega;
+            load.generalized(terms.pose.dx) - terms.dv - terms.inertia.half_dm * omega * omega;
         let m = terms.inertia.m;
         [(known + arm * unknown) / m, arm / m]
     }

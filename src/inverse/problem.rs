@@ -194,7 +194,7 @@ impl<'a> Problem<'a> {
             };
             jobs.extend(cores.zip(mine.chunks_mut(length)).map(job));
         }
-        parallel::each(jobs.into_iter(), job);
+        parallel::map(jobs.into_iter(), job);
         found
     }
 

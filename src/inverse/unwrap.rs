@@ -53,7 +53,7 @@ pub(super) fn unwrap<'a>(
         warnings.extend(jumping(measurement));
     }
     let unreachable = |(sample, theta): (usize, &f64)| {
-        (!sensor.linkage.pose(*theta).exists()).then(|| {
+        (!sensor.linkage.pose(*theta).is_regular()).then(|| {
             let what = format!(
                 "theta = {} cannot be reached: the rod is too short for it",
                 measurement.shown(values[sample])

@@ -2,9 +2,9 @@
 
 use super::friction::Free;
 use super::nonlinear_loads::sign;
-use super::{Arms, CurveEquation, CurveTerms, LoadValue};
+use super::{CurveEquation, CurveTerms, LoadValue, UnitLoadEffects};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Interval, Reach};
+use crate::numeric::enclosure::{Interval, MotionPiece};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Mechanism at rest at a coordinate q.
@@ -19,7 +19,7 @@ impl CurveEquation {
     pub fn at_rest(&self, q: Angle) -> AtRest<'_> {
         AtRest {
             equation: self,
-            terms: self.across(q.rest),
+            terms: self.terms(q.rest),
             q,
         }
     }
@@ -36,21 +36,6 @@ pub struct Held {
     spare: f64,
 }
 
-impl Held {
-    fn margin(&self, mu_static: f64, dry: bool) -> f64 {
-        if !dry {
-            return self.free.band(mu_static);
-        }
-        let arm = self.free.dx.abs();
-        let pressed = |normal: f64| mu_static * normal.abs() * arm;
-        match (self.spare >= 0.0, self.free.holding()) {
-            (true, _) => self.spare + pressed(self.free.held),
-            (false, Some(touch)) => pressed(touch.normal) - self.free.pull.abs(),
-            (false, None) => self.spare,
-        }
-    }
-}
-
 impl AtRest<'_> {
     /// Returns the next time after `t` at which a load has a corner, s.
     pub fn next_corner(&self, t: f64) -> f64 {
@@ -60,8 +45,17 @@ impl AtRest<'_> {
     /// Returns the margin at a time (s) of all that holds, zero where it gives way: static friction at the guide in N,
     /// or N m with dry loads. The dry loads hold first, the guide holds the rest.
     pub fn margin(&self, t: f64, mu_static: f64) -> f64 {
-        let dry = self.equation.loads().are_dry();
-        self.held(t).margin(mu_static, dry)
+        let Held { free, spare, .. } = self.held(t);
+        if !self.equation.loads().are_dry() {
+            return free.band(mu_static);
+        }
+        let arm = free.dx.abs();
+        let pressed = |normal: f64| mu_static * normal.abs() * arm;
+        match (spare >= 0.0, free.holding()) {
+            (true, _) => spare + pressed(free.normal_at_rest),
+            (false, Some(touch)) => pressed(touch.normal) - free.pull.abs(),
+            (false, None) => spare,
+        }
     }
 
     /// Bounds the change of [`AtRest::margin`] between two times (s), N or N m, from enclosures of the loads.
@@ -70,19 +64,22 @@ impl AtRest<'_> {
         if !loads.have_detail() {
             return 0.0;
         }
-        let reach = Reach {
+        let piece = MotionPiece {
             t: Interval::new(from, to),
             angle: Interval::point(self.q.radians()),
             speed: Interval::point(0.0),
         };
-        let seen = self.equation.curve().seen(&reach, loads.meet_slider());
+        let state = self
+            .equation
+            .curve()
+            .enclosed_state(&piece, loads.meet_slider());
         let terms = &self.terms;
-        let arms = Arms {
+        let effects = UnitLoadEffects {
             torque: terms.place.dtheta,
             force: terms.place.dx,
         };
         // Only the range of a load on the interval is used: any size of the ellipse serves.
-        let detail = loads.detail(&seen, arms, 2.0);
+        let detail = loads.detail(&state, effects, 2.0);
         let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
         // A change of Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);

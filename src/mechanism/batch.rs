@@ -24,7 +24,7 @@ pub struct Instants<'a, const N: usize> {
 
 /// Terms of the equation at N crank angles.
 #[derive(Clone, Copy, Debug)]
-pub struct Positions<const N: usize> {
+pub struct TermArrays<const N: usize> {
     /// Slider position, m.
     pub x: [f64; N],
     /// x', m/rad.
@@ -37,8 +37,8 @@ pub struct Positions<const N: usize> {
     pub dv: [f64; N],
 }
 
-impl<const N: usize> Positions<N> {
-    const ZERO: Positions<N> = Positions {
+impl<const N: usize> TermArrays<N> {
+    const ZERO: TermArrays<N> = TermArrays {
         x: [0.0; N],
         dx: [0.0; N],
         m: [0.0; N],
@@ -65,19 +65,21 @@ impl Equation {
         alpha: &mut [f64; N],
         power: &mut [f64; N],
     ) {
-        let sides = self.positions(at.theta);
+        let sides = self.term_arrays(at.theta);
         let loads = self.loads();
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
             let angle = Angle::new(at.turns, at.theta[i]);
             let now = instant(at.t[i], angle, omega, [x, dx]);
             let steady = loads.with_potential_at(x);
-            let spent = loads.without_potential_beside(at.of_time[i], &now).over(dx);
+            let spent = loads
+                .without_potential_beside(at.of_time[i], &now)
+                .generalized(dx);
             let inertia = Inertia {
                 m: sides.m[i],
                 half_dm: sides.half_dm[i],
             };
-            let q = steady.over(dx) + spent;
+            let q = steady.generalized(dx) + spent;
             alpha[i] = forward(&inertia, sides.dv[i], q, omega);
             power[i] = spent * omega;
         }
@@ -85,10 +87,10 @@ impl Equation {
 
     /// Computes positions and terms at N crank angles, rad.
     #[inline]
-    pub fn positions<const N: usize>(&self, theta: &[f64; N]) -> Positions<N> {
-        let mut positions = Positions::ZERO;
-        self.each(theta, |i, at| positions.take(i, at));
-        positions
+    pub fn term_arrays<const N: usize>(&self, theta: &[f64; N]) -> TermArrays<N> {
+        let mut arrays = TermArrays::ZERO;
+        self.each(theta, |i, at| arrays.take(i, at));
+        arrays
     }
 
     /// Calls `take` with the index and the terms of each of N crank angles, rad.
@@ -110,7 +112,7 @@ impl Equation {
     }
 
     /// Computes positions at the first `count` angles (rad); the other entries are zero.
-    pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
+    pub fn first_terms<const N: usize>(&self, theta: &[f64; N], count: usize) -> TermArrays<N> {
         self.first(theta, count, |_| ()).0
     }
 
@@ -119,7 +121,7 @@ impl Equation {
         &self,
         theta: &[f64; N],
         count: usize,
-    ) -> (Positions<N>, [Normal; N]) {
+    ) -> (TermArrays<N>, [Normal; N]) {
         self.first(theta, count, |at| self.normal_without_cases(at))
     }
 
@@ -129,11 +131,11 @@ impl Equation {
         theta: &[f64; N],
         count: usize,
         beside: impl Fn(&Terms) -> T,
-    ) -> (Positions<N>, [T; N]) {
-        let (mut all, mut of_all) = (Positions::ZERO, [T::default(); N]);
+    ) -> (TermArrays<N>, [T; N]) {
+        let (mut all, mut of_all) = (TermArrays::ZERO, [T::default(); N]);
         for begin in (0..count).step_by(LANES) {
             let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
-            let (mut at, mut of_some) = (Positions::<LANES>::ZERO, [T::default(); LANES]);
+            let (mut at, mut of_some) = (TermArrays::<LANES>::ZERO, [T::default(); LANES]);
             self.each(&some, |i, terms| {
                 at.take(i, terms);
                 of_some[i] = beside(terms);

@@ -2,7 +2,7 @@
 //! derivatives each.
 
 use super::{Linkage, Pose};
-use crate::scene::{RodModel, Scene};
+use crate::scene::{Geometry, Rod, RodModel, Scene};
 
 /// Link that a body is fixed to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ pub struct Body {
 
 impl Body {
     /// Returns a point mass on a link.
-    fn point(on: Link, mass: f64, along: f64, lateral: f64) -> Body {
+    pub(super) fn point(on: Link, mass: f64, along: f64, lateral: f64) -> Body {
         Body {
             on,
             mass,
@@ -41,6 +41,12 @@ impl Body {
             lateral,
             inertia: 0.0,
         }
+    }
+
+    /// Returns the mass of a two-mass rod at the crank pin as a body of the crank.
+    pub(super) fn at_crank_pin(rod: &Rod, geometry: &Geometry) -> Body {
+        let mass = rod.mass - rod.mass * rod.cg / geometry.rod;
+        Body::point(Link::Crank, mass, geometry.crank, 0.0)
     }
 
     /// Returns the rod of a scene as one body that carries forces; none for the model `spin-only`, without translation.
@@ -173,12 +179,10 @@ impl Bodies {
                     bodies.weights.extend(body);
                 }
                 RodModel::TwoMass => {
-                    let at_wrist_pin = rod.mass * rod.cg / scene.geometry.rod;
-                    let at_crank_pin = rod.mass - at_wrist_pin;
-                    bodies.crank_inertia += at_crank_pin * r * r;
-                    let body = Body::point(Link::Crank, at_crank_pin, r, 0.0);
-                    bodies.weights.push(body);
-                    slider_mass += at_wrist_pin;
+                    let on_pin = Body::at_crank_pin(rod, &scene.geometry);
+                    bodies.crank_inertia += on_pin.mass * r * r;
+                    bodies.weights.push(on_pin);
+                    slider_mass += rod.mass * rod.cg / scene.geometry.rod;
                 }
                 RodModel::SpinOnly => {
                     bodies.inertias.push(Body {

@@ -16,7 +16,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::linkage::SAME_LENGTHS;
 use super::rocker::Rocker;
 use super::{Class, CurvePose, Limits, Linkage};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, in_turn};
 use crate::scene::Branch;
 
 /// Connected set of positions of a mechanism, with a coordinate q.
@@ -112,22 +112,15 @@ impl Curve {
             Chart::Crank => q,
             Chart::Rod(swapped) => {
                 let inclination = swapped.pose(q.rest).phi();
-                let turned = swapped.s < 0.0;
-                Angle {
-                    turns: self.turns,
-                    rest: if turned {
-                        PI - inclination
-                    } else {
-                        inclination
-                    },
-                }
+                let rest = match swapped.s < 0.0 {
+                    true => PI - inclination,
+                    false => inclination,
+                };
+                Angle::new(self.turns, rest)
             }
             Chart::Rocker(rocker) => {
                 let angle = rocker.crank_angle(q);
-                Angle {
-                    turns: self.turns + angle.turns,
-                    ..angle
-                }
+                Angle::new(self.turns + angle.turns, angle.rest)
             }
         }
     }
@@ -156,7 +149,7 @@ impl Curve {
                         (Chart::Rocker(a), Chart::Rocker(b)) => a.joins(b),
                         _ => false,
                     };
-                    same.then_some(q.rest.rem_euclid(TAU) % TAU)
+                    same.then_some(in_turn(q.rest))
                 })
             });
         let mut found: Vec<f64> = found.collect();

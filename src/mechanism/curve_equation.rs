@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use super::friction::{Free, GuideForces};
 use super::virtual_displacement::VirtualDisplacement;
-use super::{Curve, CurvePose, Equation, LoadValue, Loads, Sense};
+use super::{Curve, CurvePose, Equation, Linkage, LoadValue, Loads, Path, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
@@ -51,7 +51,7 @@ impl CurveTerms {
     }
 
     /// Returns Q_n of a load, N.
-    pub(super) fn aside(&self, load: LoadValue) -> f64 {
+    pub(super) fn off_guide(&self, load: LoadValue) -> f64 {
         load.torque * self.theta_n + load.force * self.x_n
     }
 }
@@ -83,37 +83,15 @@ impl CurveEquation {
     }
 
     /// Computes the terms at coordinate q, rad.
-    pub fn across(&self, q: f64) -> CurveTerms {
+    pub fn terms(&self, q: f64) -> CurveTerms {
         let place = self.curve.place(q);
-        let linkage = self.curve.linkage();
-        let rod = &self.equation.rod;
-        let path = place.path(linkage, rod);
-        let turn = [place.dtheta, place.d2theta];
-        let [along, bend] = VirtualDisplacement::along(turn, &path, [place.dx, place.d2x]);
-        let pin = [linkage.r * place.cos, linkage.r * place.sin];
-        let axis = [place.rod_cos, -place.rod_sin];
-        let aside =
-            VirtualDisplacement::aside(pin, axis.map(|part| linkage.l * part), rod.arm(axis));
-        let inertia =
-            |a: &VirtualDisplacement, b: &VirtualDisplacement| self.equation.inertia_over(a, b);
-        let lift =
-            |way: &VirtualDisplacement| self.equation.weight_over([place.cos, place.sin], way);
-        CurveTerms {
-            m: inertia(&along, &along),
-            half_dm: inertia(&along, &bend),
-            dv: lift(&along),
-            a: inertia(&aside, &along),
-            b: inertia(&aside, &bend),
-            dv_n: lift(&aside) - self.equation.weight.slider[1],
-            theta_n: aside.theta,
-            x_n: aside.x,
-            place,
-        }
+        let path = place.path(self.curve.linkage(), &self.equation.rod);
+        self.equation.curve_terms(place, &path)
     }
 
     /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
     pub fn vanishes_at(&self, q: f64) -> bool {
-        self.across(q).m < 1e-9 * self.across(q + 0.3).m
+        self.terms(q).m < 1e-9 * self.terms(q + 0.3).m
     }
 
     /// Whether M vanishes at a limit or a dead centre.
@@ -138,7 +116,7 @@ impl CurveEquation {
 
     /// Returns torque and force of the loads without guide friction; dry loads oppose this speed.
     pub fn load(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
-        self.equation.loads().at(&self.instant(place, t, q, speed))
+        self.loads().at(&self.instant(place, t, q, speed))
     }
 
     /// Returns torque and force of the loads, with a known value of the dry ones.
@@ -151,14 +129,10 @@ impl CurveEquation {
         speed: f64,
     ) -> LoadValue {
         let non_conservative = self
-            .equation
             .loads()
             .non_conservative(&self.instant(place, t, q, speed));
-        self.equation
-            .loads()
-            .with_potential_at(place.x)
-            .plus(non_conservative)
-            .plus(dry)
+        let potential = self.loads().with_potential_at(place.x);
+        potential.plus(non_conservative).plus(dry)
     }
 
     /// Returns acceleration and normal force without guide friction, and their derivatives with respect to a force
@@ -173,12 +147,12 @@ impl CurveEquation {
     }
 
     fn against(&self, t: f64, q: Angle, speed: f64, sense: Option<Sense>) -> Free {
-        let terms = self.across(q.rest);
+        let terms = self.terms(q.rest);
         let mut free = self.without_dry(&terms, t, q, speed);
-        if self.equation.loads().are_dry() {
+        if self.loads().are_dry() {
             let now = self.instant(&terms.place, t, q, speed);
             let sense = sense.unwrap_or_else(|| Sense::of(now.omega, now.v));
-            free.push(&terms, self.equation.loads().dry(&now, sense), speed);
+            free.push(&terms, self.loads().dry(&now, sense), speed);
         }
         free
     }
@@ -186,26 +160,20 @@ impl CurveEquation {
     /// Computes the motion without guide friction and without dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
-        let non_conservative = self
-            .equation
-            .loads()
-            .non_conservative(&self.instant(place, t, q, speed));
-        let load = self
-            .equation
-            .loads()
-            .with_potential_at(place.x)
-            .plus(non_conservative);
+        let loads = self.loads();
+        let non_conservative = loads.non_conservative(&self.instant(place, t, q, speed));
+        let load = loads.with_potential_at(place.x).plus(non_conservative);
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
-        let held = terms.b * squared + terms.dv_n - terms.aside(load);
+        let normal_at_rest = terms.b * squared + terms.dv_n - terms.off_guide(load);
         Free {
             acceleration,
-            normal: terms.a * acceleration + held,
+            normal: terms.a * acceleration + normal_at_rest,
             gain: place.dx / terms.m,
             kappa: terms.a * place.dx / terms.m - terms.x_n,
             pull,
-            held,
+            normal_at_rest,
             x_n: terms.x_n,
             dx: place.dx,
             power: terms.along(non_conservative) * speed,
@@ -215,7 +183,7 @@ impl CurveEquation {
     /// Returns normal and friction force of the guide where a drive of the crank keeps up an acceleration (rad/s² of
     /// the coordinate); none where the guide locks itself.
     pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
-        let terms = self.across(q.rest);
+        let terms = self.terms(q.rest);
         let load = self.load(&terms.place, t, q, speed);
         let place = &terms.place;
         let squared = speed * speed;
@@ -232,7 +200,7 @@ impl CurveEquation {
 
     /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, q: Angle, speed: f64) -> f64 {
-        0.5 * self.across(q.rest).m * speed * speed
+        0.5 * self.terms(q.rest).m * speed * speed
     }
 
     /// Returns the potential energy of gravity and of the loads that have a potential, J. The crank angle counts
@@ -247,14 +215,43 @@ impl CurveEquation {
     }
 }
 
+impl Equation {
+    /// Computes the terms along and across a curve at a position with a path of the rod.
+    #[inline(always)]
+    pub(super) fn curve_terms(&self, place: CurvePose, path: &Path) -> CurveTerms {
+        let Linkage { r, l, .. } = *self.linkage();
+        let crank = [place.cos, place.sin];
+        let rod = [place.rod_cos, -place.rod_sin];
+        let turn = [place.dtheta, place.d2theta];
+        let [along, bend] = VirtualDisplacement::along(turn, path, [place.dx, place.d2x]);
+        let arm = self.rod.arm(rod);
+        let off_guide = VirtualDisplacement::off_guide(
+            crank.map(|part| r * part),
+            rod.map(|part| l * part),
+            arm,
+        );
+        CurveTerms {
+            m: self.inertia_over(&along, &along),
+            half_dm: self.inertia_over(&along, &bend),
+            dv: self.weight_over(crank, &along),
+            a: self.inertia_over(&off_guide, &along),
+            b: self.inertia_over(&off_guide, &bend),
+            dv_n: self.weight_over(crank, &off_guide) - self.weight.slider[1],
+            theta_n: off_guide.theta,
+            x_n: off_guide.x,
+            place,
+        }
+    }
+}
+
 impl Free {
     /// Adds a load to a motion at a speed (rad/s) of the coordinate.
     pub(super) fn push(&mut self, terms: &CurveTerms, load: LoadValue, speed: f64) {
-        let (along, aside) = (terms.along(load), terms.aside(load));
+        let (along, off_guide) = (terms.along(load), terms.off_guide(load));
         self.pull += along;
         self.acceleration += along / terms.m;
-        self.held -= aside;
-        self.normal += terms.a * along / terms.m - aside;
+        self.normal_at_rest -= off_guide;
+        self.normal += terms.a * along / terms.m - off_guide;
         self.power += along * speed;
     }
 }

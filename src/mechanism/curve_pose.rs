@@ -31,6 +31,7 @@ pub struct CurvePose {
 
 impl CurvePose {
     /// Returns the position of a linkage at a crank angle, with this angle as the coordinate.
+    #[inline(always)]
     pub(super) fn of(linkage: &Linkage, pose: &Pose) -> CurvePose {
         let s = linkage.s;
         CurvePose {

@@ -1,13 +1,13 @@
 //! Detail of the loads between the nodes of a panel or a step, from enclosures of the loads.
 
 use super::nonlinear_loads::NonlinearLoads;
-use super::{Arms, CurveEquation, CurveTerms, EnclosedState, Linkage, Loads};
-use crate::numeric::enclosure::{Detail, Enclosed, Interval, Reach};
+use super::{CurveEquation, CurveTerms, EnclosedState, Linkage, Loads, UnitLoadEffects};
+use crate::numeric::enclosure::{Detail, Enclosed, Interval, MotionPiece};
 use crate::scene::{Load, Variable, Variables};
 
 /// Enclosed state over a piece of a motion, and size of the Bernstein ellipse around the piece.
 struct Around<'a> {
-    seen: &'a EnclosedState,
+    state: &'a EnclosedState,
     ellipse: f64,
 }
 
@@ -15,11 +15,11 @@ impl Around<'_> {
     /// Returns the range of a variable over the piece.
     fn real(&self, variable: Variable) -> Interval {
         match variable {
-            Variable::T => self.seen.t,
-            Variable::Theta => self.seen.theta,
-            Variable::Omega => self.seen.omega,
-            Variable::X => self.seen.x,
-            Variable::V => self.seen.v,
+            Variable::T => self.state.t,
+            Variable::Theta => self.state.theta,
+            Variable::Omega => self.state.omega,
+            Variable::X => self.state.x,
+            Variable::V => self.state.v,
         }
     }
 
@@ -45,7 +45,7 @@ impl Around<'_> {
         match load {
             Load::Table(table) => table.enclose(self.variable(table.of()).real),
             Load::Gas { pressure, area, .. } => {
-                pressure.enclose(self.seen.theta) * Enclosed::point(*area)
+                pressure.enclose(self.state.theta) * Enclosed::point(*area)
             }
             Load::Expression(expression) => expression.enclose(|variable| self.variable(variable)),
             // A dry load keeps its sign on a piece.
@@ -64,45 +64,38 @@ impl Around<'_> {
         }
     }
 
-    fn loads(&self, loads: &NonlinearLoads, arms: Arms) -> Detail {
+    fn loads(&self, loads: &NonlinearLoads, effects: UnitLoadEffects) -> Detail {
         let one = |(load, on_slider): &(Load, bool)| {
-            let arm = if *on_slider { arms.force } else { arms.torque };
+            let arm = if *on_slider {
+                effects.force
+            } else {
+                effects.torque
+            };
             self.detail(load).times(arm.abs())
         };
-        loads
-            .list()
-            .iter()
-            .map(one)
-            .fold(Detail::NONE, Detail::plus)
+        loads.0.iter().map(one).fold(Detail::NONE, Detail::plus)
     }
-}
-
-/// Whether a load is a table over x; the rows of tables over the crank angle are known corners.
-fn is_over_x(load: &Load) -> bool {
-    matches!(load, Load::Table(table) if table.of() == Variable::X)
-}
-
-fn states_scale(load: &Load) -> bool {
-    matches!(load, Load::Function { scales, .. } if !scales.is_empty())
 }
 
 impl Loads {
     /// Whether a load may vary between nodes: formulas, tables, gas pressures, dry loads, and closures that state a
     /// scale.
     pub fn have_detail(&self) -> bool {
-        self.called().any(|load| {
-            matches!(
-                load,
-                Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_)
-            ) || states_scale(load)
+        self.called().any(|load| match load {
+            Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_) => true,
+            Load::Function { scales, .. } => !scales.is_empty(),
+            _ => false,
         })
     }
 
     /// Whether a load of the position alone may vary between nodes: a formula, a table over x, a closure with a scale.
     pub fn have_detail_of_place(&self) -> bool {
-        let mut placed = self.placed.loads();
-        placed.any(|load| {
-            matches!(load, Load::Expression(_)) || is_over_x(load) || states_scale(load)
+        self.placed.loads().any(|load| match load {
+            Load::Expression(_) => true,
+            // Rows of tables over the crank angle are known corners.
+            Load::Table(table) => table.of() == Variable::X,
+            Load::Function { scales, .. } => !scales.is_empty(),
+            _ => false,
         })
     }
 
@@ -111,37 +104,41 @@ impl Loads {
         self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
-    /// Returns the detail of the loads, times their arms, on a piece of a motion and in an `ellipse` around it.
-    pub fn detail(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
-        let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
-        Self::detail_of(&classes, seen, arms, ellipse)
+    /// Returns the detail of the loads, times their effects, on a piece of a motion and in an `ellipse` around it.
+    pub fn detail(&self, state: &EnclosedState, effects: UnitLoadEffects, ellipse: f64) -> Detail {
+        Self::detail_of(&self.classes(), state, effects, ellipse)
     }
 
     /// Returns the detail of the generalized force, N m, of the loads that depend on the position alone.
     pub fn detail_of_place(&self, linkage: &Linkage, angle: Interval, ellipse: f64) -> Detail {
         let none = Interval::point(0.0);
-        let reach = Reach {
+        let piece = MotionPiece {
             t: none,
             angle,
             speed: none,
         };
-        let seen = linkage.seen(&reach, self.meet_slider());
-        Self::detail_of(&[&self.placed], &seen, seen.arms(), ellipse)
+        let state = linkage.enclosed_state(&piece, self.meet_slider());
+        Self::detail_of(&[&self.placed], &state, state.unit_load_effects(), ellipse)
     }
 
     /// Returns the detail of the loads that depend on speed or time, without dry loads.
-    pub fn detail_of_state(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
-        Self::detail_of(&[&self.timed, &self.mixed], seen, arms, ellipse)
+    pub fn detail_of_state(
+        &self,
+        state: &EnclosedState,
+        effects: UnitLoadEffects,
+        ellipse: f64,
+    ) -> Detail {
+        Self::detail_of(&[&self.timed, &self.mixed], state, effects, ellipse)
     }
 
     fn detail_of(
         classes: &[&NonlinearLoads],
-        seen: &EnclosedState,
-        arms: Arms,
+        state: &EnclosedState,
+        effects: UnitLoadEffects,
         ellipse: f64,
     ) -> Detail {
-        let around = Around { seen, ellipse };
-        let details = classes.iter().map(|loads| around.loads(loads, arms));
+        let around = Around { state, ellipse };
+        let details = classes.iter().map(|loads| around.loads(loads, effects));
         details.fold(Detail::NONE, Detail::plus)
     }
 }
@@ -149,13 +146,13 @@ impl Loads {
 impl CurveEquation {
     /// Returns the change of q̈ (rad/s²) per unit load, for a motion that slides with c = −μ sgn(v) sgn(N), in the
     /// middle of a range of coordinates (rad): the nodes of a step resolve the linkage.
-    pub fn arms(&self, q: Interval, c: f64) -> Arms {
-        let terms = self.across(q.middle());
+    pub fn unit_load_effects(&self, q: Interval, c: f64) -> UnitLoadEffects {
+        let terms = self.terms(q.middle());
         let CurveTerms { place, m, a, .. } = terms;
         let gain = place.dx / m;
         let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
-        let arm = |along: f64, aside: f64| along / m + rubbed * (a * along / m - aside);
-        Arms {
+        let arm = |along: f64, off_guide: f64| along / m + rubbed * (a * along / m - off_guide);
+        UnitLoadEffects {
             torque: arm(place.dtheta, terms.theta_n),
             force: arm(place.dx, terms.x_n),
         }

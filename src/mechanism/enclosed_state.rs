@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::configuration_curve::Chart;
 use super::rocker::Rocker;
 use super::{Curve, Linkage};
-use crate::numeric::enclosure::{Interval, Reach};
+use crate::numeric::enclosure::{Interval, MotionPiece};
 
 /// Ranges of the variables of loads; the whole line for a variable that no load depends on.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub struct EnclosedState {
 
 /// Effects of a unit load.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Arms {
+pub struct UnitLoadEffects {
     /// Effect of a torque, per N m.
     pub torque: f64,
     /// Effect of a slider force, per N.
@@ -34,27 +34,27 @@ pub struct Arms {
 }
 
 impl EnclosedState {
-    /// Returns the arms of the generalized force over the crank angle: Q = τ + F x'.
-    pub fn arms(&self) -> Arms {
-        Arms {
+    /// Returns the effects on the generalized force over the crank angle: Q = τ + F x'.
+    pub fn unit_load_effects(&self) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: 1.0,
             force: self.dx.largest(),
         }
     }
 }
 
-impl Arms {
-    /// Returns the sums of the magnitudes of two pairs of arms, for loads that act in two ways.
-    pub fn plus(self, other: Arms) -> Arms {
-        Arms {
+impl UnitLoadEffects {
+    /// Returns the sums of the magnitudes of two effects, for loads that act in two ways.
+    pub fn plus(self, other: UnitLoadEffects) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: self.torque.abs() + other.torque.abs(),
             force: self.force.abs() + other.force.abs(),
         }
     }
 
-    /// Returns the larger magnitudes of the arms at two positions.
-    pub fn larger(self, other: Arms) -> Arms {
-        Arms {
+    /// Returns the larger magnitudes of the effects at two positions.
+    pub fn larger(self, other: UnitLoadEffects) -> UnitLoadEffects {
+        UnitLoadEffects {
             torque: self.torque.abs().max(other.torque.abs()),
             force: self.force.abs().max(other.force.abs()),
         }
@@ -74,24 +74,15 @@ pub(super) struct Places {
     pub dx: Interval,
 }
 
-fn point(at: f64) -> Interval {
-    Interval::point(at)
-}
-
-fn sine(of: Interval) -> Interval {
-    Interval::new(of.low.max(-1.0), of.high.min(1.0))
-}
-
-fn root(of: Interval) -> Interval {
-    Interval::new(of.low.max(0.0), of.high.max(0.0)).rising(f64::sqrt)
-}
-
 impl Linkage {
     /// Encloses φ, φ', x and x' over crank angles.
     pub(super) fn enclose(&self, theta: Interval) -> Places {
+        let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
-        let sin_phi = sine((point(self.e) + point(self.r) * sin) * point(1.0 / self.l));
-        let cos_phi = root(point(1.0) - sin_phi.square());
+        let sin_phi = (point(self.e) + point(self.r) * sin) * point(1.0 / self.l);
+        let sin_phi = Interval::new(sin_phi.low.max(-1.0), sin_phi.high.min(1.0));
+        let squared = point(1.0) - sin_phi.square();
+        let cos_phi = Interval::new(squared.low.max(0.0), squared.high.max(0.0)).rising(f64::sqrt);
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
         Places {
@@ -103,19 +94,15 @@ impl Linkage {
     }
 
     /// Returns the enclosed state of a motion over the crank angle; `by_place`: with x and x', where loads need them.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
-        let (x, dx) = if by_place {
-            let places = self.enclose(reach.angle);
-            (places.x, places.dx)
-        } else {
-            (Interval::WHOLE, Interval::WHOLE)
-        };
+    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
+        let places = by_place.then(|| self.enclose(piece.angle));
+        let [x, dx] = places.map_or([Interval::WHOLE; 2], |places| [places.x, places.dx]);
         EnclosedState {
-            t: reach.t,
-            theta: reach.angle,
-            omega: reach.speed,
+            t: piece.t,
+            theta: piece.angle,
+            omega: piece.speed,
             x,
-            v: dx * reach.speed,
+            v: dx * piece.speed,
             dx,
         }
     }
@@ -124,6 +111,7 @@ impl Linkage {
 impl Rocker {
     /// Encloses θ, θ', x and x' over coordinates.
     fn enclose(&self, linkage: &Linkage, q: Interval) -> Places {
+        let point = Interval::point;
         let (mirror, fold) = (point(self.mirror), point(self.fold));
         let quarter_less = q - point(FRAC_PI_2);
         let crank = self.crank.enclose(q);
@@ -143,6 +131,7 @@ impl Rocker {
 
 impl Curve {
     fn enclose(&self, q: Interval) -> Places {
+        let point = Interval::point;
         let turns = point(self.turns * TAU);
         match &self.chart {
             Chart::Crank => Places {
@@ -173,17 +162,17 @@ impl Curve {
     }
 
     /// Returns the enclosed state of a motion over the coordinate; `by_place`: with x and x', always if q is not θ.
-    pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
+    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
         if self.is_crank_angle() {
-            return self.linkage().seen(reach, by_place);
+            return self.linkage().enclosed_state(piece, by_place);
         }
-        let places = self.enclose(reach.angle);
+        let places = self.enclose(piece.angle);
         EnclosedState {
-            t: reach.t,
+            t: piece.t,
             theta: places.angle,
-            omega: places.dangle * reach.speed,
+            omega: places.dangle * piece.speed,
             x: places.x,
-            v: places.dx * reach.speed,
+            v: places.dx * piece.speed,
             dx: places.dx,
         }
     }

@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
+use crate::numeric::angle::in_turn;
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -36,11 +37,13 @@ impl Extremes {
         }
         let grid = linkage.turn_grid(true);
         let slopes = slopes(linkage, &grid);
-        let turns = |k: usize| {
-            let slope = |theta: f64| derivatives(linkage, &pose(linkage, theta))[k + 1];
-            let value = |theta: f64| derivatives(linkage, &pose(linkage, theta))[k];
-            range(&grid, |i| slopes[i][k], slope, value)
+        let derivative = |k: usize| {
+            move |theta: f64| {
+                let ([sin], [cos]) = sin_cos(&[theta]);
+                derivatives(linkage, &linkage.pose_at(sin, cos))[k]
+            }
         };
+        let turns = |k: usize| range(&grid, |i| slopes[i][k], derivative(k + 1), derivative(k));
         let (velocity_min, velocity_max) = turns(0)?;
         let (acceleration_min, acceleration_max) = turns(1)?;
         Some(Extremes {
@@ -55,11 +58,6 @@ impl Extremes {
 /// Returns the first three derivatives of x at a position.
 fn derivatives(linkage: &Linkage, pose: &Pose) -> [f64; 3] {
     [pose.dx, pose.d2x, linkage.third_derivatives(pose).1]
-}
-
-fn pose(linkage: &Linkage, theta: f64) -> Pose {
-    let ([sin], [cos]) = sin_cos(&[theta]);
-    linkage.pose_at(sin, cos)
 }
 
 /// Returns the second and third derivative of x at crank angles, rad; sines and cosines are computed eight at a time.
@@ -95,7 +93,7 @@ fn range(
         };
         let here = Extreme {
             value: value(theta),
-            theta: theta.rem_euclid(TAU) % TAU,
+            theta: in_turn(theta),
         };
         let (low, high) = found.get_or_insert((here, here));
         if here.value < low.value {

@@ -24,7 +24,7 @@ pub struct Free {
     /// Generalized force Q − V', N m, which accelerates from rest
     pub(super) pull: f64,
     /// N − A q̈ without friction, N
-    pub(super) held: f64,
+    pub(super) normal_at_rest: f64,
     /// Change of x per lift of the slider, dimensionless
     pub(super) x_n: f64,
     /// x', m
@@ -112,7 +112,7 @@ impl Free {
         } else {
             -self.pull / self.dx
         };
-        let normal = self.held - friction * self.x_n;
+        let normal = self.normal_at_rest - friction * self.x_n;
         (friction.is_finite() && normal.is_finite()).then_some(GuideForces { normal, friction })
     }
 

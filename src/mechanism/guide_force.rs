@@ -1,7 +1,6 @@
 //! Guide normal force of a crank that turns, and the generalized force of guide friction on the crank.
 
-use super::virtual_displacement::VirtualDisplacement;
-use super::{CurveTerms, Equation, Path, Terms};
+use super::{CurvePose, CurveTerms, Equation, Path, Terms};
 
 /// Normal force without friction: N = place + torque·τ + force·F + square·ω², with the loads τ (torque on the crank)
 /// and F (force on the slider).
@@ -21,6 +20,7 @@ pub struct Normal {
 
 impl CurveTerms {
     /// Returns the normal force where the coordinate is the crank angle.
+    #[inline(always)]
     pub fn normal(&self) -> Normal {
         let share = self.a / self.m;
         Normal {
@@ -38,24 +38,15 @@ impl Equation {
     #[inline(always)]
     pub(super) fn normal_without_cases(&self, terms: &Terms) -> Normal {
         let Terms { pose, inertia, dv } = terms;
-        let (linkage, rod) = (self.linkage(), &self.rod);
-        let path = Path::on_rod(linkage, pose, rod.along, rod.lateral);
-        let [along, bend] = VirtualDisplacement::along([1.0, 0.0], &path, [pose.dx, pose.d2x]);
-        let axis = [linkage.s * pose.cos_phi, -pose.sin_phi];
-        let aside = VirtualDisplacement::aside(
-            [linkage.r * pose.cos, linkage.r * pose.sin],
-            axis.map(|part| linkage.l * part),
-            rod.arm(axis),
-        );
-        let dv_n = self.weight_over([pose.cos, pose.sin], &aside) - self.weight.slider[1];
-        let share = self.inertia_over(&aside, &along) / inertia.m;
-        Normal {
-            place: dv_n - share * dv,
-            torque: share - aside.theta,
-            force: share * pose.dx - aside.x,
-            square: self.inertia_over(&aside, &bend) - share * inertia.half_dm,
-            dx: pose.dx,
+        let path = Path::on_rod(self.linkage(), pose, self.rod.along, self.rod.lateral);
+        let place = CurvePose::of(self.linkage(), pose);
+        CurveTerms {
+            m: inertia.m,
+            half_dm: inertia.half_dm,
+            dv: *dv,
+            ..self.curve_terms(place, &path)
         }
+        .normal()
     }
 }
 

@@ -16,13 +16,6 @@ impl InversePosition {
     pub fn angles(&self) -> &[f64] {
         &self.list[..self.count]
     }
-
-    fn push(&mut self, theta: f64) {
-        if self.count < self.list.len() {
-            self.list[self.count] = theta;
-            self.count += 1;
-        }
-    }
 }
 
 impl Linkage {
@@ -109,7 +102,8 @@ impl Linkage {
         for (fits, theta) in fits.into_iter().zip([to_pin - lean, to_pin + lean]) {
             let theta = in_one_turn(theta);
             if fits && !found.angles().contains(&theta) {
-                found.push(theta);
+                found.list[found.count] = theta;
+                found.count += 1;
             }
         }
     }

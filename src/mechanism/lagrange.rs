@@ -1,5 +1,6 @@
 //! Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q: forward (θ̈ from loads) and backward (loads from a motion).
 
+use super::plane::dot;
 use super::{Bodies, Body, Link, Linkage, LoadValue, Loads, Path, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::Scene;
@@ -17,14 +18,8 @@ impl Inertia {
     /// Adds one kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
     #[inline(always)]
     pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
-        let Path {
-            dp,
-            d2p,
-            dpsi,
-            d2psi,
-        } = path;
-        self.m += mass * (dp[0] * dp[0] + dp[1] * dp[1]) + inertia * dpsi * dpsi;
-        self.half_dm += mass * (dp[0] * d2p[0] + dp[1] * d2p[1]) + inertia * dpsi * d2psi;
+        self.m += mass * dot(path.dp, path.dp) + inertia * path.dpsi * path.dpsi;
+        self.half_dm += mass * dot(path.dp, path.d2p) + inertia * path.dpsi * path.d2psi;
     }
 }
 
@@ -145,7 +140,7 @@ impl Equation {
         if has_weight {
             let weight = &self.weight;
             dv = weight.sine * pose.sin + weight.cosine * pose.cos
-                - (weight.rod[0] * path.dp[0] + weight.rod[1] * path.dp[1])
+                - dot(weight.rod, path.dp)
                 - weight.slider[0] * pose.dx;
         }
         Terms { pose, inertia, dv }
@@ -168,8 +163,8 @@ impl Equation {
         let Terms { pose, inertia, dv } = self.terms(theta.rest);
         let non_conservative = self.loads.without_potential(t, theta, omega, &pose);
         let load = self.loads.with_potential_at(pose.x).plus(non_conservative);
-        let alpha = forward(&inertia, dv, load.over(pose.dx), omega);
-        (alpha, non_conservative.over(pose.dx) * omega)
+        let alpha = forward(&inertia, dv, load.generalized(pose.dx), omega);
+        (alpha, non_conservative.generalized(pose.dx) * omega)
     }
 
     /// Returns the generalized force Q (N m) of a motion, by inverse dynamics.
@@ -182,7 +177,7 @@ impl Equation {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
         let load = self.loads.value(t, theta, omega, &terms.pose);
-        self.generalized_force(&terms, omega, alpha) - load.generalized(&terms.pose)
+        self.generalized_force(&terms, omega, alpha) - load.generalized(terms.pose.dx)
     }
 
     /// Returns torque and force of the scene's loads.
@@ -222,7 +217,7 @@ impl Equation {
         let rod = [r * cos + arm[0], r * sin + arm[1]];
         let crank = weight.cosine * sin - weight.sine * cos;
         let slider = weight.slider[0] * x - weight.slider[1] * e;
-        crank - (weight.rod[0] * rod[0] + weight.rod[1] * rod[1]) - slider
+        crank - dot(weight.rod, rod) - slider
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::Linkage;
 use super::linkage::SAME_LENGTHS;
+use crate::numeric::angle::in_turn;
 use crate::numeric::exact::sum3;
 
 /// Class of the mechanism.
@@ -106,13 +107,13 @@ impl Limits {
             (Some(outer), None) => 2.0 * outer.x.abs(),
             _ => 0.0,
         };
-        let (mut advance, mut retreat) = (None, None);
-        if let (Class::RotatingCrank, Some(outer), Some(inner)) = (class, outer, inner) {
-            let along = (outer.theta - inner.theta).rem_euclid(TAU);
-            let outward = if speed < 0.0 { TAU - along } else { along };
-            advance = Some(outward);
-            retreat = Some(TAU - outward);
-        }
+        let advance = match (class, outer, inner) {
+            (Class::RotatingCrank, Some(outer), Some(inner)) => {
+                let along = (outer.theta - inner.theta).rem_euclid(TAU);
+                Some(if speed < 0.0 { TAU - along } else { along })
+            }
+            _ => None,
+        };
         let transmission_min = if class == Class::RotatingCrank {
             let u = linkage.r + linkage.e.abs();
             (linkage.margin() * (linkage.l + u)).sqrt().atan2(u)
@@ -124,7 +125,7 @@ impl Limits {
             dead_centres,
             stroke,
             advance,
-            retreat,
+            retreat: advance.map(|outward| TAU - outward),
             transmission_min,
             reach: reach(linkage, class),
         }
@@ -206,20 +207,11 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
     let towards = if !outer && l >= r { -1.0 } else { 1.0 };
     let theta = (towards * -e).atan2(towards * x);
     Some(DeadCentre {
-        theta: positive(theta),
+        // Plus zero: an angle of −0 is 0.
+        theta: in_turn(theta) + 0.0,
         x,
         outer,
     })
-}
-
-/// Reduces an angle from −π to π to [0, 2π).
-fn positive(theta: f64) -> f64 {
-    if theta < 0.0 {
-        let turned = theta + TAU;
-        if turned < TAU { turned } else { 0.0 }
-    } else {
-        theta + 0.0
-    }
 }
 
 /// Returns the intervals of angles at which |e + r sin θ| ≤ l; empty: all.

@@ -68,7 +68,7 @@ impl Pose {
     }
 
     /// Whether the position exists and is not at a limit, that is, all values are finite.
-    pub fn exists(&self) -> bool {
+    pub fn is_regular(&self) -> bool {
         self.d2x.is_finite()
     }
 }

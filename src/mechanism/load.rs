@@ -3,7 +3,7 @@
 use super::nonlinear_loads::NonlinearLoads;
 use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Load, LoadOf, Scene, Variables};
+use crate::scene::{Instant, Load, Scene, Variables};
 
 /// Loads of a scene. Loads with a potential (constant torque and force, springs) are kept apart from loads whose work
 /// must be integrated.
@@ -32,10 +32,8 @@ impl Loads {
             on_slider: !scene.forces.is_empty(),
             ..Loads::default()
         };
-        for LoadOf {
-            load, on_slider, ..
-        } in scene.loads()
-        {
+        for of in scene.loads() {
+            let (load, on_slider) = (of.load, of.on_slider);
             loads.reads = loads.reads.or(load.reads(on_slider));
             match load {
                 Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,
@@ -52,7 +50,10 @@ impl Loads {
                 }
                 other => match other.fixed() {
                     Some(value) => *loads.constant.on(on_slider) += value,
-                    None => loads.class(other, on_slider).push(other, on_slider),
+                    None => {
+                        let class = loads.class(other, on_slider);
+                        class.0.push((other.clone(), on_slider));
+                    }
                 },
             }
         }
@@ -98,7 +99,7 @@ impl Loads {
         }
     }
 
-    fn classes(&self) -> [&NonlinearLoads; 4] {
+    pub(super) fn classes(&self) -> [&NonlinearLoads; 4] {
         [&self.placed, &self.timed, &self.mixed, &self.dry]
     }
 
@@ -113,7 +114,7 @@ impl Loads {
     }
 
     /// Whether a load depends on speed or time other than by linear damping.
-    pub fn are_called(&self) -> bool {
+    pub fn have_nonlinear_rates(&self) -> bool {
         !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())
     }
 

@@ -1,6 +1,5 @@
 //! Values of nonlinear loads at an instant, one by one and summed as crank torque and slider force.
 
-use super::Pose;
 use crate::scene::{Instant, Load, Variable};
 
 /// Torque on the crank and force on the slider at one instant.
@@ -26,13 +25,8 @@ impl LoadValue {
         self.torque.is_finite() && self.force.is_finite()
     }
 
-    /// Returns the generalized force Q = τ + F x', N m.
-    pub fn generalized(&self, pose: &Pose) -> f64 {
-        self.over(pose.dx)
-    }
-
-    /// Returns the generalized force where x' is `dx`, m/rad.
-    pub fn over(&self, dx: f64) -> f64 {
+    /// Returns the generalized force Q = τ + F x', N m, where x' is `dx`, m/rad.
+    pub fn generalized(&self, dx: f64) -> f64 {
         self.torque + self.force * dx
     }
 
@@ -47,13 +41,9 @@ impl LoadValue {
 
 /// Loads that are evaluated when asked for, each on the crank or on the slider.
 #[derive(Clone, Debug, Default)]
-pub(super) struct NonlinearLoads(Vec<(Load, bool)>);
+pub(super) struct NonlinearLoads(pub(super) Vec<(Load, bool)>);
 
 impl NonlinearLoads {
-    pub fn push(&mut self, load: &Load, on_slider: bool) {
-        self.0.push((load.clone(), on_slider));
-    }
-
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -89,8 +79,9 @@ impl NonlinearLoads {
     /// Returns the first load without a finite value.
     pub fn without_value(&self, now: &Instant) -> Option<&Load> {
         let mut loads = self.0.iter();
-        let found = loads.find(|(load, on_slider)| !single(load, *on_slider, now).is_finite());
-        found.map(|(load, _)| load)
+        let (load, _) =
+            loads.find(|(load, on_slider)| !single(load, *on_slider, now).is_finite())?;
+        Some(load)
     }
 
     /// Returns the sums of the magnitudes of loads that oppose motion, N m and N.
@@ -104,10 +95,6 @@ impl NonlinearLoads {
 
     pub fn loads(&self) -> impl Iterator<Item = &Load> {
         self.0.iter().map(|(load, _)| load)
-    }
-
-    pub fn list(&self) -> &[(Load, bool)] {
-        &self.0
     }
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::Serialize;
 
 use super::{Class, Limits, Linkage};
+use crate::numeric::angle::in_turn;
 
 /// Named position, or named range of crank angles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -24,14 +25,14 @@ pub struct NamedPosition {
 fn at(kind: &'static str, theta: f64, reason: &'static str) -> NamedPosition {
     NamedPosition {
         kind,
-        theta_rad: theta.rem_euclid(TAU) % TAU,
+        theta_rad: in_turn(theta),
         to_rad: None,
         reason,
     }
 }
 
 fn range(kind: &'static str, [from, to]: [f64; 2], reason: &'static str) -> NamedPosition {
-    let begin = from.rem_euclid(TAU) % TAU;
+    let begin = in_turn(from);
     NamedPosition {
         kind,
         theta_rad: begin,
@@ -77,20 +78,17 @@ impl Linkage {
             }
         }
         let reach = &limits.reach;
-        for [from, to] in reach {
-            for theta in [*from, *to] {
-                found.push(at(
-                    "rod-normal-to-guide",
-                    theta,
-                    "the rod stands normal to the guide: the crank cannot turn on, its force on the slider is all side thrust",
-                ));
-            }
+        for theta in reach.iter().flatten() {
+            found.push(at(
+                "rod-normal-to-guide",
+                *theta,
+                "the rod stands normal to the guide: the crank cannot turn on, its force on the slider is all side thrust",
+            ));
         }
         for (i, [_, to]) in reach.iter().enumerate() {
-            let next = match reach.get(i + 1) {
-                Some([from, _]) => *from,
-                None => reach[0][0] + TAU,
-            };
+            let next = reach
+                .get(i + 1)
+                .map_or(reach[0][0] + TAU, |[from, _]| *from);
             found.push(range(
                 "blocked",
                 [*to, next],
@@ -104,7 +102,7 @@ impl Linkage {
     /// Returns the crank angles, rad, at which the angle between crank and rod is 90°: |OP|² = r² + l².
     ///
     /// (l² − u²) cos²θ = u² sin²θ with u = e + r sin θ is quadratic in sin θ.
-    pub fn crank_normal_to_rod(&self) -> Vec<f64> {
+    fn crank_normal_to_rod(&self) -> Vec<f64> {
         let Linkage { r, l, e, s, .. } = *self;
         let squares = l * l + r * r;
         let discriminant = l * l * (squares - e * e);

@@ -1,5 +1,6 @@
 //! Joint, guide and shaking forces of a motion by the Newton-Euler equations, body by body.
 
+use super::plane::cross;
 use super::{
     Body, CurvePose, Equation, Link, Linkage, LoadValue, LooseRates, LooseState, Path, Pose,
 };
@@ -81,11 +82,8 @@ impl Reactor {
             linkage: Linkage::new(&scene.geometry),
             gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
             crank: Body {
-                on: Link::Crank,
-                mass: crank.mass,
-                along: crank.cg,
-                lateral: crank.cg_lateral,
                 inertia: crank.inertia,
+                ..Body::point(Link::Crank, crank.mass, crank.cg, crank.cg_lateral)
             },
             rod: Body::rod(scene).ok_or_else(|| {
                 Error::refused(
@@ -156,10 +154,7 @@ impl Reactor {
 
     fn accelerations(&self, place: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
         let squared = speed * speed;
-        let (crank, rod) = (
-            place.path(&self.linkage, &self.crank),
-            place.path(&self.linkage, &self.rod),
-        );
+        let [crank, rod] = [&self.crank, &self.rod].map(|body| place.path(&self.linkage, body));
         let second = |first: f64, second: f64| first * acceleration + second * squared;
         let of = |path: &Path| [0, 1].map(|i| second(path.dp[i], path.d2p[i]));
         Accelerations {
@@ -244,8 +239,4 @@ impl Reactor {
         let load = equation.loads().value(t, theta, omega, &pose);
         self.reactions(&pose, omega, alpha, &load)
     }
-}
-
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::linkage::SAME_LENGTHS;
 use super::{Class, CurvePose, Linkage};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
@@ -10,8 +11,8 @@ use crate::numeric::exact::sum3;
 /// Half angles of crank and rod of a double rocker or a change point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rocker {
-    pub(super) crank: Half,
-    pub(super) rod: Half,
+    pub(super) crank: HalfAngle,
+    pub(super) rod: HalfAngle,
     /// −1 mirrors the mechanism about the x axis, for e < 0; else 1.
     pub(super) mirror: f64,
     /// −1 where crank and rod, of equal length, lie on top of each other and the slider is at O; else 1.
@@ -20,7 +21,7 @@ pub(super) struct Rocker {
 
 /// Half angle a with sin a = root · (sine or cosine of q) and cos a > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Half {
+pub(super) struct HalfAngle {
     root: f64,
     /// 1 − root²; if zero, cos a takes the sign of the other function of q.
     rest: f64,
@@ -37,13 +38,13 @@ impl Rocker {
         let h = 0.5 * sum3(l, -e, r);
         let exact = class == Class::ChangePoint;
         let half = |length: f64, beside: f64| {
-            if exact && beside.abs() <= 8.0 * f64::EPSILON * (l + r) {
-                Half {
+            if exact && beside.abs() <= 2.0 * SAME_LENGTHS * (l + r) {
+                HalfAngle {
                     root: 1.0,
                     rest: 0.0,
                 }
             } else {
-                Half {
+                HalfAngle {
                     root: (h / length).sqrt(),
                     rest: beside / length,
                 }
@@ -149,7 +150,7 @@ struct Double {
     d2: f64,
 }
 
-impl Half {
+impl HalfAngle {
     fn cosine(&self, sin: f64, cos: f64) -> f64 {
         if self.rest == 0.0 {
             cos
@@ -184,20 +185,19 @@ impl Half {
 
     fn double(&self, sin: f64, cos: f64) -> Double {
         let (sine, cosine) = (self.root * sin, self.cosine(sin, cos));
-        if self.rest == 0.0 {
-            return Double {
-                sin: 2.0 * sine * cosine,
-                cos: 1.0 - 2.0 * sine * sine,
-                d1: 2.0,
-                d2: 0.0,
-            };
-        }
         let per = 1.0 / cosine;
+        let (d1, d2) = match self.rest {
+            0.0 => (2.0, 0.0),
+            rest => (
+                2.0 * self.root * cos * per,
+                -2.0 * sine * rest * per * per * per,
+            ),
+        };
         Double {
             sin: 2.0 * sine * cosine,
             cos: 1.0 - 2.0 * sine * sine,
-            d1: 2.0 * self.root * cos * per,
-            d2: -2.0 * sine * self.rest * per * per * per,
+            d1,
+            d2,
         }
     }
 }

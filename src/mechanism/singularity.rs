@@ -21,7 +21,7 @@ impl Equation {
     pub fn singularity(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Singularity> {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
-        if !terms.pose.exists() {
+        if !terms.pose.is_regular() {
             return Some(Singularity::Blocked);
         }
         let load = self.loads().value(t, theta, omega, &terms.pose);

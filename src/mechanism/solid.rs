@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 /// Plane shape, symmetric to both axes, as area and second moments about its centre.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shape {
     /// Area, m².
     pub area: f64,
@@ -54,11 +54,7 @@ impl Shape {
 
     /// Returns the shape inside an outline of points (m), counter-clockwise around the centre.
     pub fn polygon(outline: &[[f64; 2]]) -> Shape {
-        let mut shape = Shape {
-            area: 0.0,
-            along: 0.0,
-            across: 0.0,
-        };
+        let mut shape = Shape::default();
         for (i, [ax, ay]) in outline.iter().enumerate() {
             let [bx, by] = outline[(i + 1) % outline.len()];
             let cross = ax * by - bx * ay;

@@ -17,7 +17,7 @@ pub struct Statics {
 /// Values that do not exist are `None`: a slider force against a torque at a dead centre, and every value where the rod
 /// does not reach the guide or stands normal to it, or a load has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Balance {
+pub struct Equilibrium {
     /// Slider force (N) or crank torque (N m) of equilibrium beside the loads of the scene: without friction, and the
     /// least and the greatest that hold with friction.
     pub band: Option<Band>,
@@ -68,37 +68,37 @@ impl Statics {
     /// does: the band is F ± μ |N|, Ng (8) with both edges.
     ///
     /// Dry loads hold with any value up to their magnitudes.
-    pub fn slider_force(&self, theta: f64) -> Balance {
+    pub fn slider_force(&self, theta: f64) -> Equilibrium {
         let (terms, load) = self.at(theta);
-        let mut balance = self.force_beside(&terms, load, theta);
+        let mut found = self.force_beside(&terms, load, theta);
         if let Some(most) = self.dry(&terms, theta) {
             let ends = [-most.torque, most.torque].map(|torque| {
                 let dry = LoadValue { torque, force: 0.0 };
                 self.force_beside(&terms, load.plus(dry), theta).band
             });
-            balance.band = balance.band.map(|band| band.widened(ends, most.force));
+            found.band = found.band.map(|band| band.widened(ends, most.force));
         }
-        balance
+        found
     }
 
-    fn force_beside(&self, terms: &Terms, load: LoadValue, theta: f64) -> Balance {
+    fn force_beside(&self, terms: &Terms, load: LoadValue, theta: f64) -> Equilibrium {
         let pose = &terms.pose;
-        let mut balance = self.unknown(pose);
+        let mut found = self.unknown(pose);
         let linkage = self.equation.linkage();
-        if !pose.exists() || !load.is_finite() || dead_centre(linkage, pose, theta) {
-            return balance;
+        if !pose.is_regular() || !load.is_finite() || dead_centre(linkage, pose, theta) {
+            return found;
         }
         let whole = (terms.dv - load.torque) / pose.dx;
         let guide = self.guide(pose, load.torque, whole);
         let (force, friction) = (whole - load.force, self.friction * guide.abs());
-        balance.side_thrust = Some(0.0 - guide);
+        found.side_thrust = Some(0.0 - guide);
         let edge = |value: f64| value.is_finite().then_some(value + 0.0);
-        balance.band = edge(force).map(|value| Band {
+        found.band = edge(force).map(|value| Band {
             value,
             min: edge(force - friction),
             max: edge(force + friction),
         });
-        balance
+        found
     }
 
     /// Returns the crank torque (N m, counter-clockwise) that holds the scene in equilibrium, beside its loads:
@@ -109,28 +109,28 @@ impl Statics {
     /// holds a torque of any size; no edge is stated there.
     ///
     /// Dry loads hold with any value up to their magnitudes.
-    pub fn crank_torque(&self, theta: f64) -> Balance {
+    pub fn crank_torque(&self, theta: f64) -> Equilibrium {
         let (terms, load) = self.at(theta);
-        let mut balance = self.torque_beside(&terms, load);
+        let mut found = self.torque_beside(&terms, load);
         if let Some(most) = self.dry(&terms, theta) {
             let ends = [-most.force, most.force].map(|force| {
                 let dry = LoadValue { torque: 0.0, force };
                 self.torque_beside(&terms, load.plus(dry)).band
             });
-            balance.band = balance.band.map(|band| band.widened(ends, most.torque));
+            found.band = found.band.map(|band| band.widened(ends, most.torque));
         }
-        balance
+        found
     }
 
-    fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Balance {
+    fn torque_beside(&self, terms: &Terms, load: LoadValue) -> Equilibrium {
         let pose = &terms.pose;
-        let mut balance = self.unknown(pose);
-        if !pose.exists() || !load.is_finite() {
-            return balance;
+        let mut found = self.unknown(pose);
+        if !pose.is_regular() || !load.is_finite() {
+            return found;
         }
         let torque = |force: f64| terms.dv - force * pose.dx - load.torque + 0.0;
         let guide = |force: f64| self.guide(pose, load.torque, force);
-        balance.side_thrust = Some(0.0 - guide(load.force));
+        found.side_thrust = Some(0.0 - guide(load.force));
         // The guide force is affine in the force R along +x that reaches the rod: beside the weight it holds
         // R tan ψ, with sin ψ = −sin φ and cos ψ = s cos φ for the rod's turn angle ψ.
         let at_rest = guide(0.0);
@@ -139,13 +139,13 @@ impl Statics {
             let mu = sign * self.friction;
             (load.force + mu * at_rest) / (1.0 - mu * slope)
         };
-        let edges = (!balance.self_locking).then(|| [torque(edge(1.0)), torque(edge(-1.0))]);
-        balance.band = Some(Band {
+        let edges = (!found.self_locking).then(|| [torque(edge(1.0)), torque(edge(-1.0))]);
+        found.band = Some(Band {
             value: torque(load.force),
             min: edges.map(|[a, b]| a.min(b)),
             max: edges.map(|[a, b]| a.max(b)),
         });
-        balance
+        found
     }
 
     /// Returns the magnitudes with which dry loads hold; none without dry loads.
@@ -166,11 +166,11 @@ impl Statics {
         )
     }
 
-    fn unknown(&self, pose: &Pose) -> Balance {
-        Balance {
+    fn unknown(&self, pose: &Pose) -> Equilibrium {
+        Equilibrium {
             band: None,
             side_thrust: None,
-            self_locking: pose.exists()
+            self_locking: pose.is_regular()
                 && self.friction * pose.sin_phi.abs() >= pose.cos_phi
                 && self.friction > 0.0,
         }

@@ -1,5 +1,6 @@
 //! Derivatives of the driving torque at constant speed with respect to the lengths, in closed form.
 
+use super::plane::dot;
 use super::{Bodies, Body, Length, Link, Linkage, Path, Pose, PoseSlope, single};
 use crate::error::Error;
 use crate::scene::{Load, RodModel, Scene, Variables};
@@ -47,11 +48,11 @@ impl TorqueSlope {
         match &scene.rod {
             Some(rod) if rod.model == RodModel::TwoMass => {
                 // The rod's mass at the crank pin moves with the pin and is not fixed to the crank.
-                let on_crank = |body: &Body| body.on == Link::Crank;
-                if let Some(last) = found.weights.iter().rposition(on_crank) {
-                    let at_crank_pin = found.weights.remove(last).mass;
-                    found.two_mass = Some([rod.mass, rod.cg, at_crank_pin]);
+                let on_pin = Body::at_crank_pin(rod, &scene.geometry);
+                if let Some(index) = found.weights.iter().position(|body| *body == on_pin) {
+                    found.weights.remove(index);
                 }
+                found.two_mass = Some([rod.mass, rod.cg, on_pin.mass]);
             }
             Some(rod) if rod.model == RodModel::SpinOnly => found.spin_only = Some(rod.mass),
             _ => {}
@@ -87,14 +88,13 @@ impl TorqueSlope {
         let inertias = self.inertias.iter().map(|body| {
             let (mass, inertia) = (body.mass, body.inertia);
             let [path, change] = self.paths(body, pose, &slope);
-            let bilinear = |a: &Path, b: &Path| {
-                mass * (a.dp[0] * b.d2p[0] + a.dp[1] * b.d2p[1]) + inertia * a.dpsi * b.d2psi
-            };
+            let bilinear =
+                |a: &Path, b: &Path| mass * dot(a.dp, b.d2p) + inertia * a.dpsi * b.d2psi;
             squared * (bilinear(&change, &path) + bilinear(&path, &change))
         });
         let weights = self.weights.iter().map(|body| {
             let [_, change] = self.paths(body, pose, &slope);
-            -body.mass * (self.gravity[0] * change.dp[0] + self.gravity[1] * change.dp[1])
+            -body.mass * dot(self.gravity, change.dp)
         });
         let inertia: f64 = inertias.chain(weights).sum();
         let now = pose.instant(theta / omega, theta, omega);
@@ -145,10 +145,10 @@ impl TorqueSlope {
     /// Returns the effect of the lengths beside the motion of the bodies, N: masses and places of two point masses, and
     /// the place of a weight that is measured from the crank's end.
     fn moved_mass(&self, pose: &Pose, squared: f64, length: Length) -> f64 {
-        let [gx, gy] = self.gravity;
+        let gx = self.gravity[0];
         let crank = Path::on_crank(pose, 1.0, 0.0);
         // V' of a unit mass on the crank, per length along it.
-        let lift = -(gx * crank.dp[0] + gy * crank.dp[1]);
+        let lift = -dot(self.gravity, crank.dp);
         match (length, self.two_mass, self.spin_only) {
             (Length::Crank, Some([_, _, at_crank_pin]), _) => at_crank_pin * lift,
             (Length::Rod, Some([mass, cg, _]), _) => {

@@ -55,6 +55,11 @@ impl Angle {
     }
 }
 
+/// Reduces an angle, rad, to [0, 2π): the remainder of a small negative angle is rounded to 2π, which is 0.
+pub fn in_turn(theta: f64) -> f64 {
+    theta.rem_euclid(TAU) % TAU
+}
+
 /// Iterates over the angles of one turn, rad: from 0 to 2π inclusive, every `step`. A step that is a decimal number of
 /// degrees is converted as degrees: 90 degrees give the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
-use super::exact::two_sum;
+use super::exact::{two_product, two_sum};
 
 /// Number high + low, where low is at most half a unit in the last place of high.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,18 +18,6 @@ fn quick_sum(a: f64, b: f64) -> DoubleDouble {
         high,
         low: b - (high - a),
     }
-}
-
-/// Returns a product and its rounding error, from factors split into halves of 26 bits.
-fn product(a: f64, b: f64) -> (f64, f64) {
-    let split = |x: f64| {
-        let c = 134_217_729.0 * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
-    let ((a1, a2), (b1, b2)) = (split(a), split(b));
-    let p = a * b;
-    (p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2)
 }
 
 impl DoubleDouble {
@@ -57,7 +45,7 @@ impl DoubleDouble {
             return DoubleDouble::ZERO;
         }
         let root = self.high.sqrt();
-        let (high, low) = product(root, root);
+        let (high, low) = two_product(root, root);
         let rest = self - DoubleDouble { high, low };
         quick_sum(root, rest.high / (2.0 * root))
     }
@@ -105,7 +93,7 @@ impl<T: Into<DoubleDouble>> Mul<T> for DoubleDouble {
 
     fn mul(self, other: T) -> DoubleDouble {
         let other = other.into();
-        let (high, low) = product(self.high, other.high);
+        let (high, low) = two_product(self.high, other.high);
         quick_sum(high, low + (self.high * other.low + self.low * other.high))
     }
 }
@@ -127,5 +115,48 @@ impl<T: Into<DoubleDouble>> Div<T> for DoubleDouble {
 impl<T: Into<DoubleDouble>> AddAssign<T> for DoubleDouble {
     fn add_assign(&mut self, other: T) {
         *self = *self + other;
+    }
+}
+
+/// Operations that least squares needs of a number: one algorithm serves both precisions.
+pub trait Real:
+    Copy
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + From<f64>
+    + Into<DoubleDouble>
+{
+    /// Returns the nearest float.
+    fn value(self) -> f64;
+
+    /// Returns the square root of a number that is not negative.
+    fn root(self) -> Self;
+}
+
+impl Real for f64 {
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+}
+
+impl Real for DoubleDouble {
+    fn value(self) -> f64 {
+        DoubleDouble::value(self)
+    }
+
+    fn root(self) -> DoubleDouble {
+        // Rounding may have left a sum of squares below zero.
+        if self.value() <= 0.0 {
+            return DoubleDouble::ZERO;
+        }
+        self.sqrt()
     }
 }

@@ -10,10 +10,17 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
-/// Returns a·b as a rounded product and its rounding error.
+/// Returns a·b as a rounded product and its rounding error, from factors split into halves of 26 bits (Dekker, Numer.
+/// Math. 18 (1971) 224).
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let product = a * b;
-    (product, a.mul_add(b, -product))
+    let split = |x: f64| {
+        let c = 134_217_729.0 * x;
+        let high = c - (c - x);
+        (high, x - high)
+    };
+    let ((a1, a2), (b1, b2)) = (split(a), split(b));
+    let p = a * b;
+    (p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2)
 }
 
 /// Returns a + b + c with one rounding at the end, also where the terms cancel.

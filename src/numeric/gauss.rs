@@ -1,6 +1,7 @@
 //! Gauss-Legendre quadrature: nodes and weights, composite and adaptive rules.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Returns node and weight number `i` (from 0) of the rule with `n` points on [0, 1], by Newton's method on the
 /// Legendre polynomial (Abramowitz and Stegun, 25.4.29 and 22.16.6).
@@ -14,7 +15,11 @@ pub fn legendre(n: u32, i: usize) -> (f64, f64) {
             (p, before) = (((2.0 * k - 1.0) * x * p - (k - 1.0) * before) / k, p);
         }
         slope = f64::from(n) * (x * p - before) / (x * x - 1.0);
-        x -= p / slope;
+        let next = x - p / slope;
+        if next == x {
+            break;
+        }
+        x = next;
     }
     (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
 }
@@ -48,16 +53,13 @@ pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64
     (0..panels).map(panel).sum::<f64>() * h / 18.0
 }
 
-/// Returns nodes and weights of the rule with 14 points on [0, 1].
-pub fn rule_14() -> &'static [(f64, f64); 14] {
-    static RULE: std::sync::OnceLock<[(f64, f64); 14]> = std::sync::OnceLock::new();
-    RULE.get_or_init(|| std::array::from_fn(|i| legendre(14, i)))
-}
+/// Nodes and weights of the rule with 14 points on [0, 1].
+pub static RULE_14: LazyLock<[(f64, f64); 14]> = LazyLock::new(rule);
+/// Nodes and weights of the rule with 18 points on [0, 1].
+pub static RULE_18: LazyLock<[(f64, f64); 18]> = LazyLock::new(rule);
 
-/// Returns nodes and weights of the rule with 18 points on [0, 1].
-pub fn rule_18() -> &'static [(f64, f64); 18] {
-    static RULE: std::sync::OnceLock<[(f64, f64); 18]> = std::sync::OnceLock::new();
-    RULE.get_or_init(|| std::array::from_fn(|i| legendre(18, i)))
+fn rule<const N: usize>() -> [(f64, f64); N] {
+    std::array::from_fn(|i| legendre(N as u32, i))
 }
 
 /// Integrates f over [from, to], bisecting where the halves together differ from the whole by more than `tolerance` and
@@ -65,16 +67,16 @@ pub fn rule_18() -> &'static [(f64, f64); 18] {
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
     let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
-        let halves = [Sum::over(f, a, middle), Sum::over(f, middle, b)];
-        let [left, right] = [halves[0].value, halves[1].value];
-        let rounding = halves[0].rounding + halves[1].rounding;
+        let (left, left_rounding) = by_rule(f, a, middle);
+        let (right, right_rounding) = by_rule(f, middle, b);
+        let rounding = left_rounding + right_rounding;
         Part {
             ends: [a, middle, b],
             halves: [left, right],
             excess: (left + right - whole).abs() - tolerance.max(rounding),
         }
     };
-    let mut parts = vec![part(from, to, Sum::over(f, from, to).value)];
+    let mut parts = vec![part(from, to, by_rule(f, from, to).0)];
     for _ in 0..1000 {
         let open = parts.iter().enumerate();
         let open = open.filter(|(_, part)| part.excess > 0.0 && part.excess.is_finite());
@@ -101,28 +103,19 @@ struct Part {
     excess: f64,
 }
 
-/// Integral by one application of the rule, and its rounding error.
-struct Sum {
-    value: f64,
-    rounding: f64,
-}
-
-impl Sum {
-    fn over(f: &dyn Fn(f64) -> f64, a: f64, b: f64) -> Sum {
-        let (mut value, mut size) = (0.0, 0.0);
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (x, w) in rule_14() {
-            let y = f(a + x * (b - a));
-            value += w * y;
-            size += w * y.abs();
-            (least, most) = (least.min(y), most.max(y));
-        }
-        let length = b - a;
-        // Rounding of the argument moves f along its slope, about (most − least)/length.
-        let of_argument = 2.0 * a.abs().max(b.abs()) * (most - least);
-        Sum {
-            value: length * value,
-            rounding: f64::EPSILON * (8.0 * size * length.abs() + of_argument),
-        }
+/// Integrates f over [a, b] by the rule with 14 points; returns the integral and its rounding error.
+fn by_rule(f: &dyn Fn(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
+    let (mut value, mut size) = (0.0, 0.0);
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for (x, w) in RULE_14.iter() {
+        let y = f(a + x * (b - a));
+        value += w * y;
+        size += w * y.abs();
+        (least, most) = (least.min(y), most.max(y));
     }
+    let length = b - a;
+    // Rounding of the argument moves f along its slope, about (most − least)/length.
+    let of_argument = 2.0 * a.abs().max(b.abs()) * (most - least);
+    let rounding = f64::EPSILON * (8.0 * size * length.abs() + of_argument);
+    (length * value, rounding)
 }

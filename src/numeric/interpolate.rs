@@ -17,33 +17,37 @@ pub enum Interpolation {
 
 /// Interpolating curve through given points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct TableInterpolant {
     x: Vec<f64>,
     y: Vec<f64>,
     slope: Option<Vec<f64>>,
     period: Option<f64>,
     /// Intended period minus the float of the period.
-    lacks: f64,
+    period_remainder: f64,
     spacing: f64,
 }
 
-impl Curve {
+impl TableInterpolant {
     /// Builds the curve through the points (x, y); x must rise strictly and have at least two values. With a period the
     /// last point must lie less than one period after the first.
-    pub fn new(x: Vec<f64>, y: Vec<f64>, kind: Interpolation, period: Option<f64>) -> Curve {
-        let (mut x, mut y) = (x, y);
+    pub fn new(
+        mut x: Vec<f64>,
+        mut y: Vec<f64>,
+        kind: Interpolation,
+        period: Option<f64>,
+    ) -> TableInterpolant {
         if let Some(period) = period {
             x.push(x[0] + period);
             y.push(y[0]);
         }
         let slope = (kind == Interpolation::Pchip).then(|| slopes(&x, &y, period.is_some()));
         let spacing = (x[x.len() - 1] - x[0]) / (x.len() - 1) as f64;
-        Curve {
+        TableInterpolant {
             x,
             y,
             slope,
             period,
-            lacks: period.map_or(0.0, lacks),
+            period_remainder: period.map_or(0.0, period_remainder),
             spacing,
         }
     }
@@ -111,7 +115,7 @@ impl Curve {
     pub fn value(&self, at: f64) -> f64 {
         let (low, high) = self.range();
         let at = match self.period {
-            Some(period) => low + reduced(at - low, period, self.lacks),
+            Some(period) => low + reduced(at - low, period, self.period_remainder),
             None if (low..=high).contains(&at) => at,
             None => return f64::NAN,
         };
@@ -142,7 +146,7 @@ impl Curve {
             let all = self.y.iter().map(|y| Interval::point(*y));
             let inside = self.period.is_some() || low <= from && to <= high;
             return match all.reduce(Interval::hull) {
-                Some(all) if inside => Enclosed::jumps(all),
+                Some(all) if inside => Enclosed::not_analytic(all),
                 _ => Enclosed::UNKNOWN,
             };
         }
@@ -161,7 +165,7 @@ impl Curve {
                 plane: Some(Rectangle::point(real.middle())),
             }
         } else {
-            Enclosed::jumps(real)
+            Enclosed::not_analytic(real)
         }
     }
 
@@ -176,18 +180,18 @@ impl Curve {
     }
 }
 
-/// Reduces `at` modulo period to [0, period]; `lacks`: [`lacks`] of the period.
-fn reduced(at: f64, period: f64, lacks: f64) -> f64 {
+/// Reduces `at` modulo period to [0, period]; `period_remainder`: [`period_remainder`] of the period.
+fn reduced(at: f64, period: f64, period_remainder: f64) -> f64 {
     let count = (at / period).floor();
     if count == 0.0 {
         return at;
     }
     // Rounded once: a separate product would add one rounding error to all angles of a period.
-    ((-count).mul_add(period, at) - count * lacks).clamp(0.0, period)
+    ((-count).mul_add(period, at) - count * period_remainder).clamp(0.0, period)
 }
 
 /// Returns the intended period minus its float: turns of 2π, or one of up to 720 equal parts of a turn; else zero.
-pub fn lacks(period: f64) -> f64 {
+pub fn period_remainder(period: f64) -> f64 {
     const MOST_PARTS: f64 = 720.0;
     let turns = (period / TAU).round().max(1.0);
     let parts = (TAU / period).round().max(1.0);
@@ -213,15 +217,10 @@ fn slopes(x: &[f64], y: &[f64], periodic: bool) -> Vec<f64> {
         let (w1, w2) = (2.0 * h[right] + h[left], h[right] + 2.0 * h[left]);
         (w1 + w2) / (w1 / rise[left] + w2 / rise[right])
     };
-    let mut slope: Vec<f64> = (0..n)
-        .map(|i| {
-            if i == 0 || i == n - 1 {
-                0.0
-            } else {
-                inner(i - 1, i)
-            }
-        })
-        .collect();
+    let mut slope = vec![0.0; n];
+    for i in 1..n - 1 {
+        slope[i] = inner(i - 1, i);
+    }
     if periodic {
         slope[0] = inner(n - 2, 0);
         slope[n - 1] = slope[0];

@@ -20,7 +20,6 @@ pub mod orthogonal;
 pub mod parallel;
 pub mod polynomial_fit;
 pub mod powers;
-pub mod real;
 pub mod root;
 pub mod stop;
 pub mod student;

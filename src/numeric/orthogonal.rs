@@ -3,7 +3,7 @@
 //! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) generates the columns of Q in the QR factorization of
 //! the matrix of powers, one after the other, in time and memory linear in the points.
 
-use super::real::Real;
+use super::double_double::Real;
 use super::{LANES, parallel};
 
 /// Expansion in orthonormal polynomials q_j of s = (t − middle)/half:
@@ -160,7 +160,7 @@ fn advance<T: Real>(
 
 impl<T: Copy> Expansion<T> {
     /// Converts the expansion to another number type.
-    pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {
+    pub fn convert<S>(&self, number: impl Fn(T) -> S) -> Expansion<S> {
         let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
         Expansion {
             middle: self.middle,

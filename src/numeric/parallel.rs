@@ -5,11 +5,6 @@ use rayon::prelude::*;
 /// Least number of entries of a list that a thread makes at a time.
 const ENTRIES: usize = 1 << 12;
 
-/// Runs each job on any free core.
-pub fn each<J: Send>(jobs: impl Iterator<Item = J>, work: impl Fn(J) + Sync) {
-    map(jobs, work);
-}
-
 /// Returns the result of each job, in the order of the jobs.
 pub fn map<J: Send, R: Send>(
     jobs: impl Iterator<Item = J>,

@@ -1,9 +1,8 @@
 //! Polynomials by weighted least squares on Forsythe's orthogonal basis, of a given degree or the likeliest (Schwarz).
 
-use super::double_double::DoubleDouble;
+use super::double_double::{DoubleDouble, Real};
 use super::orthogonal::{self, Expansion};
 use super::powers::Powers;
-use super::real::Real;
 
 /// Equations `weight`·p(t) = `target` + noise of equal standard deviation.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +52,7 @@ pub struct PolynomialFit {
 }
 
 /// Highest degree that is chosen from the samples.
-pub const HIGHEST_CHOSEN: usize = 12;
+const HIGHEST_CHOSEN: usize = 12;
 
 /// Largest number of equations that are solved in double-double arithmetic.
 const MOST_IN_DOUBLE: usize = 10_000;
@@ -70,16 +69,15 @@ impl PolynomialFit {
         degree: Option<usize>,
     ) -> Result<PolynomialFit, TooFewArguments> {
         if equations.t.len() <= MOST_IN_DOUBLE {
-            PolynomialFit::with::<DoubleDouble>(equations, degree, |x| x)
+            PolynomialFit::with::<DoubleDouble>(equations, degree)
         } else {
-            PolynomialFit::with::<f64>(equations, degree, DoubleDouble::from)
+            PolynomialFit::with::<f64>(equations, degree)
         }
     }
 
     fn with<T: Real>(
         equations: &Equations<'_>,
         degree: Option<usize>,
-        extended: impl Fn(T) -> DoubleDouble,
     ) -> Result<PolynomialFit, TooFewArguments> {
         let Equations {
             t,
@@ -109,13 +107,13 @@ impl PolynomialFit {
         found.truncate(degree);
         let free = (rows - degree - 1) as f64;
         let sigma = (squares[degree] / free).sqrt().max(floor);
-        let powers = Powers::new(&found.convert(&extended));
+        let powers = Powers::new(&found.convert(T::into));
         Ok(PolynomialFit {
             coefficients: powers.coefficients,
             standard_errors: powers.errors.iter().map(|e| e * sigma).collect(),
             sigma,
             condition: powers.condition,
-            basis: found.convert(&|x: T| x.value()),
+            basis: found.convert(T::value),
         })
     }
 

@@ -1,8 +1,7 @@
 //! Conversion of an orthogonal expansion to powers of its argument, with standard errors and condition number.
 
-use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::double_double::{DoubleDouble, Real};
 use crate::numeric::orthogonal::Expansion;
-use crate::numeric::real::Real;
 
 /// Polynomial in powers 1, t, t², ...
 #[derive(Clone, Debug, PartialEq)]

@@ -239,7 +239,7 @@ fn jams(scene: &Scene) -> bool {
         .friction()
         .map_or(0.0, |friction| friction.coefficient);
     let theta = |i: u32| TAU * f64::from(i) / f64::from(ANGLES_OF_TURN);
-    (0..ANGLES_OF_TURN).any(|i| guide.across(theta(i)).normal().grip(mu).is_none())
+    (0..ANGLES_OF_TURN).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
 }
 
 /// Returns the first load whose corners are not known as crank angles, and why.

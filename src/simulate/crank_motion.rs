@@ -3,7 +3,7 @@
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 use crate::scene::Variable;
 
 pub(super) struct CrankMotion<'a>(pub &'a Equation);
@@ -33,10 +33,10 @@ impl Motion for CrankMotion<'_> {
         self.0.loads().have_detail()
     }
 
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
         let loads = self.0.loads();
-        let seen = self.0.linkage().seen(reach, loads.meet_slider());
-        let force = loads.detail(&seen, seen.arms(), ellipse);
+        let seen = self.0.linkage().enclosed_state(reach, loads.meet_slider());
+        let force = loads.detail(&seen, seen.unit_load_effects(), ellipse);
         force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
     }
 

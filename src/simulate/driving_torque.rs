@@ -50,7 +50,7 @@ impl Drive<'_> {
             speed: self.speed,
         };
         NoRange::NotFinite {
-            at_limit: !self.equation().linkage().pose(angle.rest).exists(),
+            at_limit: !self.equation().linkage().pose(angle.rest).is_regular(),
             load: self.maker.without_value(at).map(Box::new),
             at,
         }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use crate::engine::angle::{State, Table};
 use crate::mechanism::{
-    Arms, Curve, CurveEquation, Equation, GuideForces, LoadValue, Loads, Normal,
+    Curve, CurveEquation, Equation, GuideForces, LoadValue, Loads, Normal, UnitLoadEffects,
 };
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
@@ -131,12 +131,12 @@ impl GuideFriction {
 
     /// Computes the largest crank torque of friction for a unit load, N m, at the ends and the middle of a range of
     /// angles (rad): the nodes of a panel show the effect of the linkage between them.
-    pub fn arms(&self, angle: Interval) -> Arms {
+    pub fn unit_load_effects(&self, angle: Interval) -> UnitLoadEffects {
         let at = |theta: f64| {
-            let normal = self.equation.across(theta).normal();
+            let normal = self.equation.terms(theta).normal();
             let grip = |c| normal.grip(c).unwrap_or(f64::INFINITY).abs();
             let most = grip(self.mu).max(grip(-self.mu));
-            Arms {
+            UnitLoadEffects {
                 torque: normal.torque * most,
                 force: normal.force * most,
             }
@@ -144,7 +144,7 @@ impl GuideFriction {
         [angle.low, angle.middle(), angle.high]
             .map(at)
             .into_iter()
-            .fold(Arms::default(), Arms::larger)
+            .fold(UnitLoadEffects::default(), UnitLoadEffects::larger)
     }
 
     /// Returns θ̈ (rad/s²) and the forces of the guide; zeros at rest.

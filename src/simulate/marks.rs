@@ -4,10 +4,10 @@ use std::cell::RefCell;
 
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Interval, Wanted, partition};
+use crate::numeric::enclosure::{Interval, PanelResolution, partition};
 
 /// Panels begin with 25 nodes and end where the series have decayed to rounding.
-const WANTED: Wanted = Wanted {
+const RESOLUTION: PanelResolution = PanelResolution {
     nodes: 24,
     part: 1e-14,
 };
@@ -43,7 +43,7 @@ impl<'a> Marks<'a> {
         // Energy of the start and work of its forces over a radian, J: unit beside which small details are negligible.
         let unit = self.equation.kinetic_energy(start.rest, speed)
             + self.equation.size_of_terms(0.0, start, speed);
-        partition(detail, Interval::new(low, high), WANTED, unit)
+        partition(detail, Interval::new(low, high), RESOLUTION, unit)
     }
 
     /// Returns the first mark after `from` on the way to `to`, in either direction, rad.

@@ -8,7 +8,7 @@ use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ROUNDED;
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 use crate::scene::Variable;
 
 /// Indices of the event functions, in the order of their values.
@@ -109,13 +109,20 @@ impl Motion for InPhase<'_> {
         matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().have_detail()
     }
 
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
         let Phase::Sliding { c, .. } = self.phase else {
             return Detail::NONE;
         };
         let loads = self.equation.loads();
-        let seen = self.equation.curve().seen(reach, loads.meet_slider());
-        loads.detail(&seen, self.equation.arms(reach.angle, c), ellipse)
+        let seen = self
+            .equation
+            .curve()
+            .enclosed_state(reach, loads.meet_slider());
+        loads.detail(
+            &seen,
+            self.equation.unit_load_effects(reach.angle, c),
+            ellipse,
+        )
     }
 
     fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::kinematics::Located;
-use crate::mechanism::{Balance, Limits, NamedPosition, Statics};
+use crate::mechanism::{Equilibrium, Limits, NamedPosition, Statics};
 use crate::numeric::{angle, difference, root};
 use crate::scene::{Load, Scene, Variables};
 
@@ -55,7 +55,7 @@ pub struct StaticsRow {
     /// Crank angle, rad.
     pub theta: f64,
     /// Force or torque, side thrust, self-locking.
-    pub balance: Balance,
+    pub balance: Equilibrium,
     /// Transmission angle, rad; not finite where the rod does not reach the guide.
     pub transmission: f64,
     /// Velocity of the slider over that of the crank pin, |x'|/r (Ng (A3)).
@@ -118,8 +118,9 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         warnings.push("the clearance of the scene plays no part in the equilibrium".to_owned());
     }
     let equation = statics.equation();
-    let without_value =
-        |theta: f64| linkage.pose(theta).exists() && !equation.load(0.0, theta, 0.0).is_finite();
+    let without_value = |theta: f64| {
+        linkage.pose(theta).is_regular() && !equation.load(0.0, theta, 0.0).is_finite()
+    };
     let grid = linkage.turn_grid(false).into_iter();
     if grid.map(|theta| theta.rem_euclid(TAU)).any(without_value) {
         warnings.push(
@@ -151,7 +152,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
 }
 
 /// Returns the edge of the band nearer to zero; none if zero lies in the band, where friction alone holds.
-fn nearer_edge(balance: &Balance) -> Option<f64> {
+fn nearer_edge(balance: &Equilibrium) -> Option<f64> {
     let band = balance.band?;
     let (min, max) = (band.min?, band.max?);
     match (min > 0.0, max < 0.0) {
@@ -184,7 +185,7 @@ impl StaticAnalysis {
         angle::turn(step).map(|theta| self.row(theta))
     }
 
-    fn balance(&self, theta: f64) -> Balance {
+    fn balance(&self, theta: f64) -> Equilibrium {
         if self.seek_torque {
             self.statics.crank_torque(theta)
         } else {
@@ -193,7 +194,7 @@ impl StaticAnalysis {
     }
 
     /// Locates the least magnitudes of a value over the turn from 0 to 360 degrees; loads may differ in the next turn.
-    fn least_of(&self, value: impl Fn(&Balance) -> Option<f64>) -> Vec<Located> {
+    fn least_of(&self, value: impl Fn(&Equilibrium) -> Option<f64>) -> Vec<Located> {
         let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
         let mut grid = self.statics.equation().linkage().turn_grid(false);
         grid.push(grid[0] + TAU + (grid[1] - grid[0]));
@@ -215,7 +216,7 @@ impl StaticAnalysis {
                 };
                 let located = Located {
                     value,
-                    theta_rad: theta.rem_euclid(TAU) % TAU,
+                    theta_rad: angle::in_turn(theta),
                 };
                 located.value.is_finite().then_some(located)
             })

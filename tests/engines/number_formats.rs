@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use crate::support::exact::SinCos;
 use slider_crank::numeric::angle::TAU_REST;
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::numeric::interpolate::{Curve, Interpolation, lacks};
+use slider_crank::numeric::interpolate::{Interpolation, TableInterpolant, period_remainder};
 
 /// Reference values of an independent implementation (scipy.interpolate.PchipInterpolator).
 #[test]
 fn pchip_matches_published_implementation() {
-    let curve = Curve::new(
+    let curve = TableInterpolant::new(
         vec![0.0, 1.0, 2.0, 4.0, 5.0],
         vec![0.0, 1.0, 4.0, 3.0, 3.5],
         Interpolation::Pchip,
@@ -36,15 +36,18 @@ const PCHIP_REFERENCE: &[(f64, f64)] = &[
 /// 2π/3 minus its float, from 40 digits of π; a period that is not a fraction of a turn is kept as it is.
 #[test]
 fn what_the_float_of_a_period_lacks() {
-    assert_eq!(lacks(TAU), TAU_REST);
-    assert_eq!(lacks(2.0 * TAU), 2.0 * TAU_REST);
-    assert_eq!(lacks(0.5 * TAU), 0.5 * TAU_REST);
-    let third = lacks(2.0943951023931953);
+    assert_eq!(period_remainder(TAU), TAU_REST);
+    assert_eq!(period_remainder(2.0 * TAU), 2.0 * TAU_REST);
+    assert_eq!(period_remainder(0.5 * TAU), 0.5 * TAU_REST);
+    let third = period_remainder(2.0943951023931953);
     assert!(
         (third - 2.296_728_565_598_444e-16).abs() < 1e-30,
         "{third:e}"
     );
-    assert_eq!((lacks(4.269881), lacks(0.1)), (0.0, 0.0));
+    assert_eq!(
+        (period_remainder(4.269881), period_remainder(0.1)),
+        (0.0, 0.0)
+    );
 }
 
 /// Triangle wave, compared with integer multiples of 2⁻⁵⁰.
@@ -52,7 +55,7 @@ fn what_the_float_of_a_period_lacks() {
 fn periods_are_taken_off_without_rounding() {
     let unit = 2f64.powi(-50);
     let period = 4807406341574107u64;
-    let curve = Curve::new(
+    let curve = TableInterpolant::new(
         vec![0.0, period as f64 * unit * 0.5],
         vec![0.0, period as f64 * unit * 0.5],
         Interpolation::Linear,
@@ -75,7 +78,7 @@ fn a_periodic_curve_closes_smoothly() {
     let n = 24;
     let x: Vec<f64> = (0..n).map(|i| TAU * f64::from(i) / f64::from(n)).collect();
     let y: Vec<f64> = x.iter().map(|x| x.sin()).collect();
-    let curve = Curve::new(x, y, Interpolation::Pchip, Some(TAU));
+    let curve = TableInterpolant::new(x, y, Interpolation::Pchip, Some(TAU));
     let slope = |at: f64| (curve.value(at + 1e-7) - curve.value(at - 1e-7)) / 2e-7;
     assert!((curve.value(1.0) - curve.value(1.0 + 40.0 * TAU)).abs() < 1e-13);
     assert!((curve.value(1.0) - curve.value(1.0 - 3.0 * TAU)).abs() < 1e-14);

@@ -347,13 +347,13 @@ fn check_normals(case: &Case, tolerance: f64) {
     let equation = Equation::new(scene);
     let one_by_one = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
     let r = equation.linkage().r;
-    let mass = scene.slider.map_or(0.0, |slider| slider.mass)
-        + one_by_one.across(case.theta).m / r.powi(2);
+    let mass =
+        scene.slider.map_or(0.0, |slider| slider.mass) + one_by_one.terms(case.theta).m / r.powi(2);
     let weight = mass * scene.gravity.map_or(0.0, |gravity| gravity.acceleration);
     let angles: [f64; 7] = std::array::from_fn(|i| case.theta + 0.9 * i as f64);
     let (_, normals) = equation.first_guided(&angles, angles.len());
     for (theta, found) in angles.iter().zip(normals) {
-        let expected = one_by_one.across(*theta).normal();
+        let expected = one_by_one.terms(*theta).normal();
         let near = |what, found: f64, expected: f64, size: f64| {
             close(what, found, expected, size + expected.abs(), tolerance);
         };

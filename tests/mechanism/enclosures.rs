@@ -2,7 +2,7 @@
 
 use slider_crank::mechanism::{Class, Curve, Limits, Linkage};
 use slider_crank::numeric::angle::Angle;
-use slider_crank::numeric::enclosure::{Interval, Reach};
+use slider_crank::numeric::enclosure::{Interval, MotionPiece};
 use slider_crank::scene::{Branch, Geometry};
 
 /// Crank, rod, offset (m) and start angle (rad) for each kind of curve.
@@ -35,12 +35,12 @@ fn every_position_lies_in_its_enclosure() {
                 let low = -7.0 + 0.07 * f64::from(k);
                 let width = 2.0f64.powi(-(k % 12));
                 let q = Interval::new(low, low + width);
-                let reach = Reach {
+                let reach = MotionPiece {
                     t: Interval::point(0.0),
                     angle: q,
                     speed: Interval::point(1.0),
                 };
-                let seen = curve.seen(&reach, true);
+                let seen = curve.enclosed_state(&reach, true);
                 for part in 0..=20 {
                     let q = low + width * f64::from(part) / 20.0;
                     let place = curve.place(q);

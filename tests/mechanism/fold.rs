@@ -35,19 +35,19 @@ fn check(found: &InversePosition, theta: f64, off: impl Fn(f64) -> Option<f64>) 
 fn read_back(g: &Geometry, theta: f64) {
     let linkage = Linkage::new(g);
     let pose = linkage.pose(theta);
-    if !pose.exists() {
+    if !pose.is_regular() {
         return;
     }
     let size = g.crank + g.rod + g.offset.abs();
     check(&linkage.angles_of_x(pose.x), theta, |found| {
         let there = linkage.pose(found);
-        there.exists().then(|| (there.x - pose.x).abs() / size)
+        there.is_regular().then(|| (there.x - pose.x).abs() / size)
     });
     assert!(linkage.excess_of_x(pose.x) < 1e-12 * size);
     let gamma = |theta: f64| {
         let there = linkage.pose(theta);
         let signed = linkage.crank_pin_angle(theta, &there).0;
-        there.exists().then(|| turned_back(signed).abs())
+        there.is_regular().then(|| turned_back(signed).abs())
     };
     let Some(value) = gamma(theta) else { return };
     check(&linkage.angles_of_gamma(value), theta, |found| {

@@ -71,7 +71,7 @@ proptest! {
     #[test]
     fn where_the_rod_does_not_reach_there_is_no_position(g in any_class(), theta in angle()) {
         let reached = (g.offset + g.crank * theta.sin()).abs() < g.rod;
-        prop_assert_eq!(Linkage::new(&g).pose(theta).exists(), reached);
+        prop_assert_eq!(Linkage::new(&g).pose(theta).is_regular(), reached);
     }
 
     #[test]

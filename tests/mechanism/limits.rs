@@ -74,7 +74,7 @@ proptest! {
             close("|e + r sin theta|", lift(*end), 0.0, g.crank + g.rod, 2e-15);
         }
         for [from, to] in &reach {
-            prop_assert!(linkage.pose(0.5 * (from + to)).exists());
+            prop_assert!(linkage.pose(0.5 * (from + to)).is_regular());
         }
     }
 

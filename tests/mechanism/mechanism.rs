@@ -89,7 +89,7 @@ proptest! {
         let q = run.equation.generalized_force(&run.terms(), omega, forward);
         close("generalized force", q, run.torque + run.force * run.dx, size, 1e-14);
         let load = run.equation.load(t, theta, omega);
-        close("load", load.generalized(&run.terms().pose), q, size, 1e-14);
+        close("load", load.generalized(run.terms().pose.dx), q, size, 1e-14);
         close("torque", load.torque, run.torque, size, 1e-14);
         close("driving torque of free motion", run.equation.driving_torque(t, theta, omega, forward), 0.0, size, 1e-14);
 

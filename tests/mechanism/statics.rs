@@ -112,7 +112,7 @@ proptest! {
                 "rod-normal-to-guide" => prop_assert!((pose.sin_phi.abs() - 1.0).abs() < 1e-12),
                 "blocked" => {
                     let middle = 0.5 * (position.theta_rad + position.to_rad.unwrap());
-                    prop_assert!(!linkage.pose(middle).exists());
+                    prop_assert!(!linkage.pose(middle).is_regular());
                 }
                 other => prop_assert!(false, "{}", other),
             }
@@ -125,9 +125,9 @@ proptest! {
                 (theta - range.theta_rad).rem_euclid(TAU) <= range.to_rad.unwrap() - range.theta_rad
             });
             let excess = mu * pose.sin_phi.abs() / pose.cos_phi - 1.0;
-            if pose.exists() && excess.abs() > 1e-9 {
+            if pose.is_regular() && excess.abs() > 1e-9 {
                 prop_assert_eq!(inside, excess > 0.0, "{} {}", theta, excess);
-            } else if !pose.exists() {
+            } else if !pose.is_regular() {
                 prop_assert!(!inside);
             }
         }

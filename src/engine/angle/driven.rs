@@ -6,7 +6,7 @@ use super::Table;
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 
 /// State of the crank at a tabulated position.
 #[derive(Clone, Copy)]
@@ -56,7 +56,7 @@ pub trait Driven {
     fn has_detail(&self) -> bool;
 
     /// Returns the variation of their generalized force, N m, on a piece and in its Bernstein ellipse, ρ = `ellipse`.
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail;
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail;
 
     /// Returns the contribution of the driven loads to the switch.
     fn drive_switch(&self, at: &State<'_, Self::Place>) -> f64;

@@ -7,7 +7,7 @@ use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
-use crate::numeric::enclosure::{Detail, Interval, Reach, ellipses};
+use crate::numeric::enclosure::{Detail, Interval, MotionPiece, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Motion on a solved panel.
@@ -72,7 +72,7 @@ pub(super) fn at_speeds<D: Driven>(
     let points = &panel.rule.points()[..=panel.rule.degree()];
     points.iter().all(|x| {
         let angle = Angle::new(panel.turns, panel.piece.angle(*x));
-        let reach = Reach {
+        let reach = MotionPiece {
             t: Interval::default(),
             angle: Interval::point(angle.radians()),
             speed,
@@ -110,7 +110,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
             .fold(f64::INFINITY, |least: f64, slope| least.min(*slope));
         // A rotating crank is slower everywhere than twice the largest speed at the points.
         let low = slowness.low.max(0.5 * least);
-        let reach = Reach {
+        let reach = MotionPiece {
             t: Interval::between(self.time(from), self.time(to)),
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),

@@ -107,7 +107,7 @@ impl EulerMaclaurinCell {
             each.sum()
         } else {
             let (from, to) = (self.x(0.0), self.x(turns));
-            let mean: f64 = gauss::rule_14()
+            let mean: f64 = gauss::RULE_14
                 .iter()
                 .map(|(u, weight)| weight * self.difference.value(from + u * (to - from)))
                 .sum();

@@ -61,7 +61,7 @@ impl Energy<'_> {
     /// Computes ∫ F u du over [0, 1] between the turning end (u = 0) and x (u = 1), times the direction: there K = ½
     /// span (1 ± x)² times this, without cancellation. Gauss-Legendre with 18 points is exact for the series.
     pub fn mean_force(&self, x: f64) -> f64 {
-        let sum: f64 = gauss::rule_18()
+        let sum: f64 = gauss::RULE_18
             .iter()
             .map(|(u, weight)| {
                 let at = match self.piece.turning {

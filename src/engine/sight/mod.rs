@@ -4,7 +4,7 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Detail, ellipses, shown};
+use crate::numeric::enclosure::{Detail, ellipses, resolved};
 
 pub use steps::{OnStep, hides};
 
@@ -87,7 +87,7 @@ impl NodeCriterion {
     }
 
     fn nodes_for(&self, detail: impl Fn(f64) -> Detail) -> (Detail, Option<usize>) {
-        shown(detail, self.ellipses, self.allowed, self.nodes)
+        resolved(detail, self.ellipses, self.allowed, self.nodes)
     }
 
     /// True if the nodes resolve a force whose detail is given as a function of the ellipse parameter.

@@ -3,7 +3,7 @@
 use super::{Hidden, Interpolant, NodeCriterion, hidden};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
-use crate::numeric::enclosure::{Detail, Interval, Reach};
+use crate::numeric::enclosure::{Detail, Interval, MotionPiece};
 use crate::numeric::gauss::legendre_series;
 
 /// Motion on a step.
@@ -64,7 +64,8 @@ impl Interpolant for OnStep<'_> {
             angle = angle.widened(speed.largest() * aside);
         }
         let t = Interval::new(begin, end);
-        self.motion.detail(&Reach { t, angle, speed }, ellipse)
+        self.motion
+            .detail(&MotionPiece { t, angle, speed }, ellipse)
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {

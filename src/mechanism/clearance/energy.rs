@@ -1,7 +1,8 @@
 //! Energy of the mechanism with a loose joint, and projection of a state onto a massless link.
 
-use super::{LooseMechanism, dot};
+use super::LooseMechanism;
 use crate::mechanism::LooseState;
+use crate::mechanism::plane::dot;
 use crate::scene::{ContactLaw, Joint};
 
 impl LooseMechanism {

@@ -1,7 +1,8 @@
 //! Forces in the loose joint, and the accelerations that follow from them by the Newton-Euler equations.
 
 use super::rubbing::Rubbing;
-use super::{Action, Frame, LooseMechanism, cross, dot};
+use super::{Action, Frame, LooseMechanism};
+use crate::mechanism::plane::{cross, dot};
 use crate::mechanism::{GuideForces, LoadValue, LooseRates, LooseState};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};

@@ -4,19 +4,20 @@
 //! The rod stays pinned at its other end: to the slider with the clearance at the crank pin, to the crank with the
 //! clearance at the wrist pin. Equations by Newton and Euler, about the pinned end.
 
+mod detail;
 mod energy;
 mod forces;
 mod law;
 mod rubbing;
-mod seen;
 mod start;
 mod turn;
 
+pub use detail::SpeedSizes;
 pub use law::NormalForce;
 pub use rubbing::Rubbing;
-pub use seen::SpeedSizes;
 pub use turn::Turned;
 
+use super::plane::dot;
 use super::{Loads, LooseRates, LooseState};
 use crate::scene::{Clearance, Friction, Joint};
 
@@ -247,14 +248,4 @@ impl LooseMechanism {
             JointTouch::Linked => self.linked(&load, s, f),
         }
     }
-}
-
-#[inline(always)]
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-#[inline(always)]
-fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }

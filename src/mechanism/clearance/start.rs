@@ -139,7 +139,7 @@ impl LooseMechanism {
         let theta = Angle::from(scene.motion.angle).reduced().rest;
         let linkage = Linkage::new(&geometry);
         let pose = linkage.pose(theta);
-        if !pose.exists() {
+        if !pose.is_regular() {
             return Err(Problems::in_code(vec![Problem::new(
                 "motion.angle",
                 format!(
@@ -179,10 +179,9 @@ impl LooseMechanism {
             false => equation.acceleration(0.0, theta, omega),
         };
         // A rod model without joint forces does not move in a clearance, and is refused before.
-        let Ok(reactor) = Reactor::new(scene) else {
-            return [distance, 0.0];
-        };
-        let forces = reactor.at(&equation, 0.0, theta, omega, alpha);
+        let forces = Reactor::new(scene)
+            .map(|reactor| reactor.at(&equation, 0.0, theta, omega, alpha))
+            .unwrap_or_default();
         let [fx, fy] = match self.joint {
             Joint::CrankPin => forces.crank_pin,
             Joint::WristPin => forces.wrist_pin.map(|force| -force),

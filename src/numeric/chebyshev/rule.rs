@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::OnceLock;
 
-use super::transform::{HALF, Half, Matrices};
+use super::transform::{HALF, HalfVector, Matrices};
 use super::{MAX_DEGREE, Series, Values};
 use crate::numeric::LANES;
 use crate::numeric::exact::two_sum;
@@ -87,7 +87,7 @@ impl Rule {
     /// Computes integrals of the even and the odd functions that are one at one pair of points and zero at the others.
     fn fill_integrals(&mut self, cosines: &[f64]) {
         let half = self.degree / 2;
-        let primitives: Vec<Half> = (0..=self.degree)
+        let primitives: Vec<HalfVector> = (0..=self.degree)
             .map(|k| self.primitives(cosines, k))
             .collect();
         for j in 0..=half {
@@ -106,7 +106,7 @@ impl Rule {
 
     /// Returns the integrals of T_k from 0 to the points, by the primitives T_1, T_2/4 and
     /// (T_(k+1)/(k+1) − T_(k−1)/(k−1))/2 for k = 0, 1 and more.
-    fn primitives(&self, cosines: &[f64], k: usize) -> Half {
+    fn primitives(&self, cosines: &[f64], k: usize) -> HalfVector {
         let half = self.degree / 2;
         let primitive = |i: usize| {
             let t = |k: usize| cosine(cosines, k * i);

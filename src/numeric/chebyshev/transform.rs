@@ -9,12 +9,12 @@ use super::{MAX_DEGREE, Values};
 pub(super) const HALF: usize = MAX_DEGREE / 2 + 2;
 
 /// Vector over half of the points or coefficients.
-pub(super) type Half = [f64; HALF];
+pub(super) type HalfVector = [f64; HALF];
 
 /// Matrices of the even and the odd part, by columns.
 pub(super) struct Matrices {
-    pub even: [Half; HALF],
-    pub odd: [Half; HALF],
+    pub even: [HalfVector; HALF],
+    pub odd: [HalfVector; HALF],
 }
 
 impl Matrices {
@@ -28,7 +28,7 @@ impl Matrices {
     /// Multiplies by the even and the odd part of values at the points of a degree; `ROWS` is even and more than half
     /// the degree. Not inlined: where the results go on scattered, the sums would be kept one by one.
     #[inline(never)]
-    fn products<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> [Half; 2] {
+    fn products<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> [HalfVector; 2] {
         let (mut of_even, mut of_odd) = ([0.0; ROWS], [0.0; ROWS]);
         for j in 0..DEGREE / 2 {
             let (minus, plus) = (values[j], values[DEGREE - j]);

@@ -11,7 +11,7 @@ impl Enclosed {
         } else if high <= 0.0 {
             -self
         } else {
-            Enclosed::jumps(Interval::new(0.0, self.real.largest()))
+            Enclosed::not_analytic(Interval::new(0.0, self.real.largest()))
         }
     }
 
@@ -21,7 +21,7 @@ impl Enclosed {
         if real.low == real.high {
             Enclosed::point(real.low)
         } else {
-            Enclosed::jumps(real)
+            Enclosed::not_analytic(real)
         }
     }
 
@@ -43,7 +43,7 @@ impl Enclosed {
         } else if b.low >= a.high {
             other
         } else {
-            Enclosed::jumps(Interval::new(a.low.max(b.low), a.high.max(b.high)))
+            Enclosed::not_analytic(Interval::new(a.low.max(b.low), a.high.max(b.high)))
         }
     }
 
@@ -61,7 +61,7 @@ impl Enclosed {
         let count = self.divided_by(by).floor();
         match count.plane {
             Some(_) => self - by * count,
-            None => Enclosed::jumps(Interval::new(0.0, by.real.high)),
+            None => Enclosed::not_analytic(Interval::new(0.0, by.real.high)),
         }
     }
 }

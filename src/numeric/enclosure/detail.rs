@@ -1,10 +1,10 @@
 //! Number of nodes that resolve a function on a piece of a motion.
 
-use super::{Enclosed, Interval};
+use super::{Enclosed, Interval, Rectangle};
 
 /// Piece of a motion: ranges of time, angle and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub struct MotionPiece {
     /// Time, s.
     pub t: Interval,
     /// Crank angle, or coordinate of the configuration curve, rad, unwrapped.
@@ -38,20 +38,23 @@ impl Detail {
         around: None,
     };
 
-    /// Returns the detail of an enclosed function.
-    pub fn of(function: Enclosed) -> Detail {
-        let change = 2.0 * function.real.half();
+    /// Returns the detail of a change and a bound: a change that is NaN counts as infinite, a bound that is not finite as
+    /// none.
+    fn new(change: f64, around: Option<f64>) -> Detail {
         Detail {
             change: if change.is_nan() {
                 f64::INFINITY
             } else {
                 change
             },
-            around: function
-                .plane
-                .map(|plane| plane.radius())
-                .filter(|radius| radius.is_finite()),
+            around: around.filter(|around| around.is_finite()),
         }
+    }
+
+    /// Returns the detail of an enclosed function.
+    pub fn of(function: Enclosed) -> Detail {
+        let radius = function.plane.map(Rectangle::radius);
+        Detail::new(2.0 * function.real.half(), radius)
     }
 
     /// Returns the detail of the sum of two functions.
@@ -67,18 +70,7 @@ impl Detail {
         if self == Detail::NONE {
             return self;
         }
-        let change = self.change * by;
-        Detail {
-            change: if change.is_nan() {
-                f64::INFINITY
-            } else {
-                change
-            },
-            around: self
-                .around
-                .map(|around| around * by)
-                .filter(|around| around.is_finite()),
-        }
+        Detail::new(self.change * by, self.around.map(|around| around * by))
     }
 
     /// Returns the number of nodes that resolve the function to `allowed`, where it is enclosed in an ellipse of this
@@ -100,7 +92,7 @@ pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
 
 /// Returns the detail of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
 /// ellipses, if no more than `most`.
-pub fn shown(
+pub fn resolved(
     detail: impl Fn(f64) -> Detail,
     ellipses: [f64; 2],
     allowed: f64,

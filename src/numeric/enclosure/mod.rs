@@ -14,9 +14,9 @@ mod rectangle;
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
 use std::ops::{Add, Mul, Neg, Sub};
 
-pub use detail::{Detail, Reach, ellipses, shown};
+pub use detail::{Detail, MotionPiece, ellipses, resolved};
 pub use interval::Interval;
-pub use partition::{Wanted, partition};
+pub use partition::{PanelResolution, partition};
 pub use rectangle::Rectangle;
 
 /// Enclosure of values over an interval and around it in the complex plane.
@@ -28,15 +28,9 @@ pub struct Enclosed {
     pub plane: Option<Rectangle>,
 }
 
-impl Default for Enclosed {
-    fn default() -> Enclosed {
-        Enclosed::point(0.0)
-    }
-}
-
 impl Enclosed {
     /// Enclosure of an unknown function.
-    pub const UNKNOWN: Enclosed = Enclosed::jumps(Interval::WHOLE);
+    pub const UNKNOWN: Enclosed = Enclosed::not_analytic(Interval::WHOLE);
 
     /// Encloses a constant.
     pub fn point(value: f64) -> Enclosed {
@@ -59,7 +53,7 @@ impl Enclosed {
     }
 
     /// Encloses a function that is not known to be analytic.
-    pub const fn jumps(real: Interval) -> Enclosed {
+    pub const fn not_analytic(real: Interval) -> Enclosed {
         Enclosed { real, plane: None }
     }
 
@@ -91,7 +85,7 @@ impl Enclosed {
         } else if high < 0.0 {
             Enclosed::point(negative)
         } else {
-            Enclosed::jumps(Interval::new(negative, positive))
+            Enclosed::not_analytic(Interval::new(negative, positive))
         }
     }
 
@@ -218,7 +212,7 @@ impl Enclosed {
         } else if self.real.high < 0.0 {
             -right_angle - x.divided_by(self).atan()
         } else {
-            Enclosed::jumps(Interval::new(-PI, PI))
+            Enclosed::not_analytic(Interval::new(-PI, PI))
         }
     }
 
@@ -233,7 +227,7 @@ impl Enclosed {
         if self.real.low > 0.0 {
             (exponent * self.ln()).exp()
         } else if self.real.low == 0.0 && low == high && low > 0.0 {
-            Enclosed::jumps(self.real.rising(|base| base.powf(low)))
+            Enclosed::not_analytic(self.real.rising(|base| base.powf(low)))
         } else {
             Enclosed::UNKNOWN
         }

@@ -1,10 +1,10 @@
 //! Partition of an interval into panels whose nodes resolve a function, by bisection.
 
-use super::{Detail, Interval, ellipses, shown};
+use super::{Detail, Interval, ellipses, resolved};
 
 /// Required resolution of the panels.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct PanelResolution {
     /// Nodes of a panel.
     pub nodes: usize,
     /// Allowed error, as a part of the change of the function over the whole, or of a unit.
@@ -16,30 +16,23 @@ const HALVINGS: usize = 50;
 /// Largest number of pieces.
 const MOST_PIECES: usize = 100_000;
 
-/// Verdict on one piece: the nodes resolve the function, or a corner lies inside.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Piece {
-    Shown,
-    Corner,
-}
-
 /// Locates the ends between panels inside an interval, in rising order, for a function whose `detail` on an interval
 /// and in an ellipse of some size is given: the nodes of each panel resolve it. A corner or a jump is an end; beside a
 /// narrow pulse panels become shorter towards it.
 pub fn partition(
     detail: impl Fn(Interval, f64) -> Detail,
     over: Interval,
-    wanted: Wanted,
+    wanted: PanelResolution,
     unit: f64,
 ) -> Vec<f64> {
     let ellipses = ellipses(wanted.nodes, wanted.part);
     let real = |part: Interval| detail(part, ellipses[0]);
     let allowed = wanted.part * scale(&real, over, unit);
-    let is_shown = |part: Interval| {
-        let (_, nodes) = shown(|size| detail(part, size), ellipses, allowed, wanted.nodes);
+    let is_resolved = |part: Interval| {
+        let (_, nodes) = resolved(|size| detail(part, size), ellipses, allowed, wanted.nodes);
         nodes.is_some()
     };
-    if is_shown(over) {
+    if is_resolved(over) {
         return Vec::new();
     }
     let width = over.high - over.low;
@@ -48,19 +41,18 @@ pub fn partition(
         real(part).change * share <= allowed || share < 0.5f64.powi(HALVINGS as i32)
     };
     let mut left = vec![over];
-    let mut pieces: Vec<(Interval, Piece)> = Vec::new();
+    let mut pieces: Vec<(Interval, bool)> = Vec::new();
     while let Some(part) = left.pop() {
-        if is_shown(part) {
-            pieces.push((part, Piece::Shown));
-        } else if is_corner(part) || pieces.len() + left.len() >= MOST_PIECES {
-            pieces.push((part, Piece::Corner));
+        let is_resolved = is_resolved(part);
+        if is_resolved || is_corner(part) || pieces.len() + left.len() >= MOST_PIECES {
+            pieces.push((part, is_resolved));
         } else {
             let middle = part.middle();
             left.push(Interval::new(middle, part.high));
             left.push(Interval::new(part.low, middle));
         }
     }
-    merged(&pieces, is_shown)
+    merged(&pieces, is_resolved)
 }
 
 /// Returns the change over the whole, or over the first part of it on which it is finite; not less than a unit.
@@ -76,22 +68,23 @@ fn scale(detail: &impl Fn(Interval) -> Detail, over: Interval, unit: f64) -> f64
     unit.max(f64::MIN_POSITIVE)
 }
 
-/// Returns the ends between pieces; neighbours resolved together are one, a corner lies in the middle of its piece.
-fn merged(pieces: &[(Interval, Piece)], is_shown: impl Fn(Interval) -> bool) -> Vec<f64> {
+/// Returns the ends between pieces, each with whether it is resolved; neighbours resolved together are one, a corner
+/// lies in the middle of its piece.
+fn merged(pieces: &[(Interval, bool)], are_resolved: impl Fn(Interval) -> bool) -> Vec<f64> {
     let mut ends = Vec::new();
     let mut begin = None;
-    for (part, piece) in pieces {
-        match (piece, begin) {
-            (Piece::Corner, _) => {
+    for (part, is_resolved) in pieces {
+        match begin {
+            _ if !is_resolved => {
                 ends.push(part.middle());
                 begin = None;
             }
-            (Piece::Shown, Some(from)) if !is_shown(Interval::new(from, part.high)) => {
+            Some(from) if !are_resolved(Interval::new(from, part.high)) => {
                 ends.push(part.low);
                 begin = Some(part.low);
             }
-            (Piece::Shown, None) => begin = Some(part.low),
-            _ => {}
+            None => begin = Some(part.low),
+            Some(_) => {}
         }
     }
     ends

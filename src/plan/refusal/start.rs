@@ -58,7 +58,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
 
 /// Whether M vanishes at coordinate `q` (rad): not a normal number, or below half its mean at `q` ± rounding.
 fn vanishes(equation: &CurveEquation, q: f64) -> bool {
-    let m = |q: f64| equation.across(q).m;
+    let m = |q: f64| equation.terms(q).m;
     let rounding = 4.0 * f64::EPSILON * q.abs().max(1.0);
     !m(q).is_normal() || m(q) < 0.25 * (m(q - rounding) + m(q + rounding))
 }

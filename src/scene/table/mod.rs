@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use super::csv::Column;
 use super::{Period, Periodicity, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
-use crate::numeric::interpolate::Curve;
 pub use crate::numeric::interpolate::Interpolation;
+use crate::numeric::interpolate::TableInterpolant;
 pub use file::calibration_points;
 #[cfg(feature = "cli")]
 pub use file::{LoadTable, load_table};
@@ -20,7 +20,7 @@ use rows::TableRows;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     of: Variable,
-    curve: Curve,
+    curve: TableInterpolant,
     /// File the table was read from; none for a table from code.
     file: Option<PathBuf>,
 }

@@ -1,7 +1,7 @@
 //! Takes the rows of a table, checks them and returns the interpolating curve.
 
 use super::Interpolation;
-use crate::numeric::interpolate::Curve;
+use crate::numeric::interpolate::TableInterpolant;
 use crate::scene::csv::Column;
 use crate::scene::number::{apart, counted, show};
 use crate::scene::{Period, Problem, Variable};
@@ -29,14 +29,14 @@ impl TableRows<'_> {
         mut self,
         interpolation: Interpolation,
         period: Option<f64>,
-    ) -> Result<Curve, Problem> {
+    ) -> Result<TableInterpolant, Problem> {
         self.rise()?;
         if let Some(period) = period {
             self.close(period)?;
         }
         let period = period.map(|period| self.in_turns(period));
         let (x, y) = self.points.into_iter().unzip();
-        Ok(Curve::new(x, y, interpolation, period))
+        Ok(TableInterpolant::new(x, y, interpolation, period))
     }
 
     /// Returns the period (rad or s); over the crank angle the fraction of a turn that its digits stand for, if any.

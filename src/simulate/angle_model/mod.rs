@@ -14,7 +14,7 @@ use crate::engine::angle::{Driven, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
-use crate::numeric::enclosure::{Detail, Reach};
+use crate::numeric::enclosure::{Detail, MotionPiece};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 
@@ -146,7 +146,7 @@ impl Driven for AngleModel<'_> {
         let driven = self.is_driven();
         let mut guided = None;
         let at = match self.guide {
-            None => self.equation.first_positions(angles, count),
+            None => self.equation.first_terms(angles, count),
             Some(guide) => {
                 let (at, normals) = self.equation.first_guided(angles, count);
                 guided = Some((guide, normals));
@@ -160,8 +160,8 @@ impl Driven for AngleModel<'_> {
             table.inertia[i] = at.m[i];
             let stored = loads.with_potential_at(x);
             let placed = loads.of_place(Angle::new(turns, *angle), x);
-            table.force[i] = stored.over(dx) - at.dv[i];
-            table.push[i] = placed.over(dx);
+            table.force[i] = stored.generalized(dx) - at.dv[i];
+            table.push[i] = placed.generalized(dx);
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
@@ -186,7 +186,7 @@ impl Driven for AngleModel<'_> {
     }
 
     fn is_driven(&self) -> bool {
-        self.equation.loads().are_called()
+        self.equation.loads().have_nonlinear_rates()
     }
 
     fn reads_time(&self) -> bool {
@@ -199,7 +199,7 @@ impl Driven for AngleModel<'_> {
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
             let Spot { at: [_, dx], gain } = *at.place;
-            *force = load.over(dx) + gain.rubbed(*load);
+            *force = load.generalized(dx) + gain.rubbed(*load);
         }
         forces
     }
@@ -208,11 +208,14 @@ impl Driven for AngleModel<'_> {
         self.is_driven() && self.equation.loads().have_detail()
     }
 
-    fn detail(&self, reach: &Reach, ellipse: f64) -> Detail {
+    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
         let loads = self.equation.loads();
-        let seen = self.equation.linkage().seen(reach, loads.meet_slider());
-        let rubbed = self.guide.map(|guide| guide.arms(reach.angle));
-        let arms = seen.arms().plus(rubbed.unwrap_or_default());
+        let seen = self
+            .equation
+            .linkage()
+            .enclosed_state(reach, loads.meet_slider());
+        let rubbed = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
+        let arms = seen.unit_load_effects().plus(rubbed.unwrap_or_default());
         loads.detail_of_state(&seen, arms, ellipse)
     }
 

@@ -13,19 +13,19 @@ impl Profile for AngleModel<'_> {
         let terms = self.equation.terms(theta);
         let angle = self.angle(theta);
         let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
-        (terms.inertia.m, load.generalized(&terms.pose) - terms.dv)
+        (terms.inertia.m, load.generalized(terms.pose.dx) - terms.dv)
     }
 
     fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
         self.count(count);
         let loads = self.equation.loads();
-        let at = self.equation.positions(angles);
+        let at = self.equation.term_arrays(angles);
         for (i, angle) in angles.iter().enumerate().take(count) {
             let load = loads
                 .with_potential_at(at.x[i])
                 .plus(loads.of_place(self.angle(*angle), at.x[i]));
             inertia[i] = at.m[i];
-            force[i] = load.over(at.dx[i]) - at.dv[i];
+            force[i] = load.generalized(at.dx[i]) - at.dv[i];
         }
     }
 

@@ -49,7 +49,7 @@ impl AngleModel<'_> {
         let pose = self.equation.linkage().pose(theta);
         let loads = self.equation.loads();
         let load = loads.without_potential(0.0, self.angle(theta), 0.0, &pose);
-        load.generalized(&pose)
+        load.generalized(pose.dx)
     }
 
     fn work_between(&self, from: f64, to: f64) -> f64 {

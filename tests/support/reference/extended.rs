@@ -8,7 +8,7 @@
 use crate::support::exact::SinCos;
 use slider_crank::mechanism::single;
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::numeric::enclosure::{Detail, Enclosed, Interval, Wanted, partition};
+use slider_crank::numeric::enclosure::{Detail, Enclosed, Interval, PanelResolution, partition};
 use slider_crank::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
 
 type Vector = [DoubleDouble; 2];
@@ -222,7 +222,7 @@ impl Extended {
 }
 
 /// Requirement on the steps: they resolve a formula over time to rounding.
-const SHOWN: Wanted = Wanted {
+const SHOWN: PanelResolution = PanelResolution {
     nodes: 20,
     part: f64::EPSILON,
 };

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::rubbing::Rubbing;
 use super::{Action, LooseMechanism};
-use crate::mechanism::{Arms, EnclosedState, LoadValue, LooseState};
+use crate::mechanism::{EnclosedState, LoadValue, LooseState, UnitLoadEffects};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::scene::Joint;
 
@@ -30,7 +30,7 @@ impl LooseMechanism {
             return Detail::NONE;
         };
         let between = |of: fn(&LooseState) -> f64| Interval::between(of(low), of(high));
-        let seen = EnclosedState {
+        let state = EnclosedState {
             t: between(|s| s.t),
             theta: between(|s| s.theta) + Interval::point(self.turns * TAU),
             omega: between(|s| s.omega),
@@ -38,12 +38,12 @@ impl LooseMechanism {
             v: between(|s| s.v),
             dx: Interval::WHOLE,
         };
-        loads.detail(&seen, self.arms(low, sizes), ellipse)
+        loads.detail(&state, self.unit_load_effects(low, sizes), ellipse)
     }
 
     /// Returns the largest change of an acceleration over the size of its speed per unit load, while the joint is open:
     /// torque and force then act on separate bodies, and the rod moves with one of them.
-    fn arms(&self, s: &LooseState, sizes: SpeedSizes) -> Arms {
+    fn unit_load_effects(&self, s: &LooseState, sizes: SpeedSizes) -> UnitLoadEffects {
         let frame = self.frame(s);
         let rates = |size: f64| {
             let load = LoadValue {
@@ -57,11 +57,11 @@ impl LooseMechanism {
         let rod = (with.spin_rate - without.spin_rate).abs() / sizes.turning;
         let slider = (with.a - without.a).abs() / sizes.sliding;
         match self.joint {
-            Joint::CrankPin => Arms {
+            Joint::CrankPin => UnitLoadEffects {
                 torque: crank,
                 force: rod.max(slider),
             },
-            Joint::WristPin => Arms {
+            Joint::WristPin => UnitLoadEffects {
                 torque: crank.max(rod),
                 force: slider,
             },
