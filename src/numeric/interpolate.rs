@@ -1,6 +1,7 @@
 //! Interpolation in a table: linear, or by the monotone cubic of Fritsch and Butland ("pchip").
 
 use std::f64::consts::TAU;
+use std::iter;
 
 use super::angle::TAU_REST;
 use super::enclosure::{Enclosed, Interval, Rectangle};
@@ -92,7 +93,7 @@ impl TableInterpolant {
         let periods = self.period.into_iter();
         let later =
             periods.flat_map(|period| (1..u32::MAX).map(move |k| (f64::from(k) * period, 1)));
-        let starts = std::iter::once((0.0, next)).chain(later);
+        let starts = iter::once((0.0, next)).chain(later);
         starts.flat_map(move |(further, first)| {
             let points = self.x[first..].iter().zip(&self.y[first..]);
             points.map(move |(x, y)| [x + (turns + further), *y])
@@ -217,10 +218,8 @@ fn slopes(x: &[f64], y: &[f64], periodic: bool) -> Vec<f64> {
         let (w1, w2) = (2.0 * h[right] + h[left], h[right] + 2.0 * h[left]);
         (w1 + w2) / (w1 / rise[left] + w2 / rise[right])
     };
-    let mut slope = vec![0.0; n];
-    for i in 1..n - 1 {
-        slope[i] = inner(i - 1, i);
-    }
+    let inside = (1..n - 1).map(|i| inner(i - 1, i));
+    let mut slope: Vec<f64> = iter::once(0.0).chain(inside).chain([0.0]).collect();
     if periodic {
         slope[0] = inner(n - 2, 0);
         slope[n - 1] = slope[0];
