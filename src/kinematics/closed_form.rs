@@ -1,4 +1,4 @@
-//! One turn in closed form.
+//! Kinematics of one turn in closed form: from a scene to dead centres, extremes, named positions and rows.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use crate::mechanism::{Class, Extreme, Extremes, Limits, Linkage};
 use crate::numeric::angle;
 use crate::scene::Scene;
 
-/// What the lengths and the speed of a scene give.
+/// Kinematics of a scene, from its lengths and speed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Kinematics {
     /// Title of the scene.
@@ -19,79 +19,79 @@ pub struct Kinematics {
     pub stroke_m: f64,
     /// Dead centres, by angle.
     pub dead_centres: Vec<DeadCentre>,
-    /// Crank angle of the outward stroke in the sense of rotation, rad.
+    /// Crank angle of the outward stroke in the sense of rotation, rad; none if the crank cannot turn fully.
     pub advance_rad: Option<f64>,
-    /// Crank angle of the inward stroke, rad.
+    /// Crank angle of the inward stroke, rad; none if the crank cannot turn fully.
     pub return_rad: Option<f64>,
-    /// Advance over return.
+    /// Advance angle over return angle; none if the crank cannot turn fully.
     pub time_ratio: Option<f64>,
-    /// Least transmission angle over a turn, rad.
+    /// Least transmission angle over a turn, rad; 0 if the crank cannot turn fully.
     pub transmission_min_rad: f64,
-    /// Extremes at constant speed: in m/s and m/s² with a speed, else per radian.
+    /// Largest velocity at constant speed, m/s; m/rad without a speed.
     pub velocity_max: Option<Located>,
-    /// Smallest velocity.
+    /// Smallest velocity at constant speed, m/s; m/rad without a speed.
     pub velocity_min: Option<Located>,
-    /// Largest acceleration.
+    /// Largest acceleration at constant speed, m/s²; m/rad² without a speed.
     pub acceleration_max: Option<Located>,
-    /// Smallest acceleration.
+    /// Smallest acceleration at constant speed, m/s²; m/rad² without a speed.
     pub acceleration_min: Option<Located>,
-    /// Crank speed of the values, rad/s; none: per radian.
+    /// Crank speed of the values, rad/s; none: the values are per radian.
     pub speed_rad_per_s: Option<f64>,
     /// Reachable crank angles, rad; empty: all.
     pub reach_rad: Vec<[f64; 2]>,
-    /// Dead centres and other positions that have a name, by angle.
+    /// Dead centres and other named positions, by angle.
     pub positions: Vec<NamedPosition>,
-    /// What the reader should know.
+    /// Warnings about the result.
     pub warnings: Vec<String>,
     #[serde(skip)]
     linkage: Linkage,
 }
 
-/// A dead centre.
+/// Dead centre.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DeadCentre {
-    /// rad
+    /// Crank angle, rad.
     pub theta_rad: f64,
-    /// m
+    /// Slider position, m.
     pub x_m: f64,
-    /// `outer`: crank and rod in one line; `inner`: folded.
+    /// `outer`: crank and rod stretched out in one line; `inner`: folded.
     pub kind: &'static str,
 }
 
-/// A value and its crank angle.
+/// Value and its crank angle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Located {
-    /// SI
+    /// Value, in SI units.
     pub value: f64,
-    /// rad
+    /// Crank angle, rad.
     pub theta_rad: f64,
 }
 
-/// The position at one crank angle; values that do not exist there are not finite.
+/// Position at one crank angle; values that do not exist there are not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KinematicsRow {
-    /// rad
+    /// Crank angle θ, rad.
     pub theta: f64,
-    /// m
+    /// Slider position x, m.
     pub x: f64,
-    /// m/rad
+    /// x', m/rad.
     pub dx: f64,
-    /// m/rad²
+    /// x'', m/rad².
     pub d2x: f64,
-    /// rad
+    /// Rod inclination φ, rad.
     pub phi: f64,
     /// φ'
     pub dphi: f64,
     /// φ''
     pub d2phi: f64,
-    /// rad
+    /// Transmission angle, rad.
     pub transmission: f64,
-    /// Velocity (m/s), acceleration (m/s²) of the slider, angular speed (rad/s, counter-clockwise) and
-    /// acceleration (rad/s²) of the rod at the scene's speed.
+    /// Velocity (m/s) and acceleration (m/s²) of the slider, angular speed (rad/s, counter-clockwise) and acceleration
+    /// (rad/s²) of the rod, at the scene's speed; none without a speed.
     pub rates: Option<[f64; 4]>,
 }
 
-/// Closed-form kinematics of a scene.
+/// Computes the closed-form kinematics of a scene.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values.
@@ -107,7 +107,7 @@ pub fn kinematics(scene: &Scene) -> Result<Kinematics, Error> {
     Ok(of_checked(scene))
 }
 
-/// Closed-form kinematics of a scene whose values are possible.
+/// Computes the closed-form kinematics of a scene whose values are possible.
 pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
     let linkage = Linkage::new(&scene.geometry);
     let speed = scene.motion.speed;
@@ -171,7 +171,7 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
 }
 
 impl Kinematics {
-    /// The row at a crank angle, rad.
+    /// Returns the row at a crank angle, rad.
     pub fn row(&self, theta: f64) -> KinematicsRow {
         let pose = self.linkage.pose(theta);
         let s = self.linkage.s;
@@ -195,7 +195,7 @@ impl Kinematics {
         }
     }
 
-    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    /// Iterates over the rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = KinematicsRow> + '_ {
         angle::turn(step).map(|theta| self.row(theta))
     }

@@ -1,5 +1,5 @@
-//! What engineers read off the diagrams of a cycle at constant speed: turning moment, indicated work, orders of the shaking
-//! force and of the torque, balance of the first order.
+//! Diagrams of a cycle at constant speed: turning moment, indicated work, orders of the shaking force and of the torque
+//! (Fourier), balance of the first order.
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,63 +21,63 @@ pub struct Diagrams {
     pub indicated: Option<Indicated>,
     /// Fourier coefficients of the shaking force and of the driving torque.
     pub orders: Vec<Order>,
-    /// A counterweight on the crank.
+    /// Balance by a counterweight on the crank.
     pub balance: Balance,
 }
 
 /// Work of the gas on the piston over the cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Indicated {
-    /// J; positive: the gas drives the crank.
+    /// Work, J; positive: the gas drives the crank.
     pub work_j: f64,
-    /// m³
+    /// Swept volume of the largest piston, m³.
     pub swept_volume_m3: f64,
     /// Mean effective pressure: the work over the swept volume, Pa.
     pub mean_effective_pressure_pa: f64,
-    /// W
+    /// Indicated power, W.
     pub power_w: f64,
 }
 
-/// One order: amplitudes of what repeats so many times a turn.
+/// Amplitudes of one order, a number of periods per turn.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Order {
-    /// Per turn.
+    /// Order, periods per turn.
     pub order: f64,
-    /// Shaking force along x, N.
+    /// Amplitude of the shaking force along x, N.
     pub shaking_x_n: f64,
-    /// Shaking force along y, N.
+    /// Amplitude of the shaking force along y, N.
     pub shaking_y_n: f64,
-    /// Shaking moment, N m.
+    /// Amplitude of the shaking moment, N m.
     pub shaking_moment_nm: f64,
-    /// Driving torque, N m.
+    /// Amplitude of the driving torque, N m.
     pub torque_nm: f64,
 }
 
-/// A counterweight for the rotating mass and a part of the reciprocating mass. The first order of the shaking force is one
-/// vector that turns with the crank and one that turns against it; a counterweight changes only the former.
+/// Counterweight for the rotating mass and a part of the reciprocating mass. The first order of the shaking force is
+/// one vector that turns with the crank and one that turns against the crank; a counterweight changes only the former.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Balance {
-    /// Part of the first order of the reciprocating mass that it balances; 0.5 leaves the least largest force of first order.
+    /// Balanced part of the first order of the reciprocating mass; 0.5 leaves the least largest force of first order.
     pub part: f64,
     /// Mass times distance from the crank's axis, kg m.
     pub counterweight_kg_m: f64,
     /// Angle of the counterweight from the crank, rad in [0, 2π).
     pub angle_rad: f64,
-    /// What turns with the crank without the counterweight, N.
+    /// First-order force that turns with the crank, without the counterweight, N.
     pub forward_n: f64,
-    /// What turns with it and is left, N.
+    /// First-order force that turns with the crank and is left by the counterweight, N.
     pub forward_left_n: f64,
-    /// What turns against it, N.
+    /// First-order force that turns against the crank, N.
     pub backward_n: f64,
     /// Largest shaking force of all orders without the counterweight, N.
     pub largest_n: f64,
-    /// Largest with it, N.
+    /// Largest shaking force of all orders with the counterweight, N.
     pub largest_left_n: f64,
 }
 
 impl ForceAnalysis {
-    /// The diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none of a crank that cannot
-    /// turn fully.
+    /// Computes the diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none where a
+    /// force is not finite, as of a crank that cannot turn fully.
     pub fn diagrams(&self, scene: &Scene, part: f64) -> Option<Diagrams> {
         let samples = self.samples();
         if !samples.iter().flatten().all(|value| value.is_finite()) {
@@ -91,7 +91,7 @@ impl ForceAnalysis {
         })
     }
 
-    /// Where pieces of a smooth torque end, rad, from the start of the cycle to its end.
+    /// Returns the ends of pieces of a smooth torque, rad, from the start of the cycle to its end.
     pub(super) fn pieces(&self) -> Vec<f64> {
         let whole = self.whole();
         let mut ends = self.loads().corners_between(0.0, whole);
@@ -102,7 +102,7 @@ impl ForceAnalysis {
         ends
     }
 
-    /// Work of all pressures of the scene.
+    /// Computes the work of all pressures of the scene.
     fn indicated(&self, scene: &Scene) -> Option<Indicated> {
         let gases = scene.forces.iter().filter_map(|load| match load {
             Load::Gas {
@@ -133,7 +133,7 @@ impl ForceAnalysis {
         let work = pieces.windows(2).map(|w| work_between(&power, w[0], w[1]));
         let work: f64 = work.sum();
         let swept = area * scene_stroke;
-        // The crank of a negative speed passes the cycle backwards.
+        // A crank of negative speed passes the cycle backwards.
         let work = work * self.speed_rad_per_s.signum();
         Some(Indicated {
             work_j: work,
@@ -143,9 +143,9 @@ impl ForceAnalysis {
         })
     }
 
-    /// Shaking force, shaking moment and torque at equal steps of the cycle.
+    /// Computes shaking force, shaking moment and torque at equal steps of the cycle.
     fn samples(&self) -> Vec<[f64; 4]> {
-        // Close enough to show the largest force too.
+        // Dense enough for the largest force too.
         let count = self.cycle_turns * 2 * fourier::SAMPLES;
         let at = |k: u32| self.whole() * f64::from(k) / f64::from(count);
         let row = |k: u32| {

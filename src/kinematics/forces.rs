@@ -1,4 +1,4 @@
-//! Forces of the whole mechanism at constant crank speed over the cycle of its loads.
+//! Forces of the mechanism at constant crank speed over the cycle of its loads, by the Newton-Euler equations.
 
 use std::f64::consts::TAU;
 
@@ -16,18 +16,18 @@ use crate::scene::Scene;
 /// Forces at constant crank speed.
 #[derive(Clone, Debug, Serialize)]
 pub struct ForceAnalysis {
-    /// rad/s, counter-clockwise
+    /// Crank speed, rad/s, counter-clockwise.
     pub speed_rad_per_s: f64,
-    /// Turns over which the forces are looked at: those of the cycle of the loads, or the first one.
+    /// Turns over which the forces are computed: the cycle of the loads, or the first turn.
     pub cycle_turns: u32,
-    /// Why the loads do not repeat, if they do not: then other turns have other forces.
+    /// Reason why the loads do not repeat, if they do not: other turns then have other forces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub not_repeating: Option<String>,
-    /// Rotating and reciprocating masses.
+    /// Equivalent rotating and reciprocating masses.
     pub masses: EquivalentMasses,
-    /// Greatest and least driving torque on the outward strokes of the cycle, N m; none for a crank that cannot turn fully.
+    /// Extremes of the driving torque on the outward strokes of the cycle; none for a crank that cannot turn fully.
     pub outward: Option<StrokeTorque>,
-    /// Torque on the inward strokes.
+    /// Extremes of the driving torque on the inward strokes of the cycle; none for a crank that cannot turn fully.
     pub inward: Option<StrokeTorque>,
     #[serde(skip)]
     equation: Equation,
@@ -38,9 +38,9 @@ pub struct ForceAnalysis {
 /// Extremes of the driving torque on strokes of one direction, with their crank angles in the cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StrokeTorque {
-    /// N m
+    /// Greatest torque, N m.
     pub max: Located,
-    /// N m
+    /// Least torque, N m.
     pub min: Located,
 }
 
@@ -55,7 +55,7 @@ pub struct ForceRow {
     pub rod_axial: f64,
     /// Force of the crank on the rod along the path of the crank pin, counter-clockwise, N.
     pub crank_tangential: f64,
-    /// Force along the crank, away from O, N.
+    /// Force of the crank on the rod along the crank, away from O, N.
     pub crank_radial: f64,
     /// Joint, guide and shaking forces.
     pub reactions: Reactions,
@@ -65,7 +65,7 @@ pub struct ForceRow {
     pub first_order_torque: f64,
 }
 
-/// Forces of a scene at its speed, taken as constant, under its weight and loads.
+/// Computes the forces of a scene at its speed, taken as constant, under its weight and loads.
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values; [`Error::Refused`] without a speed and for the rod model
@@ -103,14 +103,14 @@ impl ForceAnalysis {
         self.equation.loads()
     }
 
-    /// Driving torque at a crank angle, N m; time counts from θ = 0.
+    /// Returns the driving torque at a crank angle (rad), N m; time counts from θ = 0.
     pub fn torque(&self, theta: f64) -> f64 {
         let speed = self.speed_rad_per_s;
         self.equation
             .driving_torque(theta / speed, theta, speed, 0.0)
     }
 
-    /// All forces at a crank angle, rad.
+    /// Computes all forces at a crank angle, rad.
     pub fn row(&self, theta: f64) -> ForceRow {
         let (linkage, speed) = (self.linkage(), self.speed_rad_per_s);
         let pose = linkage.pose(theta);
@@ -133,17 +133,17 @@ impl ForceAnalysis {
         }
     }
 
-    /// Rows of the cycle from its angle 0 to its end inclusive, every `step` (rad).
+    /// Iterates over the rows of the cycle, from angle 0 to the end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = (f64, ForceRow)> + '_ {
         angle::turns(self.cycle_turns, step).map(|theta| (theta, self.row(theta)))
     }
 
-    /// The angle at which the cycle ends, rad.
+    /// Returns the angle at which the cycle ends, rad.
     pub(super) fn whole(&self) -> f64 {
         f64::from(self.cycle_turns) * TAU
     }
 
-    /// Extremes of the torque on the outward and on the inward strokes.
+    /// Locates the extremes of the torque on the outward and on the inward strokes.
     fn strokes(&self) -> [Option<StrokeTorque>; 2] {
         let linkage = self.linkage();
         let centres = Limits::new(linkage, self.speed_rad_per_s).dead_centres;
@@ -176,9 +176,9 @@ impl ForceAnalysis {
         })
     }
 
-    /// Where the torque may be extreme on a stroke: its ends, the rows of tables, and where its slope vanishes.
+    /// Locates possible extremes of the torque on a stroke: its ends, the rows of tables, and roots of its slope.
     fn extremes(&self, from: f64, to: f64) -> Vec<Located> {
-        // That of the rows, which end with the cycle: loads need not be the same in the next one.
+        // Angle of the rows, which end with the cycle: loads may differ in the next one.
         let whole = self.whole();
         let place = |theta: f64| {
             if theta == whole {

@@ -1,4 +1,4 @@
-//! One turn of the crank in closed form: positions, dead centres, extremes, and the forces at constant speed.
+//! Kinematics of one turn of the crank in closed form: positions, dead centres, extremes; forces at constant speed.
 
 mod closed_form;
 mod diagrams;

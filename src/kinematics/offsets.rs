@@ -1,4 +1,4 @@
-//! A mechanism with other offsets: position and size of the extremes.
+//! Extremes of a mechanism over its offset: a scene with each of several offsets, in closed form.
 
 use serde::Serialize;
 
@@ -10,23 +10,23 @@ use crate::scene::Scene;
 /// Extremes of a mechanism with one offset.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct OffsetExtremes {
-    /// m
+    /// Offset, m.
     pub offset_m: f64,
-    /// m
+    /// Stroke, m.
     pub stroke_m: f64,
     /// Outward over inward stroke; none if the crank cannot turn fully.
     pub time_ratio: Option<f64>,
-    /// Largest slider acceleration, m/s²; per rad² without a speed.
+    /// Largest slider acceleration, m/s²; m/rad² without a speed.
     pub acceleration_max: Option<Located>,
-    /// Smallest slider acceleration.
+    /// Smallest slider acceleration, m/s²; m/rad² without a speed.
     pub acceleration_min: Option<Located>,
-    /// Driving torque of the outward stroke, N m; none without a speed.
+    /// Extremes of the driving torque on the outward stroke, N m; none without a speed.
     pub outward: Option<StrokeTorque>,
-    /// Driving torque of the inward stroke.
+    /// Extremes of the driving torque on the inward stroke, N m; none without a speed.
     pub inward: Option<StrokeTorque>,
 }
 
-/// Extremes of a scene with each of some offsets (m).
+/// Computes the extremes of a scene with each of some offsets (m).
 ///
 /// # Errors
 /// The errors of [`kinematics`] and [`forces`].

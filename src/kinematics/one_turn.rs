@@ -1,5 +1,5 @@
-//! One turn, or the cycle of the loads, with all that can be asked of it: forces, sensitivities, a change of the lengths, and the loop
-//! closed by iteration as a check.
+//! One turn, or the cycle of the loads: kinematics of a scene with forces, sensitivities, the effect of changed
+//! lengths, and loop closure by Newton-Raphson as a check, as far as asked for.
 
 use serde::Serialize;
 
@@ -12,16 +12,16 @@ use crate::mechanism::{Length, Linkage, TorqueSlope};
 use crate::numeric::angle;
 use crate::scene::Scene;
 
-/// What is computed beside the kinematics.
+/// Quantities to compute beside the kinematics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TurnOptions {
     /// Forces at the scene's speed.
     pub forces: bool,
-    /// The diagrams of the forces, with a counterweight for this part of the reciprocating mass.
+    /// Diagrams of the forces, with a counterweight for this part of the reciprocating mass.
     pub balance: Option<f64>,
     /// Derivatives with respect to crank, rod and offset.
     pub sensitivity: bool,
-    /// Lengths (m) of a second mechanism that the first is compared with.
+    /// Lengths (m) of a second mechanism, which is compared with the first.
     pub change: Vec<(Length, f64)>,
     /// Offsets (m) whose extremes are listed.
     pub offsets: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct OneTurn {
     /// Diagrams of the forces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub diagrams: Option<Diagrams>,
-    /// The mechanism with changed lengths.
+    /// Kinematics of the mechanism with changed lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed: Option<Kinematics>,
     /// Extremes with other offsets.
@@ -59,15 +59,15 @@ pub struct OneTurn {
 pub struct LoopCheck {
     /// Guess of the rod's angle as seen from the slider, rad.
     pub guess_rad: f64,
-    /// Least number of steps.
+    /// Least number of Newton-Raphson steps.
     pub iterations_min: u32,
-    /// Greatest number of steps.
+    /// Greatest number of Newton-Raphson steps.
     pub iterations_max: u32,
-    /// Angles that end on the scene's branch.
+    /// Number of crank angles whose solution lies on the scene's branch.
     pub on_branch: usize,
-    /// Angles that end on the other branch.
+    /// Number of crank angles whose solution lies on the other branch.
     pub on_other_branch: usize,
-    /// Angles from which the iteration does not converge.
+    /// Number of crank angles at which the iteration does not converge.
     pub failed: usize,
     /// Largest distance of x from the closed form on the same branch, m.
     pub worst_x_m: f64,
@@ -80,10 +80,10 @@ struct Slopes {
     torque: Option<TorqueSlope>,
 }
 
-/// One row: the kinematics and what was asked for beside it.
+/// Row of a turn: the kinematics and the quantities asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurnRow {
-    /// The position.
+    /// Kinematics at the crank angle.
     pub kinematics: KinematicsRow,
     /// Forces.
     pub forces: Option<ForceRow>,
@@ -96,17 +96,17 @@ pub struct TurnRow {
 /// Derivatives with respect to one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LengthSlope {
-    /// of x, dimensionless
+    /// Derivative of x, dimensionless
     pub x: f64,
-    /// of v, 1/s; without speed of x', 1/rad
+    /// Derivative of v, 1/s; without speed of x', 1/rad
     pub v: f64,
-    /// of a, 1/s²; without speed of x'', 1/rad²
+    /// Derivative of a, 1/s²; without speed of x'', 1/rad²
     pub a: f64,
-    /// of the driving torque at constant speed, N; none without speed, not finite where it is not known
+    /// Derivative of the driving torque at constant speed, N; none without speed, not finite where it is not known
     pub torque: Option<f64>,
 }
 
-/// Kinematics of a scene and what `options` ask for beside it.
+/// Computes the kinematics of a scene and the quantities that `options` ask for.
 ///
 /// # Errors
 /// The errors of [`kinematics`] and [`forces`], and those of the changed lengths.
@@ -175,7 +175,7 @@ fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>
             Length::Offset => scene.geometry.offset = *value,
         }
     }
-    // Only the lengths count; the centre of gravity of a rod may lie anywhere.
+    // Only the lengths count; the rod's centre of gravity may lie anywhere.
     kinematics(&scene).map(Some)
 }
 
@@ -190,7 +190,7 @@ fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
         worst_x_m: 0.0,
     };
     for theta in angle::turn(1f64.to_radians()) {
-        // A tolerance of 1e-9 crank lengths is what Gupta's 1e-6 mm is for a crank of a metre.
+        // A tolerance of 1e-9 crank lengths equals Gupta's 1e-6 mm for a crank of one metre.
         let Some(found) = linkage.close_loop(theta, (guess, 0.0), 1e-9 * linkage.r) else {
             check.failed += 1;
             continue;
@@ -210,7 +210,7 @@ fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
 }
 
 impl OneTurn {
-    /// The row at a crank angle, rad.
+    /// Returns the row at a crank angle, rad.
     pub fn row(&self, theta: f64) -> TurnRow {
         let kinematics = self.kinematics.row(theta);
         let motion = |row: &KinematicsRow| match row.rates {
@@ -228,12 +228,12 @@ impl OneTurn {
         }
     }
 
-    /// Turns of the rows: one, or those of the cycle of the loads if there are forces.
+    /// Returns the number of turns of the rows: one, or the cycle of the loads if forces are computed.
     pub fn turns(&self) -> u32 {
         self.forces.as_ref().map_or(1, |forces| forces.cycle_turns)
     }
 
-    /// Rows of these turns, from 0 to their end inclusive, every `step` (rad).
+    /// Iterates over the rows of all turns, from 0 to the end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
         angle::turns(self.turns(), step).map(|theta| self.row(theta))
     }
@@ -250,7 +250,7 @@ impl Slopes {
         let rate = if self.speed == 0.0 { 1.0 } else { self.speed };
         Length::ALL.map(|length| {
             let slope = self.linkage.slope(&pose, length);
-            // Without a speed there is no torque, and where it is not known its cells stay empty.
+            // No torque without a speed; where the derivative is not known, the cells stay empty.
             let torque = (self.speed != 0.0).then(|| match &self.torque {
                 Some(torque) => torque.driving_torque(theta, self.speed, length),
                 None => f64::NAN,

@@ -1,4 +1,4 @@
-//! Lengths for a wanted stroke and time ratio.
+//! Synthesis: crank, rod and offset for a wanted stroke and time ratio, in closed form.
 
 use std::f64::consts::PI;
 
@@ -8,44 +8,44 @@ use super::{Kinematics, kinematics};
 use crate::error::Error;
 use crate::scene::Scene;
 
-/// What decides between the mechanisms of one stroke and time ratio. Lengths in m.
+/// Choice between the mechanisms of one stroke and time ratio. Lengths in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Choice {
-    /// The largest least transmission angle.
+    /// Mechanism with the largest least transmission angle.
     BestTransmission,
-    /// This crank.
+    /// Given crank length.
     Crank(f64),
-    /// This rod.
+    /// Given rod length.
     Rod(f64),
-    /// An offset of this size.
+    /// Given size of the offset.
     Offset(f64),
-    /// Rod over crank.
+    /// Given ratio of rod to crank.
     RodRatio(f64),
 }
 
-/// A mechanism of the branch `right` with a wanted stroke and time ratio.
+/// Mechanism of the branch `right` with a wanted stroke and time ratio.
 #[derive(Clone, Debug, Serialize)]
 pub struct Synthesis {
-    /// m
+    /// Crank length, m.
     pub crank_m: f64,
-    /// m
+    /// Rod length, m.
     pub rod_m: f64,
-    /// m, negative for time ratios below 1
+    /// Offset, m, negative for time ratios below 1.
     pub offset_m: f64,
-    /// One turn of it.
+    /// Kinematics of one turn.
     pub turn: Kinematics,
 }
 
-/// Crank, rod and offset for a stroke (m, positive) and a time ratio, which is between 1/3 and 3 where the crank turns fully.
+/// Solves for crank, rod and offset from a stroke (m, positive) and a time ratio (1/3 to 3 if the crank turns fully).
 ///
-/// At the dead centres the slider pin is l + r and l - r from O, under an angle of a = pi (K - 1)/(K + 1) for the time ratio
-/// K. With the stroke H the law of cosines is an ellipse, l = (H/2) sin u / sin(a/2) and r = (H/2) cos u / cos(a/2), and
-/// the area of the triangle gives e = (l^2 - r^2) sin(a)/H. The crank turns fully where a/2 < u < pi/2 - a/2. The
-/// transmission angle, cos mu = (r + e)/l, is best where cos u = (sqrt(4 + S^2) - S)/2 with S = sin(a/2), the root of
-/// (c - S)(c^2 + S c - 1) = 0 within. (For the graphical way see VDI 2126.)
+/// At the dead centres the slider pin is l + r and l - r from O, under an angle of a = pi (K - 1)/(K + 1) for the time
+/// ratio K. With the stroke H the law of cosines is an ellipse, l = (H/2) sin u / sin(a/2) and r = (H/2)
+/// cos u / cos(a/2), and the area of the triangle gives e = (l^2 - r^2) sin(a)/H. The crank turns fully where
+/// a/2 < u < pi/2 - a/2. The transmission angle, cos mu = (r + e)/l, is best where cos u = (sqrt(4 + S^2) - S)/2 with
+/// S = sin(a/2), the root of (c - S)(c^2 + S c - 1) = 0 within. (For the graphical method see VDI 2126.)
 ///
 /// # Errors
-/// [`Error::Refused`] if there is no such mechanism, with the range in which there are some.
+/// [`Error::Refused`] if no mechanism fits, with the range in which some do.
 ///
 /// ```
 /// use slider_crank::kinematics::{Choice, synthesis};
@@ -81,7 +81,7 @@ pub fn synthesis(stroke: f64, time_ratio: f64, choice: Choice) -> Result<Synthes
     })
 }
 
-/// Crank, rod and offset for half a stroke and a time ratio from 1 on.
+/// Solves for crank, rod and offset from half the stroke and a time ratio of 1 or more.
 fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
     if ratio == 1.0 {
         return in_line(half, choice);
@@ -123,7 +123,7 @@ fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
     let (crank, rod) = (half * c / cos, half * s / sin);
     let offset = half * (s - sin) * (s + sin) / (sin * cos);
     let mut lengths = [crank, rod, offset];
-    // What was given stays so to the last digit.
+    // The given length stays exact to the last digit.
     match choice {
         Choice::Crank(crank) => lengths[0] = crank,
         Choice::Rod(rod) => lengths[1] = rod,
@@ -133,7 +133,7 @@ fn lengths(half: f64, ratio: f64, choice: Choice) -> Result<[f64; 3], Error> {
     Ok(lengths)
 }
 
-/// The crank of a slider-crank without offset is half the stroke; any longer rod will do.
+/// Returns the lengths without offset: the crank is half the stroke, and any longer rod will do.
 fn in_line(half: f64, choice: Choice) -> Result<[f64; 3], Error> {
     let rod = match choice {
         Choice::Rod(rod) => rod,
@@ -153,7 +153,7 @@ fn in_line(half: f64, choice: Choice) -> Result<[f64; 3], Error> {
     }
 }
 
-/// The name of the only choice that is no length.
+/// Name of the only choice that is no length.
 const RATIO: &str = "rod ratio";
 
 fn out_of_range(name: &str, value: f64, low: f64, high: f64) -> Error {

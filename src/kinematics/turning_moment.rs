@@ -1,41 +1,41 @@
-//! The turning moment: the driving torque over a cycle at constant speed, and the energies a flywheel has to store.
+//! Turning moment: driving torque over a cycle at constant speed, and the energies a flywheel has to store.
 
 use serde::Serialize;
 
 use super::forces::ForceAnalysis;
 use crate::numeric::{gauss, root};
 
-/// The driving torque over the crank angle beside its mean: their areas are energies that a flywheel stores and gives back.
+/// Driving torque over the crank angle and its mean; the areas between are energies a flywheel stores and returns.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TurningMoment {
-    /// N m
+    /// Mean torque, N m.
     pub mean_nm: f64,
-    /// Work per cycle of what drives the crank, J; of the sign of the torque.
+    /// Work of the drive of the crank per cycle, J, with the sign of the torque.
     pub work_j: f64,
-    /// Greatest minus least of the stored energy, J.
+    /// Greatest minus least stored energy, J.
     pub fluctuation_j: f64,
-    /// Between crossings of the mean.
+    /// Areas between crossings of the mean.
     pub areas: Vec<Area>,
 }
 
-/// An area between the torque and its mean.
+/// Area between the torque and its mean.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Area {
-    /// rad
+    /// Crank angle of the start, rad.
     pub from_rad: f64,
-    /// rad
+    /// Crank angle of the end, rad.
     pub to_rad: f64,
-    /// J; positive where the torque is above its mean.
+    /// Energy, J; positive where the torque is above its mean.
     pub energy_j: f64,
 }
 
-/// Parts of an eighth of a turn in which the torque crosses its mean once at most.
+/// Parts of a piece (an eighth of a turn at most) in each of which the torque crosses its mean once at most.
 const LOOKS: u32 = 16;
 
-/// Error of areas as a part of the largest value times the length.
+/// Allowed error of an area, as a part of the largest value times the length.
 const TOLERANCE: f64 = 1e-12;
 
-/// Integrals of functions of the size that one has at the ends of pieces.
+/// Returns an integrator of functions of the size of one function at the ends of pieces.
 pub(super) fn areas(
     size: &dyn Fn(f64) -> f64,
     pieces: &[f64],
@@ -46,7 +46,7 @@ pub(super) fn areas(
 }
 
 impl ForceAnalysis {
-    /// Mean of the driving torque, and the areas on either side of it.
+    /// Computes the mean of the driving torque, and the areas on either side of it.
     pub(super) fn turning_moment(&self) -> TurningMoment {
         let pieces = self.pieces();
         let torque = |theta: f64| self.torque(theta);
@@ -92,8 +92,8 @@ impl ForceAnalysis {
         }
     }
 
-    /// Where a function of the cycle changes its sign, rad. It is looked at in the middle of parts of the pieces, as it may
-    /// vanish at their ends.
+    /// Locates the sign changes of a function of the cycle, rad. The function is sampled in the middle of parts of the
+    /// pieces, as it may vanish at their ends.
     fn crossings(&self, pieces: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
         let middles = pieces.windows(2).flat_map(|piece| {
             let step = (piece[1] - piece[0]) / f64::from(LOOKS);

@@ -1,4 +1,4 @@
-//! The equation at a place of rest: what holds there, and for how long.
+//! Rest at a coordinate: forces of dry loads and guide friction that hold the mechanism, and their margin.
 
 use super::friction::Free;
 use super::nonlinear_loads::sign;
@@ -7,7 +7,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, Reach};
 use crate::numeric::exact::SUM_ROUNDING;
 
-/// The mechanism at rest at a coordinate q.
+/// Mechanism at rest at a coordinate q.
 pub struct AtRest<'a> {
     equation: &'a CurveEquation,
     terms: CurveTerms,
@@ -15,7 +15,7 @@ pub struct AtRest<'a> {
 }
 
 impl CurveEquation {
-    /// The mechanism at rest at a coordinate.
+    /// Returns the mechanism at rest at a coordinate.
     pub fn at_rest(&self, q: Angle) -> AtRest<'_> {
         AtRest {
             equation: self,
@@ -25,14 +25,14 @@ impl CurveEquation {
     }
 }
 
-/// The equation at rest, with what its dry loads hold.
+/// Forces on the mechanism at rest, with the values at which the dry loads hold it.
 #[derive(Clone, Copy, Debug)]
 pub struct Held {
-    /// What is left for the guide to hold, or to move the mechanism.
+    /// Generalized force left for the guide to hold, or to move the mechanism.
     pub free: Free,
-    /// What the dry loads hold with. Where several do, each does with the same part of its magnitude.
+    /// Values at which the dry loads hold; several loads each take the same part of their magnitude.
     pub dry: LoadValue,
-    /// How much more they could hold, N m; negative: they cannot.
+    /// Reserve of the dry loads, N m: band less pull; negative: they cannot hold.
     spare: f64,
 }
 
@@ -52,19 +52,19 @@ impl Held {
 }
 
 impl AtRest<'_> {
-    /// The next time at which a load has a corner, s.
+    /// Returns the next time after `t` at which a load has a corner, s.
     pub fn next_corner(&self, t: f64) -> f64 {
         self.equation.loads().next_corner(t)
     }
 
-    /// What is left at a time (s) of all that holds, zero where it gives way: N of static friction at the guide, or N m
-    /// with dry loads. These hold first, and the guide what they do not.
+    /// Returns the margin at a time (s) of all that holds, zero where it gives way: static friction at the guide in N,
+    /// or N m with dry loads. The dry loads hold first, the guide holds the rest.
     pub fn margin(&self, t: f64, mu_static: f64) -> f64 {
         let dry = self.equation.loads().are_dry();
         self.held(t).margin(mu_static, dry)
     }
 
-    /// How much [`AtRest::margin`] changes at most between two times (s), as far as the loads are enclosed.
+    /// Bounds the change of [`AtRest::margin`] between two times (s), N or N m, from enclosures of the loads.
     pub fn margin_change(&self, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
         let loads = self.equation.loads();
         if !loads.have_detail() {
@@ -81,10 +81,10 @@ impl AtRest<'_> {
             torque: terms.place.dtheta,
             force: terms.place.dx,
         };
-        // Of the range of a load no ellipse around it is asked for: any serves.
+        // Only the range of a load on the interval is used: any size of the ellipse serves.
         let detail = loads.detail(&seen, arms, 2.0);
         let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
-        // What changes Q by one changes the torque by one at most and the force by 1/x'.
+        // A change of Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
         let change = (detail.change - self.rounding(from)).max(0.0) * most;
         match loads.are_dry() {
@@ -94,7 +94,7 @@ impl AtRest<'_> {
         }
     }
 
-    /// What rounding leaves open of the generalized force of the loads at rest, N m.
+    /// Returns the rounding error of the generalized force of the loads at rest, N m.
     fn rounding(&self, t: f64) -> f64 {
         let place = &self.terms.place;
         let LoadValue { torque, force } = self.equation.load(place, t, self.q, 0.0);
@@ -103,13 +103,13 @@ impl AtRest<'_> {
         SUM_ROUNDING * size
     }
 
-    /// What the dry loads oppose motion with at most, N m and N.
+    /// Returns the magnitudes with which the dry loads oppose motion, N m and N.
     fn dry_magnitude(&self, t: f64) -> LoadValue {
         let now = self.equation.instant(&self.terms.place, t, self.q, 0.0);
         self.equation.loads().dry_magnitude(&now)
     }
 
-    /// What holds it at a time, s.
+    /// Returns the forces that hold the mechanism at a time, s.
     pub fn held(&self, t: f64) -> Held {
         let terms = &self.terms;
         let mut free = self.equation.without_dry(terms, t, self.q, 0.0);
@@ -135,7 +135,7 @@ impl AtRest<'_> {
         };
         free.push(terms, dry, 0.0);
         if spare >= 0.0 {
-            // What is held leaves nothing, not even rounding.
+            // Equilibrium: no pull is left, not even rounding.
             free.pull = 0.0;
         }
         Held { free, dry, spare }

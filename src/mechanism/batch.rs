@@ -1,4 +1,4 @@
-//! The equation at many instants at once.
+//! Lagrange equation at many instants or crank angles at once, in arrays that the compiler vectorises.
 
 use super::lagrange::forward;
 use super::load::instant;
@@ -7,22 +7,22 @@ use crate::numeric::LANES;
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
 
-/// Instants of one motion. All angles share their whole turns.
+/// Instants of one motion; all crank angles have the same whole turns.
 #[derive(Clone, Copy, Debug)]
 pub struct Instants<'a, const N: usize> {
-    /// s
+    /// Times, s.
     pub t: &'a [f64; N],
-    /// The loads of time alone at these times: [`super::Loads::of_time`].
+    /// Loads of time alone at these times: [`super::Loads::of_time`].
     pub of_time: &'a [LoadValue; N],
-    /// Whole turns beside the crank angles.
+    /// Whole turns to add to the crank angles.
     pub turns: f64,
     /// Crank angles, rad.
     pub theta: &'a [f64; N],
-    /// rad/s
+    /// Crank speeds, rad/s.
     pub omega: &'a [f64; N],
 }
 
-/// What the terms of the equation are at N crank angles.
+/// Terms of the equation at N crank angles.
 #[derive(Clone, Copy, Debug)]
 pub struct Positions<const N: usize> {
     /// Slider position, m.
@@ -57,8 +57,8 @@ impl<const N: usize> Positions<N> {
 }
 
 impl Equation {
-    /// θ̈ (rad/s²) at N instants, and the power (W) of the loads without a potential, as
-    /// [`Equation::acceleration_and_power`] gives them one by one, to rounding.
+    /// Computes θ̈ (rad/s²) at N instants, and the power (W) of the loads without a potential; equal to
+    /// [`Equation::acceleration_and_power`] to rounding.
     pub fn accelerations<const N: usize>(
         &self,
         at: &Instants<'_, N>,
@@ -83,7 +83,7 @@ impl Equation {
         }
     }
 
-    /// Positions and terms at N crank angles, rad.
+    /// Computes positions and terms at N crank angles, rad.
     #[inline]
     pub fn positions<const N: usize>(&self, theta: &[f64; N]) -> Positions<N> {
         let mut positions = Positions::ZERO;
@@ -91,7 +91,7 @@ impl Equation {
         positions
     }
 
-    /// What `take` makes of the terms at N crank angles.
+    /// Calls `take` with the index and the terms of each of N crank angles, rad.
     #[inline(always)]
     fn each<const N: usize>(&self, theta: &[f64; N], mut take: impl FnMut(usize, &Terms)) {
         let (sin, cos) = sin_cos(theta);
@@ -109,12 +109,12 @@ impl Equation {
         }
     }
 
-    /// Positions at the first `count` angles (rad); what is beyond is zero.
+    /// Computes positions at the first `count` angles (rad); the other entries are zero.
     pub fn first_positions<const N: usize>(&self, theta: &[f64; N], count: usize) -> Positions<N> {
         self.first(theta, count, |_| ()).0
     }
 
-    /// Positions at the first `count` angles (rad), with the normal force at the guide; what is beyond is zero.
+    /// Computes positions at the first `count` angles (rad), and the guide's normal force; the other entries are zero.
     pub fn first_guided<const N: usize>(
         &self,
         theta: &[f64; N],

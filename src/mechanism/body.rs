@@ -1,10 +1,10 @@
-//! Bodies: each enters the equation only through the path p(θ) of one of its points and its turn angle
-//! ψ(θ), with two derivatives each.
+//! Bodies: each enters the equation only through the path p(θ) of one of its points and its turn angle ψ(θ), with two
+//! derivatives each.
 
 use super::{Linkage, Pose};
 use crate::scene::{RodModel, Scene};
 
-/// What a body is fixed to.
+/// Link that a body is fixed to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Link {
     /// Crank, from O to A.
@@ -16,23 +16,23 @@ pub enum Link {
     Slider,
 }
 
-/// A body and where its mass sits.
+/// Mass, centre of gravity and moment of inertia of a body on its link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Body {
-    /// What it is fixed to.
+    /// Link that carries the body.
     pub on: Link,
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
-    /// Centre of gravity along the link from the end that it begins at, m.
+    /// Centre of gravity along the link, from the end at which the link begins, m.
     pub along: f64,
-    /// Centre of gravity to the left of that, m.
+    /// Centre of gravity to the left of the link, m.
     pub lateral: f64,
-    /// Moment of inertia about the centre of gravity, kg m²; of a crank about O.
+    /// Moment of inertia about the centre of gravity, kg m²; for a crank about O.
     pub inertia: f64,
 }
 
 impl Body {
-    /// A point mass on a link.
+    /// Returns a point mass on a link.
     fn point(on: Link, mass: f64, along: f64, lateral: f64) -> Body {
         Body {
             on,
@@ -43,13 +43,13 @@ impl Body {
         }
     }
 
-    /// The rod of a scene as one body that carries forces; none of the model `spin-only`, which leaves out its translation.
+    /// Returns the rod of a scene as one body that carries forces; none for the model `spin-only`, without translation.
     pub(super) fn rod(scene: &Scene) -> Option<Body> {
         let rod = scene.rod.unwrap_or_default();
         let inertia = match rod.model {
             RodModel::Massless => return Some(Body::default()),
             RodModel::Rigid => rod.central_inertia().max(0.0),
-            // What two masses at the pins have about their centre of gravity.
+            // Moment of inertia of two masses at the pins about their centre of gravity.
             RodModel::TwoMass => rod.mass * rod.cg * (scene.geometry.rod - rod.cg),
             RodModel::SpinOnly => return None,
         };
@@ -59,7 +59,7 @@ impl Body {
         })
     }
 
-    /// Centre of gravity from the end that its link begins at, m, for the direction of the link (a unit vector).
+    /// Returns the centre of gravity from the beginning of the link, m, for the direction of the link (a unit vector).
     pub(super) fn arm(&self, [cos, sin]: [f64; 2]) -> [f64; 2] {
         [
             self.along * cos - self.lateral * sin,
@@ -68,7 +68,7 @@ impl Body {
     }
 }
 
-/// Derivatives of a body's path and turn angle with respect to the crank angle.
+/// Derivatives of the path and the turn angle of a body with respect to the crank angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Path {
     /// p', m/rad
@@ -82,7 +82,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// Path of a point at (along, left) of the crank.
+    /// Returns the path of a point at (along, lateral) of the crank.
     pub fn on_crank(pose: &Pose, along: f64, lateral: f64) -> Path {
         let (sin, cos) = (pose.sin, pose.cos);
         Path {
@@ -93,13 +93,13 @@ impl Path {
         }
     }
 
-    /// Path of a point at (along, left) of the rod: A plus the point in the rod's axes
-    /// d = (s cos φ, −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
+    /// Returns the path of a point at (along, lateral) of the rod: A plus the point in the rod's axes d = (s cos φ,
+    /// −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
     #[inline(always)]
     pub fn on_rod(linkage: &Linkage, pose: &Pose, along: f64, lateral: f64) -> Path {
         let s = linkage.s;
         let (dx, dy) = (s * pose.cos_phi, -pose.sin_phi);
-        // The point from A, and the same turned by 90 degrees.
+        // Vector from A to the point.
         let (gx, gy) = (along * dx - lateral * dy, along * dy + lateral * dx);
         let (dpsi, d2psi) = (-s * pose.dphi, -s * pose.d2phi);
         let (ax, ay) = (linkage.r * pose.cos, linkage.r * pose.sin);
@@ -115,7 +115,7 @@ impl Path {
         }
     }
 
-    /// Path of the end of an arm that turns: first and second derivative of its angle.
+    /// Returns the path of the tip of a turning arm, from the first and second derivative of the arm's angle.
     pub(super) fn turning([x, y]: [f64; 2], [first, second]: [f64; 2]) -> Path {
         Path {
             dp: [-y * first, x * first],
@@ -128,7 +128,7 @@ impl Path {
         }
     }
 
-    /// The path of what hangs on the end of this arm and turns as `arm` does.
+    /// Returns the path of a body that hangs on the tip of this arm and turns as `arm` does.
     pub(super) fn carrying(&self, arm: &Path) -> Path {
         let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
         Path {
@@ -139,8 +139,8 @@ impl Path {
     }
 }
 
-/// The bodies of a scene, sorted into what has inertia and what has weight. Only for the rod model
-/// `spin-only` do the two differ.
+/// Bodies of a scene, sorted into those with inertia and those with weight. The two differ only for the rod model
+/// `spin-only`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Bodies {
     /// Constant part of M: crank inertia about O and masses fixed to the crank, kg m².
@@ -152,7 +152,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// The bodies of a scene from which parts without strength were taken out.
+    /// Collects the bodies of a scene without parts of zero strength.
     pub fn new(scene: &Scene) -> Bodies {
         let mut bodies = Bodies::default();
         let r = scene.geometry.crank;
@@ -199,7 +199,7 @@ impl Bodies {
         bodies
     }
 
-    /// Whether anything resists acceleration, in some position.
+    /// Whether any body resists acceleration in some position.
     pub fn have_inertia(&self) -> bool {
         let mut inertias = self.inertias.iter();
         self.crank_inertia != 0.0 || inertias.any(|body| body.mass != 0.0 || body.inertia != 0.0)

@@ -1,4 +1,4 @@
-//! One coordinate for every position the mechanism can move to, also where the crank cannot turn fully.
+//! Configuration curve: a coordinate for all connected positions, also where the crank cannot turn fully.
 //!
 //! The rod points along (cos Φ, −sin Φ) from A: e + r sin θ = l sin Φ, x = r cos θ + l cos Φ, where cos Φ
 //! changes its sign with the assembly branch. The solutions (θ, Φ) form closed curves, and each has a
@@ -9,7 +9,7 @@
 //!   h = (l − e + r)/2 it is e − r + 2 h sin²q, so that
 //!   sin((θ + 90°)/2) = √(h/r) sin q and sin((90° − Φ)/2) = √(h/l) cos q;
 //! - at a change point h/r = 1 or h/l = 1: there cos((θ + 90°)/2) = cos q, or cos((90° − Φ)/2) = sin q, with
-//!   their signs. That is the motion which keeps all velocities continuous.
+//!   their signs, for the motion that keeps all velocities continuous.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -19,7 +19,7 @@ use super::{Class, CurvePose, Limits, Linkage};
 use crate::numeric::angle::Angle;
 use crate::scene::Branch;
 
-/// The positions of a mechanism that are connected with one of them.
+/// Connected set of positions of a mechanism, with a coordinate q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     linkage: Linkage,
@@ -38,9 +38,8 @@ pub(super) enum Chart {
 }
 
 impl Curve {
-    /// The positions that can be reached from crank angle `theta` (rad) on the linkage's branch, and the
-    /// coordinate of that position. None where there is no position, and at the crossing of a change point,
-    /// where it does not say on which of the two curves it lies.
+    /// Returns the curve through crank angle `theta` (rad) on the linkage's branch, and the coordinate of that
+    /// position. None where no position exists, and at the crossing of a change point, which lies on two curves.
     pub fn through(linkage: &Linkage, theta: Angle) -> Option<(Curve, Angle)> {
         let class = Class::of(linkage);
         let pose = linkage.pose(theta.rest);
@@ -58,7 +57,7 @@ impl Curve {
             }
             Class::DoubleRocker => {}
             Class::ChangePoint if pose.cos_phi <= SAME_LENGTHS.sqrt() => {
-                // At a limit that is no crossing the crank does not point normal to the guide.
+                // A limit is a crossing only where the crank, too, is normal to the guide.
                 if pose.cos.abs() < 1e-6 {
                     return None;
                 }
@@ -71,7 +70,7 @@ impl Curve {
         Some((curve.started_at(q, theta), q))
     }
 
-    /// The curve with the crank angle as its coordinate, whatever the class.
+    /// Returns the curve with the crank angle as its coordinate, for any class.
     pub fn on_crank(linkage: &Linkage) -> Curve {
         Curve {
             linkage: *linkage,
@@ -86,7 +85,7 @@ impl Curve {
         self
     }
 
-    /// The linkage.
+    /// Returns the linkage.
     pub fn linkage(&self) -> &Linkage {
         &self.linkage
     }
@@ -96,7 +95,7 @@ impl Curve {
         matches!(self.chart, Chart::Crank)
     }
 
-    /// What the coordinate is.
+    /// Returns a description of the coordinate, for outputs.
     pub fn coordinate(&self) -> &'static str {
         match self.chart {
             Chart::Crank => "crank angle theta",
@@ -107,7 +106,7 @@ impl Curve {
         }
     }
 
-    /// The crank angle at coordinate q (rad), unwrapped along the motion.
+    /// Returns the crank angle at coordinate q (rad), unwrapped along the motion.
     pub fn crank_angle(&self, q: Angle) -> Angle {
         match &self.chart {
             Chart::Crank => q,
@@ -133,7 +132,7 @@ impl Curve {
         }
     }
 
-    /// The position at coordinate q, rad.
+    /// Returns the position at coordinate q, rad.
     pub fn place(&self, q: f64) -> CurvePose {
         match &self.chart {
             Chart::Crank => CurvePose::of(&self.linkage, &self.linkage.pose(q)),
@@ -142,7 +141,7 @@ impl Curve {
         }
     }
 
-    /// Coordinates in [0, 2π) at which crank and rod lie in one line and the slider turns back.
+    /// Locates the dead centres: coordinates in [0, 2π) at which crank and rod are in line and the slider reverses.
     pub fn dead_centres(&self) -> Vec<f64> {
         let found = [Branch::Right, Branch::Left]
             .into_iter()
@@ -165,7 +164,7 @@ impl Curve {
         found
     }
 
-    /// Coordinates in [0, 2π) at which the rod stands normal to the guide.
+    /// Returns the coordinates in [0, 2π) at which the rod stands normal to the guide.
     pub fn limits(&self) -> Vec<f64> {
         match &self.chart {
             Chart::Crank => Vec::new(),

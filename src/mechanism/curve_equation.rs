@@ -1,7 +1,7 @@
-//! The equation on the configuration curve, and the force of the guide that keeps the mechanism on it.
+//! Lagrange equation on the configuration curve, and the guide's normal force on the slider, by virtual work.
 //!
-//! Along the curve: M q̈ + ½ M' q̇² + V' = Q. Across it, in the direction n of the (θ, Φ) plane which lifts the
-//! slider by one and leaves the guide, virtual work gives the normal force
+//! Along the curve: M q̈ + ½ M' q̇² + V' = Q. Across it, in the direction n of the (θ, Φ) plane that lifts the slider
+//! by one off the guide, virtual work gives the normal force
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
 use std::sync::OnceLock;
@@ -12,7 +12,7 @@ use super::{Curve, CurvePose, Equation, LoadValue, Loads, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Friction, Instant, Scene};
 
-/// The equation of one scene on its configuration curve.
+/// Lagrange equation of one scene on its configuration curve.
 #[derive(Clone, Debug)]
 pub struct CurveEquation {
     equation: Equation,
@@ -21,10 +21,10 @@ pub struct CurveEquation {
     friction: Option<Friction>,
 }
 
-/// What depends on the position alone.
+/// Terms of the equation that depend on the position alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveTerms {
-    /// The position.
+    /// Position of the mechanism.
     pub place: CurvePose,
     /// M, kg m²
     pub m: f64,
@@ -45,19 +45,19 @@ pub struct CurveTerms {
 }
 
 impl CurveTerms {
-    /// Q of a load, N m.
+    /// Returns Q of a load, N m.
     pub(super) fn along(&self, load: LoadValue) -> f64 {
         load.torque * self.place.dtheta + load.force * self.place.dx
     }
 
-    /// Q_n of a load, N.
+    /// Returns Q_n of a load, N.
     pub(super) fn aside(&self, load: LoadValue) -> f64 {
         load.torque * self.theta_n + load.force * self.x_n
     }
 }
 
 impl CurveEquation {
-    /// The equation of a scene on the curve.
+    /// Builds the equation of a scene on a curve.
     pub fn new(scene: &Scene, curve: Curve) -> CurveEquation {
         CurveEquation {
             equation: Equation::new(scene),
@@ -67,22 +67,22 @@ impl CurveEquation {
         }
     }
 
-    /// The curve.
+    /// Returns the curve.
     pub fn curve(&self) -> &Curve {
         &self.curve
     }
 
-    /// The loads.
+    /// Returns the loads.
     pub fn loads(&self) -> &Loads {
         self.equation.loads()
     }
 
-    /// The friction at the guide.
+    /// Returns the friction at the guide, if any.
     pub fn friction(&self) -> Option<Friction> {
         self.friction
     }
 
-    /// The terms that depend on the coordinate q (rad) alone.
+    /// Computes the terms at coordinate q, rad.
     pub fn across(&self, q: f64) -> CurveTerms {
         let place = self.curve.place(q);
         let linkage = self.curve.linkage();
@@ -111,12 +111,12 @@ impl CurveEquation {
         }
     }
 
-    /// Whether there is no inertia at coordinate q (rad), compared with that further on.
+    /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
     pub fn vanishes_at(&self, q: f64) -> bool {
         self.across(q).m < 1e-9 * self.across(q + 0.3).m
     }
 
-    /// Whether the inertia vanishes at a limit or a dead centre.
+    /// Whether M vanishes at a limit or a dead centre.
     pub fn vanishes_somewhere(&self) -> bool {
         let curve = &self.curve;
         let mut places = curve.limits().into_iter().chain(curve.dead_centres());
@@ -125,7 +125,7 @@ impl CurveEquation {
             .get_or_init(|| places.any(|q| self.vanishes_at(q)))
     }
 
-    /// The state of motion as loads see it.
+    /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s).
     pub fn instant(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
         Instant {
             t,
@@ -136,12 +136,12 @@ impl CurveEquation {
         }
     }
 
-    /// Torque and force of the loads, without friction; dry ones against this speed.
+    /// Returns torque and force of the loads without guide friction; dry loads oppose this speed.
     pub fn load(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
         self.equation.loads().at(&self.instant(place, t, q, speed))
     }
 
-    /// Value of the loads beside what is known of the dry ones.
+    /// Returns torque and force of the loads, with a known value of the dry ones.
     pub fn load_beside(
         &self,
         dry: LoadValue,
@@ -161,13 +161,13 @@ impl CurveEquation {
             .plus(dry)
     }
 
-    /// Acceleration and normal force as they would be without friction, and what a force along the guide
-    /// changes in them. Speed in rad/s of the coordinate.
+    /// Returns acceleration and normal force without guide friction, and their derivatives with respect to a force
+    /// along the guide. Dry loads oppose the speed (rad/s) of the coordinate.
     pub fn free(&self, t: f64, q: Angle, speed: f64) -> Free {
         self.against(t, q, speed, None)
     }
 
-    /// [`Self::free`] of a motion that dry loads oppose in these senses, whatever the speed.
+    /// Returns [`Self::free`] of a motion that dry loads oppose in these senses, whatever the speed.
     pub fn free_against(&self, t: f64, q: Angle, speed: f64, sense: Sense) -> Free {
         self.against(t, q, speed, Some(sense))
     }
@@ -183,7 +183,7 @@ impl CurveEquation {
         free
     }
 
-    /// Motion without friction and without the dry loads.
+    /// Computes the motion without guide friction and without dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
         let place = &terms.place;
         let non_conservative = self
@@ -212,14 +212,14 @@ impl CurveEquation {
         }
     }
 
-    /// Normal and friction force of a motion whose acceleration (rad/s² of the coordinate) is kept up by a drive
-    /// of the crank; none where the guide locks itself.
+    /// Returns normal and friction force of the guide where a drive of the crank keeps up an acceleration (rad/s² of
+    /// the coordinate); none where the guide locks itself.
     pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
         let terms = self.across(q.rest);
         let load = self.load(&terms.place, t, q, speed);
         let place = &terms.place;
         let squared = speed * speed;
-        // Across the curve with the crank held: the drive does no work then.
+        // Virtual displacement off the guide with the crank held, over which the drive does no work.
         let share = terms.theta_n / place.dtheta;
         let slope = terms.x_n - share * place.dx;
         let without = (terms.a - share * terms.m) * acceleration
@@ -230,13 +230,13 @@ impl CurveEquation {
         GuideForces::sliding(without, -slope, mu, place.dx * speed)
     }
 
-    /// Kinetic energy, J.
+    /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, q: Angle, speed: f64) -> f64 {
         0.5 * self.across(q.rest).m * speed * speed
     }
 
-    /// Potential energy of gravity and of the loads that have a potential, J.
-    /// Crank angles count without `turns` whole turns, which would cost digits.
+    /// Returns the potential energy of gravity and of the loads that have a potential, J. The crank angle counts
+    /// without `turns` whole turns, which would cost digits.
     pub fn potential_energy(&self, q: Angle, turns: f64) -> f64 {
         let place = self.curve.place(q.rest);
         let mut theta = self.curve.crank_angle(q);

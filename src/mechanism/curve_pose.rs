@@ -1,8 +1,8 @@
-//! A position of the mechanism on its configuration curve.
+//! Position of the mechanism on its configuration curve, with derivatives along the curve.
 
 use super::{Body, Link, Linkage, Path, Pose};
 
-/// A position, with two derivatives with respect to q (a dash), which like θ and Φ is an angle in rad.
+/// Position with two derivatives with respect to q (a dash); q, like θ and Φ, is an angle in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePose {
     /// sin θ
@@ -13,9 +13,9 @@ pub struct CurvePose {
     pub dtheta: f64,
     /// θ''
     pub d2theta: f64,
-    /// sin Φ: the rod points along (cos Φ, −sin Φ).
+    /// sin Φ; the rod points along (cos Φ, −sin Φ).
     pub rod_sin: f64,
-    /// cos Φ: zero at a limit, its sign is that of the branch.
+    /// cos Φ, with the sign of the branch; zero at a limit.
     pub rod_cos: f64,
     /// Φ'
     pub drod: f64,
@@ -30,7 +30,7 @@ pub struct CurvePose {
 }
 
 impl CurvePose {
-    /// The position of a linkage at a crank angle, with that as the coordinate.
+    /// Returns the position of a linkage at a crank angle, with this angle as the coordinate.
     pub(super) fn of(linkage: &Linkage, pose: &Pose) -> CurvePose {
         let s = linkage.s;
         CurvePose {
@@ -48,7 +48,7 @@ impl CurvePose {
         }
     }
 
-    /// Crank and rod exchanged.
+    /// Returns the position with crank and rod exchanged.
     pub(super) fn exchanged(self) -> CurvePose {
         CurvePose {
             sin: self.rod_sin,
@@ -63,7 +63,7 @@ impl CurvePose {
         }
     }
 
-    /// The path of a body over the coordinate.
+    /// Returns the path of a body with respect to the coordinate.
     pub(super) fn path(&self, linkage: &Linkage, body: &Body) -> Path {
         let crank = [self.cos, self.sin];
         let turn = [self.dtheta, self.d2theta];
@@ -82,7 +82,7 @@ impl CurvePose {
         }
     }
 
-    /// Rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].
+    /// Returns the rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].
     pub fn phi(&self) -> f64 {
         self.rod_sin.atan2(self.rod_cos.abs())
     }

@@ -1,18 +1,18 @@
-//! What loads do between the nodes of a panel or a step.
+//! Detail of the loads between the nodes of a panel or a step, from enclosures of the loads.
 
 use super::nonlinear_loads::NonlinearLoads;
 use super::{Arms, CurveEquation, CurveTerms, EnclosedState, Linkage, Loads};
 use crate::numeric::enclosure::{Detail, Enclosed, Interval, Reach};
 use crate::scene::{Load, Variable, Variables};
 
-/// A piece of a motion as the loads see it, and the ellipse around it.
+/// Enclosed state over a piece of a motion, and size of the Bernstein ellipse around the piece.
 struct Around<'a> {
     seen: &'a EnclosedState,
     ellipse: f64,
 }
 
 impl Around<'_> {
-    /// A variable over the piece.
+    /// Returns the range of a variable over the piece.
     fn real(&self, variable: Variable) -> Interval {
         match variable {
             Variable::T => self.seen.t,
@@ -27,7 +27,7 @@ impl Around<'_> {
         Enclosed::variable(self.real(variable), self.ellipse)
     }
 
-    /// A closure shows what it does where the piece is no wider than its finest scale.
+    /// Returns no detail for a closure on a piece no wider than its finest scale, else [`Detail::HIDDEN`].
     fn closure(&self, scales: &[(Variable, f64)]) -> Detail {
         let mut scales = scales.iter();
         let hides = scales.any(|&(variable, scale)| 2.0 * self.real(variable).half() > scale);
@@ -48,13 +48,13 @@ impl Around<'_> {
                 pressure.enclose(self.seen.theta) * Enclosed::point(*area)
             }
             Load::Expression(expression) => expression.enclose(|variable| self.variable(variable)),
-            // Its sign stays on a piece.
+            // A dry load keeps its sign on a piece.
             Load::Dry(magnitude) => self.magnitude(magnitude),
             _ => Enclosed::point(0.0),
         }
     }
 
-    /// A magnitude, which is over the size of a speed.
+    /// Encloses a magnitude, a function of the size of a speed.
     fn magnitude(&self, load: &Load) -> Enclosed {
         match load {
             Load::Table(table) if matches!(table.of(), Variable::Omega | Variable::V) => {
@@ -77,7 +77,7 @@ impl Around<'_> {
     }
 }
 
-/// The rows of other tables of the position are known as crank angles.
+/// Whether a load is a table over x; the rows of tables over the crank angle are known corners.
 fn is_over_x(load: &Load) -> bool {
     matches!(load, Load::Table(table) if table.of() == Variable::X)
 }
@@ -87,8 +87,8 @@ fn states_scale(load: &Load) -> bool {
 }
 
 impl Loads {
-    /// Whether there are loads that may do something between nodes: formulas, closures that state a scale, and tables over
-    /// another variable than the crank angle or time, whose rows are known.
+    /// Whether a load may vary between nodes: formulas, tables, gas pressures, dry loads, and closures that state a
+    /// scale.
     pub fn have_detail(&self) -> bool {
         self.called().any(|load| {
             matches!(
@@ -98,7 +98,7 @@ impl Loads {
         })
     }
 
-    /// Whether one of them depends on the position alone.
+    /// Whether a load of the position alone may vary between nodes: a formula, a table over x, a closure with a scale.
     pub fn have_detail_of_place(&self) -> bool {
         let mut placed = self.placed.loads();
         placed.any(|load| {
@@ -106,18 +106,18 @@ impl Loads {
         })
     }
 
-    /// Whether they act on the slider or depend on its position or velocity.
+    /// Whether the loads act on the slider or depend on its position or velocity.
     pub fn meet_slider(&self) -> bool {
         self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
-    /// What the loads do on a piece of a motion, and in an ellipse of this size around it, each times its arm.
+    /// Returns the detail of the loads, times their arms, on a piece of a motion and in an `ellipse` around it.
     pub fn detail(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
         let classes = [&self.placed, &self.timed, &self.mixed, &self.dry];
         Self::detail_of(&classes, seen, arms, ellipse)
     }
 
-    /// Detail of the generalized force, N m, of the loads that depend on the position alone.
+    /// Returns the detail of the generalized force, N m, of the loads that depend on the position alone.
     pub fn detail_of_place(&self, linkage: &Linkage, angle: Interval, ellipse: f64) -> Detail {
         let none = Interval::point(0.0);
         let reach = Reach {
@@ -129,7 +129,7 @@ impl Loads {
         Self::detail_of(&[&self.placed], &seen, seen.arms(), ellipse)
     }
 
-    /// Detail of the loads that depend on speed or time.
+    /// Returns the detail of the loads that depend on speed or time, without dry loads.
     pub fn detail_of_state(&self, seen: &EnclosedState, arms: Arms, ellipse: f64) -> Detail {
         Self::detail_of(&[&self.timed, &self.mixed], seen, arms, ellipse)
     }
@@ -147,8 +147,8 @@ impl Loads {
 }
 
 impl CurveEquation {
-    /// How far a load of one changes q̈ (rad/s²) of a motion that slides with c = −μ sgn(v) sgn(N), in the middle of a range of
-    /// coordinates (rad): the nodes of a step show what the linkage does on it.
+    /// Returns the change of q̈ (rad/s²) per unit load, for a motion that slides with c = −μ sgn(v) sgn(N), in the
+    /// middle of a range of coordinates (rad): the nodes of a step resolve the linkage.
     pub fn arms(&self, q: Interval, c: f64) -> Arms {
         let terms = self.across(q.middle());
         let CurveTerms { place, m, a, .. } = terms;

@@ -1,4 +1,4 @@
-//! What the loads see of a piece of a motion: intervals of time, angle, speed, slider position and velocity.
+//! Enclosed state over a piece of a motion: intervals of time, angle, speed, slider position and velocity.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -7,34 +7,34 @@ use super::rocker::Rocker;
 use super::{Curve, Linkage};
 use crate::numeric::enclosure::{Interval, Reach};
 
-/// Ranges of what loads depend on. Not enclosed is what no load asks for.
+/// Ranges of the variables of loads; the whole line for a variable that no load depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct EnclosedState {
-    /// s
+    /// Time, s.
     pub t: Interval,
     /// Crank angle, rad, unwrapped.
     pub theta: Interval,
-    /// rad/s
+    /// Crank speed, rad/s.
     pub omega: Interval,
-    /// m
+    /// Slider position, m.
     pub x: Interval,
-    /// m/s
+    /// Slider velocity, m/s.
     pub v: Interval,
     /// x', m/rad of the coordinate.
     pub dx: Interval,
 }
 
-/// What a load of one does: torques, per N m, and slider forces, per N.
+/// Effects of a unit load.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Arms {
-    /// Of torques.
+    /// Effect of a torque, per N m.
     pub torque: f64,
-    /// Of slider forces.
+    /// Effect of a slider force, per N.
     pub force: f64,
 }
 
 impl EnclosedState {
-    /// Of the generalized force over the crank angle: Q = τ + F x'.
+    /// Returns the arms of the generalized force over the crank angle: Q = τ + F x'.
     pub fn arms(&self) -> Arms {
         Arms {
             torque: 1.0,
@@ -44,7 +44,7 @@ impl EnclosedState {
 }
 
 impl Arms {
-    /// Of what acts in two ways.
+    /// Returns the sums of the magnitudes of two pairs of arms, for loads that act in two ways.
     pub fn plus(self, other: Arms) -> Arms {
         Arms {
             torque: self.torque.abs() + other.torque.abs(),
@@ -52,7 +52,7 @@ impl Arms {
         }
     }
 
-    /// The larger ones of two positions.
+    /// Returns the larger magnitudes of the arms at two positions.
     pub fn larger(self, other: Arms) -> Arms {
         Arms {
             torque: self.torque.abs().max(other.torque.abs()),
@@ -61,16 +61,16 @@ impl Arms {
     }
 }
 
-/// Positions over a range of a coordinate q.
+/// Ranges of a position over a range of a coordinate q.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
-    /// Angle that belongs to q, rad: φ of a linkage, θ of a curve.
+    /// Angle at q, rad: φ of a linkage, θ of a curve.
     pub angle: Interval,
     /// Derivative of the angle with respect to q.
     pub dangle: Interval,
-    /// m
+    /// Slider position, m.
     pub x: Interval,
-    /// m/rad
+    /// x', m/rad.
     pub dx: Interval,
 }
 
@@ -87,7 +87,7 @@ fn root(of: Interval) -> Interval {
 }
 
 impl Linkage {
-    /// Over crank angles: φ, φ', x and x'.
+    /// Encloses φ, φ', x and x' over crank angles.
     pub(super) fn enclose(&self, theta: Interval) -> Places {
         let (sin, cos) = (theta.sin(), theta.cos());
         let sin_phi = sine((point(self.e) + point(self.r) * sin) * point(1.0 / self.l));
@@ -102,7 +102,7 @@ impl Linkage {
         }
     }
 
-    /// A motion over the crank angle; positions only where loads depend on them.
+    /// Returns the enclosed state of a motion over the crank angle; `by_place`: with x and x', where loads need them.
     pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
         let (x, dx) = if by_place {
             let places = self.enclose(reach.angle);
@@ -122,12 +122,12 @@ impl Linkage {
 }
 
 impl Rocker {
-    /// Over coordinates: θ, θ', x and x'.
+    /// Encloses θ, θ', x and x' over coordinates.
     fn enclose(&self, linkage: &Linkage, q: Interval) -> Places {
         let (mirror, fold) = (point(self.mirror), point(self.fold));
         let quarter_less = q - point(FRAC_PI_2);
         let crank = self.crank.enclose(q);
-        // cos q is the sine of a right angle less, to either side.
+        // cos q = sin(π/2 − q).
         let rod = self.rod.enclose(-quarter_less);
         let (r, l) = (point(linkage.r), point(linkage.l));
         let (dtheta, drod) = (mirror * crank.slope, mirror * fold * rod.slope);
@@ -172,7 +172,7 @@ impl Curve {
         }
     }
 
-    /// A motion over the coordinate of the curve; positions only where loads depend on them.
+    /// Returns the enclosed state of a motion over the coordinate; `by_place`: with x and x', always if q is not θ.
     pub fn seen(&self, reach: &Reach, by_place: bool) -> EnclosedState {
         if self.is_crank_angle() {
             return self.linkage().seen(reach, by_place);

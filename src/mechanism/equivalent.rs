@@ -1,14 +1,14 @@
-//! Equivalent rotating and reciprocating masses.
+//! Equivalent rotating and reciprocating masses of a scene: point masses at the pins.
 
 use crate::scene::Scene;
 
-/// Masses at the pins that stand for crank, rod and slider, Obaseki & Alfred (31)-(36).
+/// Point masses at the pins that replace crank, rod and slider, Obaseki & Alfred (31)-(36).
 ///
-/// Equivalent masses keep mass and first moment of rod and crank, not the moments of inertia: forces of a rod follow from
-/// them only with the couple `rod_inertia_left` times the angular acceleration of the rod added.
+/// Equivalent masses keep mass and first moment of rod and crank, not the moments of inertia: forces of a rod follow
+/// from them only with the added couple `rod_inertia_left_kg_m2` times the angular acceleration of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct EquivalentMasses {
-    /// Crank mass taken to the crank pin, m_k k₁/k, kg.
+    /// Crank mass reduced to the crank pin, m_k k₁/k, kg.
     pub crank_at_pin_kg: f64,
     /// Rod mass at the crank pin, kg.
     pub rod_at_crank_pin_kg: f64,
@@ -23,7 +23,7 @@ pub struct EquivalentMasses {
 }
 
 impl EquivalentMasses {
-    /// The masses of a scene; centres of gravity count with their distance along crank and rod.
+    /// Computes the masses of a scene; centres of gravity count with their distance along crank and rod.
     pub fn new(scene: &Scene) -> EquivalentMasses {
         let crank = scene.crank.unwrap_or_default();
         let rod = scene.rod.unwrap_or_default();

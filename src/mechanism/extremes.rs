@@ -1,4 +1,4 @@
-//! Extreme slider velocity and acceleration at constant crank speed, located to rounding.
+//! Extreme slider velocity and acceleration at constant crank speed, by roots of the next derivative, to rounding.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -6,10 +6,10 @@ use super::{Class, Linkage, Pose};
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
-/// An extreme value and where it is.
+/// Extreme value and its crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
-    /// x' (m/rad) or x'' (m/rad²); times speed, or speed squared, it is the velocity or acceleration.
+    /// Value of x' (m/rad) or x'' (m/rad²); times speed, or speed squared, it is the velocity or acceleration.
     pub value: f64,
     /// Crank angle in [0, 2 pi), rad.
     pub theta: f64,
@@ -29,7 +29,7 @@ pub struct Extremes {
 }
 
 impl Extremes {
-    /// The extremes, or none where the crank cannot turn fully: there x' and x'' grow without bound.
+    /// Locates the extremes; none where the crank cannot turn fully, as x' and x'' grow without bound.
     pub fn new(linkage: &Linkage) -> Option<Extremes> {
         if Class::of(linkage) != Class::RotatingCrank {
             return None;
@@ -52,7 +52,7 @@ impl Extremes {
     }
 }
 
-/// The first three derivatives of x at a position.
+/// Returns the first three derivatives of x at a position.
 fn derivatives(linkage: &Linkage, pose: &Pose) -> [f64; 3] {
     [pose.dx, pose.d2x, linkage.third_derivatives(pose).1]
 }
@@ -62,7 +62,7 @@ fn pose(linkage: &Linkage, theta: f64) -> Pose {
     linkage.pose_at(sin, cos)
 }
 
-/// The second and third derivative of x at crank angles, rad: sines and cosines of some angles at a time.
+/// Returns the second and third derivative of x at crank angles, rad; sines and cosines are computed eight at a time.
 fn slopes(linkage: &Linkage, grid: &[f64]) -> Vec<[f64; 2]> {
     let mut slopes = Vec::with_capacity(grid.len());
     for some in grid.chunks(8) {
@@ -76,8 +76,8 @@ fn slopes(linkage: &Linkage, grid: &[f64]) -> Vec<[f64; 2]> {
     slopes
 }
 
-/// Smallest and largest value over a turn, from the roots of its slope between the angles of a grid, at which it is
-/// known.
+/// Locates the smallest and the largest value over a turn: roots of the slope, bracketed between the angles of a grid,
+/// at which the slope is known.
 fn range(
     grid: &[f64],
     at: impl Fn(usize) -> f64,
@@ -109,18 +109,18 @@ fn range(
 }
 
 impl Linkage {
-    /// Where x and φ, analytic in θ otherwise, have branch points, for the rod would stand normal to the guide: ±90° ±
-    /// i arcosh((l ∓ e)/r). Angle and distance from it, rad.
+    /// Returns the branch points of x and φ, which are analytic in θ otherwise: ±90° ± i arcosh((l ∓ e)/r), where the
+    /// rod would stand normal to the guide. Angle and distance from the real axis, rad.
     pub fn branch_points(&self) -> [[f64; 2]; 2] {
-        // The rod misses the normal by rounding at least.
+        // Rounding keeps the rod at least this far from the normal.
         let width = |height: f64| 2.0 * (0.5 * height / self.r).max(f64::EPSILON).sqrt().asinh();
         let (below, above) = (width(self.below[0]), width(self.above[0]));
         [[-FRAC_PI_2, below], [FRAC_PI_2, above]]
     }
 
-    /// Crank angles of one turn, rad, close enough to show all that the geometry makes: it varies on the scale of the distance
-    /// from the branch points. At most a degree apart, or what is between the extremes of what is `smooth`, which geometry and
-    /// mass alone make.
+    /// Returns crank angles of one turn, rad, dense enough for all functions of the geometry, which vary on the scale
+    /// of the distance from the branch points. They are at most 1° apart; for `smooth` functions, of geometry and mass
+    /// alone, at most 0.0625 rad, less than the distance between extremes.
     pub fn turn_grid(&self, smooth: bool) -> Vec<f64> {
         let step = if smooth { 0.0625 } else { 1f64.to_radians() };
         let [[_, below], [_, above]] = self.branch_points();
@@ -133,7 +133,7 @@ impl Linkage {
             squared(0).min(squared(1)).min(squared(2)).sqrt()
         };
         let end = SEAM + TAU;
-        // A long rod keeps them all far off.
+        // A long rod keeps all branch points far off.
         let is_far = STEP_BY_DISTANCE * widths[0].min(widths[1]) >= step;
         let next = |theta: &f64| {
             let step = match is_far {
@@ -147,7 +147,7 @@ impl Linkage {
     }
 }
 
-/// Where the turn is cut, rad: an angle at which nothing is extreme for a reason of symmetry.
+/// Angle at which the turn is cut, rad: symmetry makes no quantity extreme there.
 const SEAM: f64 = -1.7;
 /// Step as a part of the distance from the nearest branch point.
 const STEP_BY_DISTANCE: f64 = 0.125;

@@ -1,16 +1,16 @@
-//! Coulomb friction at the slider guide, with the normal force exact.
+//! Coulomb friction at the slider guide, with the exact normal force.
 //!
-//! The friction force is F = c N with c = −μ sgn(v) sgn(N). It changes the acceleration by F x'/M, and that
-//! changes the normal force: N = N_free + κ F. So N = N_free/(1 − c κ), linear for given signs; as N and N_free
-//! have the same sign while |c κ| < 1, one and only one solution exists iff μ |κ| < 1. Beyond it the
-//! equations of rigid bodies have no solution or two (Painlevé).
+//! The friction force F = c N with c = −μ sgn(v) sgn(N) changes the acceleration by F x'/M and thereby the normal
+//! force: N = N_free + κ F. Hence N = N_free/(1 − c κ), linear for given signs. N and N_free have the same sign while
+//! |c κ| < 1; one and only one solution therefore exists iff μ |κ| < 1. Beyond, the equations of rigid bodies have no
+//! solution or two (Painlevé).
 //!
-//! Dry loads oppose motion with known magnitudes T of torques on the crank and D of forces on the slider. Rest lasts while
-//! |Q − V'| ≤ T|θ'| + D|x'|, and beyond that motion begins in the direction of Q − V' (Filippov's solution).
+//! Dry loads oppose motion with known magnitudes T of torques on the crank and D of forces on the slider. Rest lasts
+//! while |Q − V'| ≤ T|θ'| + D|x'|; beyond, motion begins in the direction of Q − V' (Filippov's solution).
 
 use super::nonlinear_loads::sign;
 
-/// What the motion would be without friction, and what a force on the slider along the guide changes in it.
+/// Motion without friction, and derivatives with respect to a force on the slider along the guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
     /// q̈ without friction, rad/s²
@@ -21,11 +21,11 @@ pub struct Free {
     pub gain: f64,
     /// κ = dN/dF, dimensionless
     pub kappa: f64,
-    /// Q − V', N m: what accelerates from rest
+    /// Generalized force Q − V', N m, which accelerates from rest
     pub(super) pull: f64,
     /// N − A q̈ without friction, N
     pub(super) held: f64,
-    /// How far x moves when the slider is lifted
+    /// Change of x per lift of the slider, dimensionless
     pub(super) x_n: f64,
     /// x', m
     pub(super) dx: f64,
@@ -36,36 +36,36 @@ pub struct Free {
 /// Forces of the guide on the slider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuideForces {
-    /// Along +y, N.
+    /// Normal force along +y, N.
     pub normal: f64,
-    /// Along +x, N.
+    /// Friction force along +x, N.
     pub friction: f64,
 }
 
-/// Why rigid bodies with Coulomb friction do not say what happens.
+/// Reason why rigid bodies with Coulomb friction have no unique motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Jam {
     /// No acceleration satisfies the equations.
     NoSolution,
-    /// Two accelerations do.
+    /// Two accelerations satisfy the equations.
     TwoSolutions,
 }
 
-/// How motion begins or does not begin from rest.
+/// Outcome from rest: hold, move or jam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FromRest {
     /// The mechanism stays at rest.
     Hold(GuideForces),
     /// The coordinate begins to move in this direction, ±1.
     Move(f64),
-    /// Rigid bodies do not say.
+    /// Rigid bodies have no unique motion.
     Jam(Jam),
 }
 
 impl Free {
-    /// q̈ and the forces while the slider slides, for c = −μ sgn(v) sgn(N).
+    /// Returns q̈ and the guide forces while the slider slides, for c = −μ sgn(v) sgn(N).
     pub fn sliding(&self, c: f64) -> (f64, GuideForces) {
-        // Without friction κ need not be a number.
+        // Without friction κ may be infinite or NaN.
         let [kappa, gain] = if c == 0.0 {
             [0.0; 2]
         } else {
@@ -75,7 +75,7 @@ impl Free {
         (self.acceleration + gain * touch.friction, touch)
     }
 
-    /// Slider velocity, m/s, at a speed (rad/s) of the coordinate.
+    /// Returns the slider velocity, m/s, at a speed (rad/s) of the coordinate.
     pub fn velocity(&self, speed: f64) -> f64 {
         self.dx * speed
     }
@@ -85,17 +85,17 @@ impl Free {
         self.pull > 0.0
     }
 
-    /// The friction that sliding in direction `sgn_v` of the slider meets: c for the sign of N.
+    /// Returns c = −μ sgn(v) sgn(N) of a slider that slides in direction `sgn_v`.
     pub fn opposing(&self, mu: f64, sgn_v: f64) -> f64 {
         -mu * sgn_v * self.normal.signum()
     }
 
-    /// 1 − μ |κ|: positive where there is one and only one solution.
+    /// Returns 1 − μ |κ|, positive where one and only one solution exists.
     pub fn clear_of_jam(&self, mu: f64) -> f64 {
         1.0 - mu * self.kappa.abs()
     }
 
-    /// Which way the equations fail for sliding in direction `sgn_v`, where they do.
+    /// Returns the way in which the equations fail for sliding in direction `sgn_v`, given that they fail.
     pub fn jam(&self, mu: f64, sgn_v: f64) -> Jam {
         if self.opposing(mu, sgn_v) * self.kappa >= 1.0 {
             Jam::NoSolution
@@ -104,8 +104,8 @@ impl Free {
         }
     }
 
-    /// The forces that keep the mechanism at rest, from the equations with q̇ = q̈ = 0; none at a dead centre
-    /// where something pulls, as no force along the guide is felt there.
+    /// Returns the forces that keep the mechanism at rest, from the equations with q̇ = q̈ = 0; none at a dead centre
+    /// with a nonzero pull, where a force along the guide has no effect.
     pub fn holding(&self) -> Option<GuideForces> {
         let friction = if self.pull == 0.0 {
             0.0
@@ -116,7 +116,7 @@ impl Free {
         (friction.is_finite() && normal.is_finite()).then_some(GuideForces { normal, friction })
     }
 
-    /// What the static band leaves, N: μs |N| less the friction that rest needs; negative: it cannot rest.
+    /// Returns the margin of the static band, N: μs |N| less the friction that rest needs; negative: no rest.
     pub fn band(&self, mu_static: f64) -> f64 {
         match self.holding() {
             Some(touch) => mu_static * touch.normal.abs() - touch.friction.abs(),
@@ -124,7 +124,7 @@ impl Free {
         }
     }
 
-    /// Rest or motion from rest. Rest is kept if the static band holds.
+    /// Decides between rest and motion from rest; rest is kept if the static band holds.
     pub fn from_rest(&self, mu: f64, mu_static: f64) -> FromRest {
         if self.band(mu_static) >= 0.0
             && let Some(touch) = self.holding()
@@ -135,13 +135,13 @@ impl Free {
             let sgn_v = (self.pull * self.dx).signum();
             return FromRest::Jam(self.jam(mu, sgn_v));
         }
-        // Where the static band does not hold, the pull decides: friction cannot turn it round.
+        // Beyond the static band the pull decides: friction cannot reverse it.
         FromRest::Move(self.pull.signum())
     }
 }
 
 impl GuideForces {
-    /// N = N_free/(1 − c κ) and F = c N.
+    /// Returns N = N_free/(1 − c κ) and F = c N.
     pub(super) fn rubbing(free: f64, kappa: f64, c: f64) -> GuideForces {
         let normal = free / (1.0 - c * kappa);
         GuideForces {
@@ -150,8 +150,8 @@ impl GuideForces {
         }
     }
 
-    /// The forces on a slider with the velocity v, from the normal force without friction (N) and κ; none where rigid bodies
-    /// jam, μ |κ| ≥ 1. With κ = −tan Φ, what a drive of the crank keeps up.
+    /// Returns the forces on a slider with the velocity v, from the normal force without friction (N) and κ; none where
+    /// rigid bodies jam, μ |κ| ≥ 1. For a crank kept in motion by a drive, κ = −tan Φ.
     pub(super) fn sliding(free: f64, kappa: f64, mu: f64, v: f64) -> Option<GuideForces> {
         let c = -mu * sign(v) * free.signum();
         (c == 0.0 || mu * kappa.abs() < 1.0).then(|| GuideForces::rubbing(free, kappa, c))

@@ -1,26 +1,26 @@
-//! The normal force at the guide of a crank that turns, and what friction adds to the force that drives the crank.
+//! Guide normal force of a crank that turns, and the generalized force of guide friction on the crank.
 
 use super::virtual_displacement::VirtualDisplacement;
 use super::{CurveTerms, Equation, Path, Terms};
 
-/// The normal force as it would be without friction: N = place + torque·τ + force·F + square·ω², with the loads
-/// τ (torque on the crank) and F (force on the slider).
+/// Normal force without friction: N = place + torque·τ + force·F + square·ω², with the loads τ (torque on the crank)
+/// and F (force on the slider).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Normal {
-    /// N
+    /// Term of the position alone (weight), N.
     pub place: f64,
-    /// 1/m
+    /// dN/dτ, 1/m.
     pub torque: f64,
     /// κ = dN/dF, dimensionless
     pub force: f64,
-    /// N s²/rad²
+    /// Coefficient of ω², N s²/rad².
     pub square: f64,
     /// x', m/rad
     dx: f64,
 }
 
 impl CurveTerms {
-    /// The normal force where the coordinate is the crank angle.
+    /// Returns the normal force where the coordinate is the crank angle.
     pub fn normal(&self) -> Normal {
         let share = self.a / self.m;
         Normal {
@@ -34,7 +34,7 @@ impl CurveTerms {
 }
 
 impl Equation {
-    /// The normal force at a position: as [`CurveTerms::normal`] gives it, to rounding, for many positions side by side.
+    /// Computes the normal force at a position as [`CurveTerms::normal`] does, to rounding, without branches.
     #[inline(always)]
     pub(super) fn normal_without_cases(&self, terms: &Terms) -> Normal {
         let Terms { pose, inertia, dv } = terms;
@@ -60,8 +60,8 @@ impl Equation {
 }
 
 impl Normal {
-    /// What friction drives the crank with, N m, for one newton of the normal force without friction: x' c/(1 − c κ)
-    /// for c = −μ sgn(v) sgn(N). None where rigid bodies jam, μ |κ| ≥ 1.
+    /// Returns the generalized force of friction on the crank, N m, per newton of the normal force without friction: x'
+    /// c/(1 − c κ) for c = −μ sgn(v) sgn(N). None where rigid bodies jam, μ |κ| ≥ 1.
     pub fn grip(&self, c: f64) -> Option<f64> {
         let jams = c.abs() * self.force.abs() >= 1.0;
         (!jams).then(|| c * self.dx / (1.0 - c * self.force))

@@ -1,10 +1,10 @@
-//! What is measured on the mechanism instead of the crank angle, and the crank angles that give it.
+//! Inverse position: crank angles from a slider position or an angle at the crank pin, by the law of cosines.
 
 use std::f64::consts::{PI, TAU};
 
 use super::{Linkage, Pose};
 
-/// Crank angles, rad, that have the same measured value; at most four.
+/// Crank angles, rad, with the same measured value; at most four.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InversePosition {
     list: [f64; 4],
@@ -12,7 +12,7 @@ pub struct InversePosition {
 }
 
 impl InversePosition {
-    /// The angles.
+    /// Returns the angles, rad.
     pub fn angles(&self) -> &[f64] {
         &self.list[..self.count]
     }
@@ -26,7 +26,7 @@ impl InversePosition {
 }
 
 impl Linkage {
-    /// The angle at the crank pin from the crank to the rod (Duarte et al. (10): 180° − θ − φ on the right branch),
+    /// Returns the angle at the crank pin from crank to rod (Duarte et al. (10): 180° − θ − φ on the right branch),
     /// rad, signed and not reduced to one turn, and its derivative. A protractor shows its size, between 0 and π.
     pub fn crank_pin_angle(&self, theta: f64, pose: &Pose) -> (f64, f64) {
         let start = if self.s > 0.0 { PI } else { 0.0 };
@@ -36,7 +36,7 @@ impl Linkage {
         )
     }
 
-    /// How far an angle at the crank pin, rad, is from those that the mechanism can have.
+    /// Returns the distance, rad, of an angle at the crank pin from the possible range, to first order; zero inside.
     pub fn excess_of_gamma(&self, gamma: f64) -> f64 {
         let (r, l) = (self.r, self.l);
         let outside = (-gamma).max(gamma - PI).max(0.0);
@@ -51,19 +51,19 @@ impl Linkage {
         }
     }
 
-    /// The way from P to O along the crank and across it, m, for an angle at the crank pin.
+    /// Returns the vector from O to P along the crank and across it, m, for an angle at the crank pin.
     fn pin(&self, gamma: f64) -> [f64; 2] {
         let (sin, cos) = gamma.clamp(0.0, PI).sin_cos();
         [self.r - self.l * cos, self.l * sin]
     }
 
-    /// The crank angles, in [−π, π), at which the angle at the crank pin has this size; a size just outside what is
-    /// possible is taken for the border.
+    /// Solves for the crank angles, in [−π, π), at which the angle at the crank pin has this size; a size just outside
+    /// the range is taken as its end.
     pub fn angles_of_gamma(&self, gamma: f64) -> InversePosition {
         let [along, across] = self.pin(gamma);
         let reach = length(along, across);
         let x = ((reach - self.e) * (reach + self.e)).max(0.0).sqrt();
-        // The direction of P as seen from O, against the crank's.
+        // Direction of P as seen from O, relative to the crank.
         let mut found = InversePosition::default();
         for x in [x, -x] {
             self.keep(&mut found, [x, reach], [along, across, reach]);
@@ -71,15 +71,15 @@ impl Linkage {
         found
     }
 
-    /// How far a slider position, m, is from those that a crank and a rod of these lengths reach.
+    /// Returns the distance, m, of |OP| at a slider position (m) from the range |l − r| to l + r; zero inside.
     pub fn excess_of_x(&self, x: f64) -> f64 {
         let (r, l) = (self.r, self.l);
         let reach = length(x, self.e);
         (reach - (r + l)).max((r - l).abs() - reach).max(0.0)
     }
 
-    /// The crank angles, in [−π, π), at which the slider is at x, m; a position just outside what is possible is
-    /// taken for the border.
+    /// Solves for the crank angles, in [−π, π), at which the slider is at x, m; a position just outside the range is
+    /// taken as its end.
     pub fn angles_of_x(&self, x: f64) -> InversePosition {
         let (r, l) = (self.r, self.l);
         let reach = length(x, self.e);
@@ -92,13 +92,12 @@ impl Linkage {
         found
     }
 
-    /// Keeps the angles that belong to the branch and are not there yet: those of the direction from O to P, which is at
-    /// [x, |OP|], m, less and plus the lean of the crank against it, given by a cosine, a sine and what both are parts
-    /// of.
+    /// Adds the new crank angles of this branch: the direction of OP, with P at [x, |OP|], m, minus and plus the angle
+    /// between crank and OP, given by a cosine and a sine over a common denominator.
     fn keep(&self, found: &mut InversePosition, [x, reach]: [f64; 2], [cos, sin, whole]: [f64; 3]) {
         let both = reach * whole;
         let fits = |sine: f64| {
-            // r times the cosine of the crank angle, by the theorem of addition.
+            // r cos θ times `both`, by the addition theorem.
             let crank = self.r * (x * cos - self.e * sine);
             self.s * (x * both - crank) >= -1e-9 * self.l * both
         };
@@ -116,12 +115,12 @@ impl Linkage {
     }
 }
 
-/// Length of a way with these two parts.
+/// Returns the length of a vector.
 fn length(along: f64, across: f64) -> f64 {
     (along * along + across * across).sqrt()
 }
 
-/// Crank angle in [−π, π), of one between −2π and 2π.
+/// Reduces a crank angle between −2π and 2π to [−π, π).
 fn in_one_turn(theta: f64) -> f64 {
     let theta = theta + PI;
     let turn = if theta < 0.0 {

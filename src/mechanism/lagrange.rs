@@ -1,4 +1,4 @@
-//! The Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q, forward and backward.
+//! Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q: forward (θ̈ from loads) and backward (loads from a motion).
 
 use super::{Bodies, Body, Link, Linkage, LoadValue, Loads, Path, Pose};
 use crate::numeric::angle::Angle;
@@ -14,7 +14,7 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    /// One kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
+    /// Adds one kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
     #[inline(always)]
     pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
         let Path {
@@ -28,10 +28,10 @@ impl Inertia {
     }
 }
 
-/// Every term of the equation that depends on the crank angle alone.
+/// Terms of the equation that depend on the crank angle alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms {
-    /// The position.
+    /// Position of the mechanism.
     pub pose: Pose,
     /// M and ½ M'.
     pub inertia: Inertia,
@@ -39,7 +39,7 @@ pub struct Terms {
     pub dv: f64,
 }
 
-/// The equation of motion of one scene: constant, shared by all who evaluate it.
+/// Equation of motion of one scene: immutable, shared by all evaluations.
 #[derive(Clone, Debug)]
 pub struct Equation {
     linkage: Linkage,
@@ -52,7 +52,7 @@ pub struct Equation {
     loads: Loads,
 }
 
-/// V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
+/// Coefficients of V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Weight {
     pub sine: f64,
@@ -62,7 +62,7 @@ pub(super) struct Weight {
 }
 
 impl Equation {
-    /// The equation of a scene; parts without strength are left out of it.
+    /// Builds the equation of a scene without parts of zero strength.
     pub fn new(scene: &Scene) -> Equation {
         let scene = scene.reduced();
         let bodies = Bodies::new(&scene);
@@ -86,13 +86,13 @@ impl Equation {
         equation
     }
 
-    /// The linkage.
+    /// Returns the linkage.
     pub fn linkage(&self) -> &Linkage {
         &self.linkage
     }
 
-    /// Branch points of its terms as functions of a complex angle: those of the linkage, angle and distance from it, rad; infinitely
-    /// far where the crank moves alone.
+    /// Returns the branch points of the terms as functions of a complex crank angle: angle and distance from the real
+    /// axis, rad, as those of the linkage; infinitely far where the crank moves alone.
     pub fn branch_points(&self) -> [[f64; 2]; 2] {
         let alone = !self.has_rod && self.slider_mass == 0.0 && self.loads.are_none();
         let points = self.linkage.branch_points();
@@ -103,23 +103,23 @@ impl Equation {
         }
     }
 
-    /// The loads.
+    /// Returns the loads.
     pub fn loads(&self) -> &Loads {
         &self.loads
     }
 
-    /// The terms that depend on the crank angle (rad) alone.
+    /// Computes the terms that depend on the crank angle (rad) alone.
     pub fn terms(&self, theta: f64) -> Terms {
         self.terms_at(self.linkage.pose(theta))
     }
 
-    /// Terms of the equation at a position.
+    /// Computes the terms of the equation at a position.
     pub fn terms_at(&self, pose: Pose) -> Terms {
         self.terms_of(pose, self.has_rod, self.has_weight)
     }
 
-    /// Terms at one of many positions: without cases, a rod or a weight that is not there being zero, so that
-    /// the compiler can work on several side by side.
+    /// Computes the terms at one of many positions without branches, for vectorisation: an absent rod or weight counts
+    /// as zero.
     #[inline(always)]
     pub(super) fn terms_without_cases(&self, pose: Pose) -> Terms {
         self.terms_of(pose, true, true)
@@ -151,13 +151,13 @@ impl Equation {
         Terms { pose, inertia, dv }
     }
 
-    /// θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
-    /// mechanism has no such position, a load no value, or the inertia vanishes: see [`Self::singularity`].
+    /// Returns θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
+    /// position does not exist, a load has no value, or the inertia vanishes: see [`Self::singularity`].
     pub fn acceleration(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
         self.acceleration_and_power(t, theta, omega).0
     }
 
-    /// θ̈ as in [`Self::acceleration`], and the power (W) of the loads that have no potential.
+    /// Returns θ̈ as [`Self::acceleration`], and the power (W) of the loads that have no potential.
     pub fn acceleration_and_power(
         &self,
         t: f64,
@@ -172,12 +172,12 @@ impl Equation {
         (alpha, non_conservative.over(pose.dx) * omega)
     }
 
-    /// Backward: the generalized force Q (N m) that goes with a motion.
+    /// Returns the generalized force Q (N m) of a motion, by inverse dynamics.
     pub fn generalized_force(&self, terms: &Terms, omega: f64, alpha: f64) -> f64 {
         terms.inertia.m * alpha + terms.inertia.half_dm * omega * omega + terms.dv
     }
 
-    /// Backward: the torque (N m) that must act on the crank, beside the loads of the scene, for the motion.
+    /// Returns the torque (N m) on the crank that a motion needs beside the loads of the scene, by inverse dynamics.
     pub fn driving_torque(&self, t: f64, theta: impl Into<Angle>, omega: f64, alpha: f64) -> f64 {
         let theta = theta.into();
         let terms = self.terms(theta.rest);
@@ -185,19 +185,19 @@ impl Equation {
         self.generalized_force(&terms, omega, alpha) - load.generalized(&terms.pose)
     }
 
-    /// Torque and force of the scene's loads.
+    /// Returns torque and force of the scene's loads.
     pub fn load(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> LoadValue {
         let theta = theta.into();
         let pose = self.linkage.pose(theta.rest);
         self.loads.value(t, theta, omega, &pose)
     }
 
-    /// Kinetic energy, J.
+    /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, theta: f64, omega: f64) -> f64 {
         0.5 * self.terms(theta).inertia.m * omega * omega
     }
 
-    /// Potential energy of gravity and of the loads that have a potential, J. For the loads the angle
+    /// Returns the potential energy of gravity and of the loads that have a potential, J. For the loads the angle
     /// counts from θ = 0 without wrapping.
     pub fn potential_energy(&self, theta: impl Into<Angle>) -> f64 {
         let theta = theta.into();
@@ -205,7 +205,7 @@ impl Equation {
         self.loads.potential(theta.radians(), pose.x) + self.gravity_of(&pose)
     }
 
-    /// Potential energy of gravity alone, J.
+    /// Returns the potential energy of gravity alone, J.
     pub fn gravity_energy(&self, theta: f64) -> f64 {
         self.gravity_of(&self.linkage.pose(theta))
     }
@@ -215,7 +215,7 @@ impl Equation {
         self.gravity_at([pose.cos, pose.sin], rod, pose.x)
     }
 
-    /// Potential energy of gravity, J, from the directions of crank and rod (from A) and the slider's place.
+    /// Returns the potential energy of gravity, J, from the directions of crank and rod (from A) and the slider's x.
     pub(super) fn gravity_at(&self, [cos, sin]: [f64; 2], axis: [f64; 2], x: f64) -> f64 {
         let (Linkage { r, e, .. }, weight) = (self.linkage, &self.weight);
         let arm = self.rod.arm(axis);
@@ -232,7 +232,7 @@ pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
 }
 
 impl Weight {
-    /// V' = −Σ m g·p', the points of the crank summed to one sine and one cosine.
+    /// Sums V' = −Σ m g·p', with the points of the crank combined to one sine and one cosine.
     fn of(weights: &[Body], [gx, gy]: [f64; 2]) -> Weight {
         let mut weight = Weight::default();
         for body in weights {

@@ -1,4 +1,4 @@
-//! What the lengths alone decide: class, dead centres, stroke, time ratio, reachable angles.
+//! Limits of a linkage from its lengths, in closed form: class, dead centres, stroke, time ratio, reachable angles.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -16,12 +16,12 @@ pub enum Class {
     RotatingRod,
     /// |l − r| < |e| < l + r: both rock.
     DoubleRocker,
-    /// On a border between these, to a few units in the last place of the lengths.
+    /// On a border between two classes, to a few units in the last place of the lengths.
     ChangePoint,
 }
 
 impl Class {
-    /// The class of a linkage.
+    /// Returns the class of a linkage.
     pub fn of(linkage: &Linkage) -> Class {
         let Linkage { r, l, e, .. } = *linkage;
         let same = SAME_LENGTHS * (l + r);
@@ -39,7 +39,7 @@ impl Class {
         }
     }
 
-    /// Name in outputs.
+    /// Returns the name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Class::RotatingCrank => "rotating-crank",
@@ -56,29 +56,29 @@ impl fmt::Display for Class {
     }
 }
 
-/// A position with x' = 0: O, A and P in line.
+/// Dead centre: a position with x' = 0, O, A and P in line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeadCentre {
     /// Crank angle in [0, 2 pi), rad.
     pub theta: f64,
     /// Slider position, m.
     pub x: f64,
-    /// Crank and rod stretched out (outer) or folded over each other (inner).
+    /// True if crank and rod are stretched out (outer), false if they are folded over each other (inner).
     pub outer: bool,
 }
 
-/// What the lengths decide.
+/// Limits of a linkage, from its lengths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limits {
     /// Class of the mechanism.
     pub class: Class,
-    /// Dead centres of the scene's branch, by angle.
+    /// Dead centres of the linkage's branch, by angle.
     pub dead_centres: Vec<DeadCentre>,
     /// Distance between the extreme slider positions of the motion, m.
     pub stroke: f64,
     /// Crank angle of the outward stroke, rad; none if the crank cannot turn fully.
     pub advance: Option<f64>,
-    /// Crank angle of the inward stroke, rad.
+    /// Crank angle of the inward stroke, rad; none if the crank cannot turn fully.
     pub retreat: Option<f64>,
     /// Least transmission angle over a turn, rad, or 0 if the crank cannot turn fully.
     pub transmission_min: f64,
@@ -86,12 +86,12 @@ pub struct Limits {
     pub reach: Vec<[f64; 2]>,
 }
 
-/// At this cos φ the rod counts as normal to the guide: what follows has no digits in the crank angle.
+/// cos φ at which the rod counts as normal to the guide: beyond, the crank angle determines the position poorly.
 const NEARLY_NORMAL: f64 = 1e-3;
 
 impl Limits {
-    /// The limits of a linkage, for a crank that turns in the direction of `speed` (its sign alone
-    /// counts; zero means counter-clockwise).
+    /// Computes the limits of a linkage, for a crank that turns in the direction of `speed` (only its sign counts; zero
+    /// means counter-clockwise).
     pub fn new(linkage: &Linkage, speed: f64) -> Limits {
         let class = Class::of(linkage);
         let outer = dead_centre(linkage, true);
@@ -130,8 +130,8 @@ impl Limits {
         }
     }
 
-    /// Reachable crank angles, rad, that keep clear of the positions where the rod is normal to the guide
-    /// (by 0.001 rad of the rod's angle); empty: all.
+    /// Returns the reachable crank angles, rad, with the rod at least 0.001 rad off the normal of the guide; empty:
+    /// all.
     pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
         let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NEARLY_NORMAL * NEARLY_NORMAL));
         let class = Class::of(linkage);
@@ -141,8 +141,8 @@ impl Limits {
         reach(&shorter, class)
     }
 
-    /// Crank angles, rad, through which a drive can keep up a constant speed against the friction coefficient `mu` of the
-    /// guide; empty: all. A change point is not passed: the slider's velocity would jump there.
+    /// Returns the crank angles, rad, through which a drive can keep up a constant speed against the friction
+    /// coefficient `mu` of the guide; empty: all. A change point is not passed: the slider's velocity would jump there.
     pub fn driven_reach(linkage: &Linkage, mu: f64) -> Vec<[f64; 2]> {
         match (linkage.unlocked(mu), Class::of(linkage)) {
             (Some(shorter), _) => Limits::new(&shorter, 0.0).reach,
@@ -157,15 +157,15 @@ impl Limits {
         reach.is_empty() || reach.iter().any(within)
     }
 
-    /// Advance angle over return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.
+    /// Returns the advance angle over the return angle (Obaseki & Alfred (51)); none if the crank cannot turn fully.
     pub fn time_ratio(&self) -> Option<f64> {
         Some(self.advance? / self.retreat?)
     }
 }
 
 impl Linkage {
-    /// Crank angles, in [−π/2, 3π/2], at which the rod stands normal to the guide, where the branches meet: the limits of a
-    /// crank that cannot turn fully, and what a change point has in their place; empty for a crank that turns fully.
+    /// Returns the crank angles, in [−π/2, 3π/2], at which the rod stands normal to the guide and the branches meet:
+    /// limits of a crank that cannot turn fully, or their like at a change point; empty for a crank that turns fully.
     pub fn limit_angles(&self) -> Vec<f64> {
         let Linkage { r, l, .. } = *self;
         let same = SAME_LENGTHS * (l + r);
@@ -175,9 +175,9 @@ impl Linkage {
     }
 }
 
-/// Crank angles θ and −θ, in [−π/2, π/2], at which A is as high and as low as the rod reaches, where they are limits for the way
-/// that the reach ends before the top of the crank's circle, and for the height of the reach, m: sin θ = ±(l ∓ e)/r, from its
-/// cosine where it is near one, cos² = (r − l ± e)(r + l ∓ e)/r².
+/// Returns angles in [−π/2, π/2]: A is as high as the rod reaches at the first, θ, and as low at minus the second;
+/// sin θ = ±(l ∓ e)/r, cos² = (r − l ± e)(r + l ∓ e)/r². `exists` decides from the height of the crank's circle beyond
+/// the reach and that of the reach, m.
 fn limits(linkage: &Linkage, exists: impl Fn(f64, f64) -> bool) -> [Option<f64>; 2] {
     let Linkage { r, l, e, .. } = *linkage;
     [e, -e].map(|e| {
@@ -187,8 +187,8 @@ fn limits(linkage: &Linkage, exists: impl Fn(f64, f64) -> bool) -> [Option<f64>;
     })
 }
 
-/// Outer: |OP| = l + r with A between. Inner: |OP| = |l − r|. On branch s the outer one has x of the sign
-/// of s; the inner one too if l > r, the other sign if not.
+/// Locates a dead centre. Outer: |OP| = l + r with A between. Inner: |OP| = |l − r|. On branch s the outer one has x of
+/// the sign of s; the inner one too if l > r, else the other sign.
 fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
     let Linkage { r, l, e, s, .. } = *linkage;
     let (reach, sign) = match outer {
@@ -202,7 +202,7 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
         return None;
     }
     let x = sign * squared.max(0.0).sqrt();
-    // The crank points from O towards P, or away from it when the rod is folded back over it.
+    // The crank points from O towards P, or away from P where the rod is folded back over the crank.
     let towards = if !outer && l >= r { -1.0 } else { 1.0 };
     let theta = (towards * -e).atan2(towards * x);
     Some(DeadCentre {
@@ -212,7 +212,7 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
     })
 }
 
-/// Angle in [0, 2π).
+/// Reduces an angle from −π to π to [0, 2π).
 fn positive(theta: f64) -> f64 {
     if theta < 0.0 {
         let turned = theta + TAU;
@@ -222,7 +222,7 @@ fn positive(theta: f64) -> f64 {
     }
 }
 
-/// Angles at which |e + r sin θ| ≤ l.
+/// Returns the intervals of angles at which |e + r sin θ| ≤ l; empty: all.
 fn reach(linkage: &Linkage, class: Class) -> Vec<[f64; 2]> {
     let Linkage { r, l, .. } = *linkage;
     if class == Class::RotatingCrank || linkage.margin() >= -SAME_LENGTHS * (l + r) {

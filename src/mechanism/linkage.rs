@@ -1,15 +1,15 @@
-//! Loop closure of the offset slider-crank in closed form.
+//! Loop closure of the offset slider-crank in closed form: position and derivatives from the crank angle.
 //!
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
 use crate::numeric::exact::sum3;
 use crate::scene::{Branch, Geometry};
 
-/// Lengths that differ by less than this part of crank and rod together count as equal: reading rod, crank and offset rounds
-/// their difference by ε of that at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
+/// Difference of lengths, as a part of crank plus rod, below which they count as equal: reading rod, crank and offset
+/// rounds it by ε of that sum at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
 pub(super) const SAME_LENGTHS: f64 = 4.0 * f64::EPSILON;
 
-/// The lengths of the mechanism, ready for evaluation.
+/// Lengths of the mechanism, with the sums that an evaluation needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linkage {
     /// Crank length r, m.
@@ -20,14 +20,14 @@ pub struct Linkage {
     pub e: f64,
     /// Branch sign s.
     pub s: f64,
-    /// l − e − r, l − e and l − e + r, each rounded once: the height of A below the one that the rod can reach
-    /// at θ = 90°, 0 and −90°.
+    /// Height that A may rise until the rod stands normal to the guide, m, at θ = 90°, 0 and −90°: l − e − r, l − e and
+    /// l − e + r, each rounded once.
     pub(super) above: [f64; 3],
-    /// l + e − r, l + e and l + e + r: the same downwards, at θ = −90°, 0 and 90°.
+    /// Depth that A may fall until the rod is normal to the guide, m, at θ = −90°, 0, 90°: l + e − r, l + e, l + e + r.
     pub(super) below: [f64; 3],
 }
 
-/// a − r, a and a + r for a = l − e, each rounded once.
+/// Returns a − r, a and a + r for a = l − e, each rounded once.
 fn heights(l: f64, e: f64, r: f64) -> [f64; 3] {
     [sum3(l, -e, -r), l - e, sum3(l, -e, r)]
 }
@@ -56,25 +56,25 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Rod inclination φ, rad, from sine and cosine: right to rounding also near ±90°.
+    /// Returns the rod inclination φ, rad, from sine and cosine: accurate to rounding also near ±90°.
     pub fn phi(&self) -> f64 {
         self.sin_phi.atan2(self.cos_phi)
     }
 
-    /// Transmission angle, rad: between the rod and the normal of the guide, 90° − |φ|. No force passes
-    /// from the slider to the crank's side of the rod where it is zero.
+    /// Returns the transmission angle, rad, between the rod and the normal of the guide: 90° − |φ|. Where it is zero,
+    /// no force passes from the slider along the rod to the crank.
     pub fn transmission(&self) -> f64 {
         self.cos_phi.atan2(self.sin_phi.abs())
     }
 
-    /// Whether the position exists away from a limit, that is, all values are finite.
+    /// Whether the position exists and is not at a limit, that is, all values are finite.
     pub fn exists(&self) -> bool {
         self.d2x.is_finite()
     }
 }
 
 impl Linkage {
-    /// The linkage of a scene's geometry.
+    /// Builds the linkage of a scene's geometry.
     pub fn new(geometry: &Geometry) -> Linkage {
         let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
         Linkage::of(r, l, e, geometry.branch.sign())
@@ -92,19 +92,19 @@ impl Linkage {
         }
     }
 
-    /// The linkage with another rod length, m.
+    /// Returns the linkage with another rod length, m.
     pub fn with_rod(&self, l: f64) -> Linkage {
         Linkage::of(self.r, l, self.e, self.s)
     }
 
-    /// The linkage that reaches as far as the guide does not lock itself by a friction coefficient, if there are positions
-    /// in which it does: μ |tan φ| = 1 where |e + r sin θ| = l/sqrt(1 + μ²).
+    /// Returns the linkage whose reach ends where the guide locks itself by a friction coefficient μ, none if it locks
+    /// nowhere: μ |tan φ| = 1 where |e + r sin θ| = l/sqrt(1 + μ²).
     pub fn unlocked(&self, mu: f64) -> Option<Linkage> {
         let shorter = self.with_rod(self.l / mu.hypot(1.0));
         (mu > 0.0 && shorter.margin() <= 0.0).then_some(shorter)
     }
 
-    /// The linkage on another branch.
+    /// Returns the linkage on another branch.
     pub fn on_branch(&self, branch: Branch) -> Linkage {
         Linkage {
             s: branch.sign(),
@@ -112,7 +112,7 @@ impl Linkage {
         }
     }
 
-    /// Crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
+    /// Returns the linkage with crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
     pub(super) fn exchanged(&self, s: f64) -> Linkage {
         Linkage::of(self.l, self.r, -self.e, s)
     }
@@ -123,7 +123,7 @@ impl Linkage {
         height <= self.l + SAME_LENGTHS * (self.l + self.r)
     }
 
-    /// How far the lengths are from those of a change point, in crank lengths.
+    /// Returns the distance of the lengths from a change point l = r + |e| or r = l + |e|, in crank lengths.
     pub fn nearness_to_change_point(&self) -> f64 {
         let e = self.e.abs();
         sum3(self.l, -e, -self.r)
@@ -132,23 +132,23 @@ impl Linkage {
             / self.r
     }
 
-    /// Least l − |e| − r, m: positive iff the crank can turn fully.
+    /// Returns l − |e| − r, m: positive iff the crank can turn fully.
     pub fn margin(&self) -> f64 {
         self.above[0].min(self.below[0])
     }
 
-    /// The position at crank angle θ (rad). Not finite where the rod does not reach the guide, and at the
-    /// limit itself.
+    /// Returns the position at crank angle θ (rad). Not finite where the rod does not reach the guide, and at the limit
+    /// itself.
     ///
-    /// l² cos²φ = (l − u)(l + u) with u = e + r sin θ. Both factors are counted from the nearest of the crank
-    /// angles 90°, 0 and −90°, with 1 ∓ sin θ = cos²θ/(1 ± sin θ), so that neither the difference of l and u
-    /// cancels nor a large offset takes digits.
+    /// l² cos²φ = (l − u)(l + u) with u = e + r sin θ. Both factors are counted from the nearest of the crank angles
+    /// 90°, 0 and −90°, with 1 ∓ sin θ = cos²θ/(1 ± sin θ): neither does the difference of l and u cancel nor does a
+    /// large offset take digits.
     pub fn pose(&self, theta: f64) -> Pose {
         let (sin, cos) = theta.sin_cos();
         self.pose_at(sin, cos)
     }
 
-    /// The position at the crank angle of this sine and cosine.
+    /// Returns the position at the crank angle of this sine and cosine.
     #[inline]
     pub fn pose_at(&self, sin: f64, cos: f64) -> Pose {
         let Linkage { r, .. } = *self;
@@ -170,14 +170,14 @@ impl Linkage {
         self.margin() >= 0.25 * self.l
     }
 
-    /// Pose as by [`Self::pose_at`], without cases, for many positions side by side.
+    /// Returns the pose as [`Self::pose_at`], without branches for vectorisation.
     #[inline(always)]
     pub(super) fn pose_far_from_limits(&self, sin: f64, cos: f64) -> Pose {
         let u = self.e + self.r * sin;
         self.pose_of(sin, cos, self.l - u, self.l + u)
     }
 
-    /// The position with l − u and l + u, u = e + r sin θ.
+    /// Returns the position from l − u and l + u, u = e + r sin θ.
     #[inline(always)]
     fn pose_of(&self, sin: f64, cos: f64, minus: f64, plus: f64) -> Pose {
         let Linkage { r, l, e, s, .. } = *self;
@@ -199,7 +199,7 @@ impl Linkage {
         }
     }
 
-    /// φ''' and x''' (m/rad³) at a position.
+    /// Returns φ''' and x''' (m/rad³) at a position.
     #[inline]
     pub fn third_derivatives(&self, pose: &Pose) -> (f64, f64) {
         let u = self.l * pose.sin_phi;

@@ -1,9 +1,8 @@
-//! Loop closure by the Newton-Raphson method, as Gupta's script does it: a check of the closed form that
-//! shares nothing with it.
+//! Loop closure by the Newton-Raphson method, as in Gupta's script: a check that shares nothing with the closed form.
 
 use super::Linkage;
 
-/// Where the iteration went.
+/// Result of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closure {
     /// Angle of the rod as seen from the slider, from +x, rad.
@@ -17,9 +16,9 @@ pub struct Closure {
 }
 
 impl Linkage {
-    /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a
-    /// guess, until the norm of the two is at most `tolerance` (m). Either branch can be what it finds; none where the
-    /// Jacobian is singular, the rod being guessed normal to the guide, or a hundred steps do not lead there.
+    /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a guess, until
+    /// the norm of the two is at most `tolerance` (m). The solution may lie on either branch; none where the Jacobian
+    /// is singular, with the rod guessed normal to the guide, or after a hundred steps without convergence.
     pub fn close_loop(&self, theta: f64, guess: (f64, f64), tolerance: f64) -> Option<Closure> {
         let Linkage { r, l, e, .. } = *self;
         let (mut theta3, mut x) = guess;

@@ -1,6 +1,6 @@
-//! The physics: geometry in closed form, energy terms, loads, the Lagrange equation, joint reactions.
-//! Knows no integrator: [`Equation::acceleration`] serves any. With ode_solvers take the ends of steps
-//! (`OutputType::Sparse`), for its dense output is not to be trusted, see [`Method::Dop853`](crate::plan::Method::Dop853).
+//! Physics: from a scene to the terms of the Lagrange equation (energies, virtual work, loop closure in closed form)
+//! and to joint forces (Newton-Euler). [`Equation::acceleration`] serves any integrator. With ode_solvers use step ends
+//! (`OutputType::Sparse`), as its dense output is wrong: see [`Method::Dop853`](crate::plan::Method::Dop853).
 
 mod at_rest;
 mod batch;

@@ -1,4 +1,4 @@
-//! Values of loads, one by one and together.
+//! Values of nonlinear loads at an instant, one by one and summed as crank torque and slider force.
 
 use super::Pose;
 use crate::scene::{Instant, Load, Variable};
@@ -6,9 +6,9 @@ use crate::scene::{Instant, Load, Variable};
 /// Torque on the crank and force on the slider at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LoadValue {
-    /// N m, counter-clockwise
+    /// Torque, N m, counter-clockwise
     pub torque: f64,
-    /// N, along +x
+    /// Force, N, along +x
     pub force: f64,
 }
 
@@ -26,17 +26,17 @@ impl LoadValue {
         self.torque.is_finite() && self.force.is_finite()
     }
 
-    /// The generalized force Q = τ + F x', N m.
+    /// Returns the generalized force Q = τ + F x', N m.
     pub fn generalized(&self, pose: &Pose) -> f64 {
         self.over(pose.dx)
     }
 
-    /// Generalized force where x' is `dx`, m/rad.
+    /// Returns the generalized force where x' is `dx`, m/rad.
     pub fn over(&self, dx: f64) -> f64 {
         self.torque + self.force * dx
     }
 
-    /// The sum of both.
+    /// Returns the sum of both values.
     pub fn plus(self, other: LoadValue) -> LoadValue {
         LoadValue {
             torque: self.torque + other.torque,
@@ -45,7 +45,7 @@ impl LoadValue {
     }
 }
 
-/// Loads that are called, each on the crank or on the slider.
+/// Loads that are evaluated when asked for, each on the crank or on the slider.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NonlinearLoads(Vec<(Load, bool)>);
 
@@ -58,7 +58,7 @@ impl NonlinearLoads {
         self.0.is_empty()
     }
 
-    /// Whether some act on the slider, or some on the crank.
+    /// Whether a load acts on the slider (`slider` true) or on the crank (false).
     pub fn are_on(&self, slider: bool) -> bool {
         self.0.iter().any(|(_, on_slider)| *on_slider == slider)
     }
@@ -71,7 +71,7 @@ impl NonlinearLoads {
         self.values(&[*now])[0]
     }
 
-    /// Values at some instants: formulas are read once for all of them.
+    /// Returns the sums at some instants: each formula is interpreted once for all of them.
     pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
         let mut sums = [LoadValue::default(); N];
         for (load, on_slider) in &self.0 {
@@ -86,14 +86,14 @@ impl NonlinearLoads {
         sums
     }
 
-    /// The first without a finite value.
+    /// Returns the first load without a finite value.
     pub fn without_value(&self, now: &Instant) -> Option<&Load> {
         let mut loads = self.0.iter();
         let found = loads.find(|(load, on_slider)| !single(load, *on_slider, now).is_finite());
         found.map(|(load, _)| load)
     }
 
-    /// The sums of the magnitudes of loads that oppose motion, N m and N.
+    /// Returns the sums of the magnitudes of loads that oppose motion, N m and N.
     pub fn magnitude(&self, now: &Instant) -> LoadValue {
         let mut sums = LoadValue::default();
         for (load, on_slider) in &self.0 {
@@ -111,7 +111,7 @@ impl NonlinearLoads {
     }
 }
 
-/// Magnitude of a load that opposes motion, N m or N, which depends on the size of the speed.
+/// Returns the magnitude of a load that opposes motion, N m or N, which depends on the size of the speed.
 pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f64 {
     let now = Instant {
         omega: now.omega.abs(),
@@ -125,7 +125,7 @@ pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f
     single(magnitude, on_slider, &now)
 }
 
-/// Value of one load, as a torque (N m) or as a force on the slider (N).
+/// Returns the value of one load, as a torque (N m) or as a force on the slider (N).
 pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
     match load {
         Load::Constant(value) => *value,
@@ -155,7 +155,7 @@ pub fn single(load: &Load, on_slider: bool, now: &Instant) -> f64 {
     }
 }
 
-/// Signs of the speeds of crank and slider that dry loads oppose; zero: they are at rest.
+/// Signs of the speeds of crank and slider that dry loads oppose; zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sense {
     /// sgn(ω)
@@ -165,7 +165,7 @@ pub struct Sense {
 }
 
 impl Sense {
-    /// Of a speed of the crank (rad/s) and one of the slider (m/s).
+    /// Returns the senses of a crank speed (rad/s) and a slider velocity (m/s).
     pub fn of(omega: f64, v: f64) -> Sense {
         Sense {
             crank: sign(omega),
@@ -174,7 +174,7 @@ impl Sense {
     }
 }
 
-/// sgn, zero at zero.
+/// Returns the sign of a value, zero at zero.
 pub(super) fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
 }

@@ -1,4 +1,4 @@
-//! Positions that have a name, with their crank angles and the reason for the name.
+//! Named positions of a linkage: dead centres and other positions of note, with crank angles in closed form.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -6,18 +6,18 @@ use serde::Serialize;
 
 use super::{Class, Limits, Linkage};
 
-/// A position, or a range of crank angles, that has a name.
+/// Named position, or named range of crank angles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NamedPosition {
     /// `dead-centre`, `rod-normal-to-guide`, `crank-normal-to-rod`, `least-transmission-angle`, `blocked` or
     /// `self-locking`.
     pub kind: &'static str,
-    /// Crank angle in [0, 2 pi), rad; where a range begins.
+    /// Crank angle in [0, 2 pi), rad; for a range the start.
     pub theta_rad: f64,
-    /// Where a range ends, rad, counter-clockwise from its begin.
+    /// End of a range, rad, counter-clockwise from the start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub to_rad: Option<f64>,
-    /// What is special there.
+    /// Reason for the name.
     pub reason: &'static str,
 }
 
@@ -41,8 +41,8 @@ fn range(kind: &'static str, [from, to]: [f64; 2], reason: &'static str) -> Name
 }
 
 impl Linkage {
-    /// Dead centres, rod normal to the guide, crank normal to the rod, least transmission angle, blocked
-    /// ranges; by angle.
+    /// Returns dead centres, rod normal to the guide, crank normal to the rod, least transmission angle and blocked
+    /// ranges, by angle.
     pub fn named_positions(&self) -> Vec<NamedPosition> {
         let limits = Limits::new(self, 0.0);
         let mut found = Vec::new();
@@ -101,7 +101,7 @@ impl Linkage {
         found
     }
 
-    /// Crank angles, rad, at which the angle between crank and rod is 90°: |OP|² = r² + l².
+    /// Returns the crank angles, rad, at which the angle between crank and rod is 90°: |OP|² = r² + l².
     ///
     /// (l² − u²) cos²θ = u² sin²θ with u = e + r sin θ is quadratic in sin θ.
     pub fn crank_normal_to_rod(&self) -> Vec<f64> {
@@ -117,7 +117,7 @@ impl Linkage {
             .map(|root| (root - e * r) / squares)
             .filter(|sin| sin.abs() <= 1.0)
             .map(|sin| {
-                // s W cos θ = u sin θ gives the angle without the loss of an arc sine near ±90°.
+                // s W cos θ = u sin θ gives the angle without the loss of digits of an arc sine near ±90°.
                 let u = e + r * sin;
                 let w = s * ((l - u) * (l + u)).max(0.0).sqrt();
                 if sin * w < 0.0 {
@@ -131,8 +131,8 @@ impl Linkage {
         angles
     }
 
-    /// Ranges of the crank angle, rad, in which friction locks the slider: μ |tan φ| ≥ 1, that is,
-    /// |e + r sin θ| ≥ l/sqrt(1 + μ²), as far as the rod reaches.
+    /// Returns the ranges of the crank angle, rad, in which friction locks the slider: μ |tan φ| ≥ 1, that is, |e + r
+    /// sin θ| ≥ l/sqrt(1 + μ²), within the reach of the rod.
     pub fn self_locking(&self, friction: f64) -> Vec<NamedPosition> {
         if friction <= 0.0 {
             return Vec::new();
@@ -152,7 +152,7 @@ impl Linkage {
                 vec![[from, to.asin()], [PI - to.asin(), PI - from]]
             };
             for [from, to] in ranges {
-                // Below the guide the picture is mirrored.
+                // Below the guide the ranges are mirrored.
                 let ends = if below { [-to, -from] } else { [from, to] };
                 found.push(range(
                     "self-locking",

@@ -1,4 +1,4 @@
-//! Joint and guide forces by Newton and Euler, body by body, from the motion.
+//! Joint, guide and shaking forces of a motion by the Newton-Euler equations, body by body.
 
 use super::{
     Body, CurvePose, Equation, Link, Linkage, LoadValue, LooseRates, LooseState, Path, Pose,
@@ -10,34 +10,34 @@ use crate::scene::{Joint, Scene};
 /// Forces (N) at one instant; each acts ON the body named last.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reactions {
-    /// From the ground on the crank at O.
+    /// Force of the ground on the crank at O.
     pub crank_bearing: [f64; 2],
-    /// From the crank on the rod at A.
+    /// Force of the crank on the rod at A.
     pub crank_pin: [f64; 2],
-    /// From the rod on the slider at P.
+    /// Force of the rod on the slider at P.
     pub wrist_pin: [f64; 2],
-    /// From the guide on the slider, along +y.
+    /// Force of the guide on the slider, along +y.
     pub guide: f64,
-    /// Minus the rate of change of linear momentum: the classical shaking force.
+    /// Shaking force: minus the rate of change of linear momentum.
     pub shaking: [f64; 2],
-    /// Minus the rate of change of angular momentum about O, N m: the classical shaking moment.
+    /// Shaking moment, N m: minus the rate of change of angular momentum about O.
     pub shaking_moment: f64,
 }
 
 /// Inertia forces by d'Alembert, minus mass times acceleration, and the couple of the rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InertiaForces {
-    /// At the crank's centre of gravity, N.
+    /// Inertia force at the crank's centre of gravity, N.
     pub crank: [f64; 2],
-    /// At the rod's centre of gravity, N.
+    /// Inertia force at the rod's centre of gravity, N.
     pub rod: [f64; 2],
     /// Minus the rod's central moment of inertia times its angular acceleration, N m.
     pub rod_couple: f64,
-    /// On the slider along +x, N.
+    /// Inertia force of the slider along +x, N.
     pub slider: f64,
 }
 
-/// The rigid bodies that carry the forces.
+/// Rigid bodies of a scene that carry the forces.
 #[derive(Clone, Debug)]
 pub struct Reactor {
     linkage: Linkage,
@@ -47,9 +47,9 @@ pub struct Reactor {
     slider_mass: f64,
 }
 
-/// What the force at the wrist pin follows from.
+/// Known forces from which the wrist-pin force follows.
 enum Known {
-    /// Force on the slider along the guide, N, and the moments about A; that fails at a limit.
+    /// Force on the slider along the guide, N; the moments about A give the rest, which fails at a limit.
     Load(f64),
     /// Force on the slider along the guide and normal force of the guide, N.
     Slider(f64, f64),
@@ -59,7 +59,7 @@ enum Known {
     WristPin([f64; 2]),
 }
 
-/// Accelerations of the centres of gravity, m/s², and of the angles, rad/s²; place of the crank pin, m, and direction of the rod.
+/// Accelerations of the centres of gravity, m/s², and of the angles, rad/s²; crank pin, m, and direction of the rod.
 struct Accelerations {
     crank: [f64; 2],
     rod: [f64; 2],
@@ -71,10 +71,10 @@ struct Accelerations {
 }
 
 impl Reactor {
-    /// The bodies of a scene.
+    /// Collects the bodies of a scene.
     ///
     /// # Errors
-    /// [`Error::Refused`] for the rod model `spin-only`, to which no forces belong.
+    /// [`Error::Refused`] for the rod model `spin-only`, which has no joint forces.
     pub fn new(scene: &Scene) -> Result<Reactor, Error> {
         let crank = scene.crank.unwrap_or_default();
         Ok(Reactor {
@@ -97,14 +97,14 @@ impl Reactor {
         })
     }
 
-    /// The forces for a motion (θ̇ in rad/s, θ̈ in rad/s²) under the loads of the scene.
+    /// Computes the forces of a motion (θ̇ in rad/s, θ̈ in rad/s²) under a load.
     pub fn reactions(&self, pose: &Pose, omega: f64, alpha: f64, load: &LoadValue) -> Reactions {
         let place = CurvePose::of(&self.linkage, pose);
         let motion = self.accelerations(&place, omega, alpha);
         self.forces(&motion, &Known::Load(load.force))
     }
 
-    /// The forces for a motion along the configuration curve (rad/s and rad/s² of its coordinate), under the
+    /// Computes the forces of a motion along the configuration curve (rad/s and rad/s² of its coordinate), from the
     /// force on the slider along the guide, friction included, and the normal force of the guide, N.
     pub fn on_curve(
         &self,
@@ -118,8 +118,8 @@ impl Reactor {
         self.forces(&motion, &Known::Slider(force, normal))
     }
 
-    /// The forces at a state of a mechanism whose joint is loose. The force in that joint is known, and from it
-    /// those in the others follow, body by body. Time is the coordinate of the paths.
+    /// Computes the forces at a state of a mechanism with a loose joint. The force in the loose joint is known; the
+    /// forces in the others follow from it, body by body. Time is the coordinate of the paths.
     pub fn loose(&self, joint: Joint, s: &LooseState, rates: &LooseRates) -> Reactions {
         let Linkage { r, l, e, .. } = self.linkage;
         let direction = |angle: f64| [angle.cos(), angle.sin()];
@@ -127,7 +127,7 @@ impl Reactor {
         let (crank_turn, rod_turn) = ([s.omega, rates.alpha], [s.spin, rates.spin_rate]);
         let arm = self.rod.arm(axis);
         let [fx, fy] = rates.on_rod;
-        // The rod moves with the body that it is pinned to; its end at the crank, and the force that is known.
+        // The rod moves with the body that it is pinned to. Its acceleration, its end at the crank, the known force.
         let (rod, pin, known) = match joint {
             Joint::CrankPin => {
                 let from_slider = [0, 1].map(|i| arm[i] - l * axis[i]);
@@ -176,7 +176,7 @@ impl Reactor {
     fn forces(&self, motion: &Accelerations, known: &Known) -> Reactions {
         let Linkage { l, e, .. } = self.linkage;
         let axis = motion.axis;
-        // m a − m g: what the forces other than gravity must add up to.
+        // m a − m g: sum of the forces other than gravity.
         let needs = |mass: f64, rate: [f64; 2]| [0, 1].map(|i| rate[i] - mass * self.gravity[i]);
         let crank_rate = motion.crank.map(|a| self.crank.mass * a);
         let rod_rate = motion.rod.map(|a| self.rod.mass * a);
@@ -187,7 +187,7 @@ impl Reactor {
         let centre = self.rod.arm(axis);
         let rod_couple = self.rod.inertia * motion.rod_turn;
         let wrist_pin = match *known {
-            // Slider along x; the rod's moments about A: (P − A) × wrist pin force = −(spin and inertia).
+            // Slider along x; moments of the rod about A: (P − A) × wrist pin force = −(spin and inertia).
             Known::Load(force) => {
                 let x = slider_needs[0] - force;
                 let moment = rod_couple + cross(centre, rod_needs);
@@ -219,7 +219,7 @@ impl Reactor {
         }
     }
 
-    /// The inertia forces of a motion (θ̇ in rad/s, θ̈ in rad/s²).
+    /// Computes the inertia forces of a motion (θ̇ in rad/s, θ̈ in rad/s²).
     pub fn inertia_forces(&self, pose: &Pose, omega: f64, alpha: f64) -> InertiaForces {
         let motion = self.accelerations(&CurvePose::of(&self.linkage, pose), omega, alpha);
         InertiaForces {
@@ -230,7 +230,7 @@ impl Reactor {
         }
     }
 
-    /// The forces at one state of a scene's motion.
+    /// Computes the forces at one state of a scene's motion.
     pub fn at(
         &self,
         equation: &Equation,

@@ -1,4 +1,4 @@
-//! The configuration curve of a double rocker, and of a change point; see [`super::Curve`].
+//! Configuration curve of a double rocker and of a change point, by half angles; see [`super::Curve`].
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,28 +7,28 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::sum3;
 
-/// The double rocker and the change point.
+/// Half angles of crank and rod of a double rocker or a change point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rocker {
     pub(super) crank: Half,
     pub(super) rod: Half,
-    /// −1 mirrors the mechanism about the x axis: for e < 0.
+    /// −1 mirrors the mechanism about the x axis, for e < 0; else 1.
     pub(super) mirror: f64,
-    /// −1: crank and rod of equal length on top of each other, the slider at O.
+    /// −1 where crank and rod, of equal length, lie on top of each other and the slider is at O; else 1.
     pub(super) fold: f64,
 }
 
-/// Half an angle a with sin a = root · (sine or cosine of q) and cos a > 0.
+/// Half angle a with sin a = root · (sine or cosine of q) and cos a > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Half {
     root: f64,
-    /// 1 − root²; zero: cos a takes the sign of the other function of q.
+    /// 1 − root²; if zero, cos a takes the sign of the other function of q.
     rest: f64,
 }
 
 impl Rocker {
-    /// For an exact change point the lengths that count as equal are taken as equal. `folded`: crank and rod
-    /// point to opposite sides.
+    /// Builds the half angles. At a change point, lengths that count as equal are taken as equal. `folded`: crank and
+    /// rod point to opposite sides.
     pub fn new(linkage: &Linkage, class: Class, folded: bool) -> Rocker {
         let Linkage { r, l, e, .. } = *linkage;
         let e = e.abs();
@@ -59,11 +59,11 @@ impl Rocker {
         }
     }
 
-    /// q of a position.
+    /// Returns the coordinate q of a position.
     pub fn coordinate(&self, linkage: &Linkage, theta: f64, cos: f64, rod_cos: f64) -> f64 {
         let from_below = Angle::from(self.mirror * theta + FRAC_PI_2).reduced().rest;
         let sine = (0.5 * from_below).sin().abs() / self.crank.root;
-        // 1 − sin Φ on the mirrored mechanism.
+        // l (1 − sin Φ) of the mirrored mechanism.
         let height = sum3(
             linkage.l,
             -linkage.e.abs(),
@@ -81,7 +81,7 @@ impl Rocker {
         (s * sine).atan2(c * cosine)
     }
 
-    /// The crank angle.
+    /// Returns the crank angle at coordinate q.
     pub fn crank_angle(&self, q: Angle) -> Angle {
         let (turns, half) = if self.crank.rest == 0.0 {
             (2.0 * q.turns, q.rest)
@@ -98,7 +98,7 @@ impl Rocker {
         self.fold == other.fold && self.fold > 0.0
     }
 
-    /// Whether the rod is normal to the guide at q = 0 and 180° too.
+    /// Whether the rod is normal to the guide also at q = 0 and 180°.
     pub fn crosses_where_folded(&self) -> bool {
         self.rod.rest == 0.0
     }
@@ -107,10 +107,10 @@ impl Rocker {
         let (sin_q, cos_q) = q.sin_cos();
         let Rocker { mirror, fold, .. } = *self;
         let crank = self.crank.double(sin_q, cos_q);
-        // cos q as the sine of a quarter turn less.
+        // cos q is the sine of 90° − q.
         let rod = self.rod.double(cos_q, sin_q);
         let (r, l) = (linkage.r, linkage.l);
-        // θ = 2a − 90° and Φ = 90° − 2b; b falls where its sine's argument is cos q.
+        // θ = 2a − 90° and Φ = 90° − 2b, where b is a function of 90° − q: dΦ/dq = d(2b)/d(90° − q).
         let (sin, cos) = (-mirror * crank.cos, crank.sin);
         let (dtheta, d2theta) = (mirror * crank.d1, mirror * crank.d2);
         let (rod_sin, rod_cos) = (mirror * rod.cos, fold * rod.sin);
@@ -133,7 +133,7 @@ impl Rocker {
     }
 }
 
-/// Ranges of 2a, its sine and cosine, and its derivative with respect to the argument of the sine.
+/// Ranges of 2a, of its sine and cosine, and of its derivative with respect to the argument of the sine.
 pub(super) struct DoubleRange {
     pub angle: Interval,
     pub sin: Interval,
@@ -141,7 +141,7 @@ pub(super) struct DoubleRange {
     pub slope: Interval,
 }
 
-/// Sine and cosine of 2a and its derivatives with respect to the argument of the sine.
+/// Sine and cosine of 2a, and derivatives of 2a with respect to the argument of the sine.
 struct Double {
     sin: f64,
     cos: f64,
@@ -158,7 +158,7 @@ impl Half {
         }
     }
 
-    /// Over arguments of the sine.
+    /// Encloses 2a over arguments of the sine.
     pub(super) fn enclose(&self, q: Interval) -> DoubleRange {
         let point = Interval::point;
         let twice = point(2.0) * q;

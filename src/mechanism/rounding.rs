@@ -1,13 +1,13 @@
-//! What rounding does to the forces: near a balance they are small differences of large terms.
+//! Rounding error of the forces: near a balance they are small differences of large terms.
 
 use super::Equation;
 use crate::numeric::angle::Angle;
 use crate::scene::Instant;
 
 impl Equation {
-    /// Size of the terms whose sum is M θ̈, N m, at time t (s), crank angle and speed (rad/s): half a unit in the last
-    /// place of it is what rounding may do to the sum. A load counts with what a change of the slider's position by
-    /// itself would change in it, and its lever x' = −r (sin θ + cos θ tan φ) with both of its parts.
+    /// Returns the size of the terms whose sum is M θ̈, N m, at time t (s), crank angle and speed (rad/s): rounding may
+    /// change the sum by half a unit in the last place of it. A load F counts with |F| + |dF/dx| (|x| + r), and its
+    /// lever x' = −r (sin θ + cos θ tan φ) with both parts.
     pub fn size_of_terms(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> f64 {
         let theta = theta.into();
         let terms = self.terms(theta.rest);

@@ -1,7 +1,7 @@
 //! Derivatives of the motion with respect to the lengths of the mechanism, in closed form.
 //!
-//! With u = e + r sin θ, W = l cos φ and a subscript for the length: W W_p = l l_p − u u_p, and the same
-//! differentiated once and twice more along the crank angle.
+//! With u = e + r sin θ, W = l cos φ and a subscript for the length: W W_p = l l_p − u u_p, and this equation
+//! differentiated once and twice with respect to the crank angle.
 
 use super::{Linkage, Pose};
 
@@ -17,10 +17,10 @@ pub enum Length {
 }
 
 impl Length {
-    /// All three, in the order of the scene file.
+    /// All lengths, in the order of the scene file.
     pub const ALL: [Length; 3] = [Length::Crank, Length::Rod, Length::Offset];
 
-    /// Key in the scene file.
+    /// Returns the key in the scene file.
     pub fn name(self) -> &'static str {
         match self {
             Length::Crank => "crank",
@@ -29,7 +29,7 @@ impl Length {
         }
     }
 
-    /// Derivatives of (r, l, e) with respect to it.
+    /// Returns the derivatives of (r, l, e) with respect to this length.
     fn unit(self) -> [f64; 3] {
         match self {
             Length::Crank => [1.0, 0.0, 0.0],
@@ -42,27 +42,27 @@ impl Length {
 /// Derivatives of a [`Pose`] with respect to one length, the crank angle held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseSlope {
-    /// of x, dimensionless
+    /// Derivative of x, dimensionless
     pub x: f64,
-    /// of x', 1/rad
+    /// Derivative of x', 1/rad
     pub dx: f64,
-    /// of x'', 1/rad²
+    /// Derivative of x'', 1/rad²
     pub d2x: f64,
-    /// of φ, rad/m
+    /// Derivative of φ, rad/m
     pub phi: f64,
-    /// of φ', 1/m
+    /// Derivative of φ', 1/m
     pub dphi: f64,
-    /// of φ'', 1/m
+    /// Derivative of φ'', 1/m
     pub d2phi: f64,
-    /// Of the unit vector from crank pin to wrist pin, and of its first two derivatives along the angle, 1/m.
+    /// Derivatives of the unit vector from crank pin to wrist pin and of its first two derivatives along θ, 1/m.
     pub(super) axis: [[f64; 2]; 3],
-    /// Of the crank length.
+    /// Derivative of the crank length.
     pub(super) crank: f64,
 }
 
 impl Linkage {
-    /// Derivatives of a position with respect to a length, at the same crank angle:
-    /// dx/dr = cos(θ + φ)/cos φ, dx/dl = 1/cos φ, dx/de = −tan φ on the right branch, and so on.
+    /// Computes the derivatives of a position with respect to a length, at constant crank angle:
+    /// dx/dr = cos(θ + φ)/cos φ, dx/dl = 1/cos φ, dx/de = −tan φ on the right branch, and the others.
     pub fn slope(&self, pose: &Pose, length: Length) -> PoseSlope {
         let Linkage { r, l, e, s, .. } = *self;
         let [r_p, l_p, e_p] = length.unit();

@@ -1,9 +1,9 @@
-//! Why an equation has no acceleration somewhere.
+//! Singular states of the equation, at which no finite acceleration exists.
 
 use super::Equation;
 use crate::numeric::angle::Angle;
 
-/// What keeps the equation from having a finite acceleration.
+/// Reason why the equation has no finite acceleration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singularity {
     /// The rod does not reach the guide, or stands normal to it.
@@ -12,12 +12,12 @@ pub enum Singularity {
     Load,
     /// M is zero.
     NoInertia,
-    /// Load or speed are so large that the acceleration has no value in double precision.
+    /// A load or the speed is too large for an acceleration in double precision.
     TooLarge,
 }
 
 impl Equation {
-    /// Why there is no finite acceleration here, if there is none.
+    /// Returns the reason why the acceleration is not finite at this state; none if it is finite.
     pub fn singularity(&self, t: f64, theta: impl Into<Angle>, omega: f64) -> Option<Singularity> {
         let theta = theta.into();
         let terms = self.terms(theta.rest);

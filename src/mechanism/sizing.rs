@@ -1,16 +1,16 @@
-//! Lengths from what the slider is to do.
+//! Crank and rod from stroke, rod ratio and offset, in closed form.
 
 use crate::error::Error;
 
-/// Crank and rod (m) of a crank that turns fully, from the stroke (m), the ratio rod/crank and the offset
-/// (m), exact: the stroke S = sqrt((l + r)² − e²) − sqrt((l − r)² − e²) with l = ρ r gives
+/// Solves for crank and rod (m) of a crank that turns fully, from the stroke (m), the ratio rod/crank and the offset
+/// (m), exactly: the stroke S = sqrt((l + r)² − e²) − sqrt((l − r)² − e²) with l = ρ r gives
 /// 16 ρ² r⁴ − 4 (ρ² + 1) S² r² + S² (S² + 4 e²) = 0.
 ///
-/// Of two solutions the one with the longer crank is taken, which keeps clear of the limit l = r + |e|. For
-/// e = 0 it is r = S/2, Obaseki & Alfred (49).
+/// Of two solutions the longer crank is taken, which keeps clear of the limit l = r + |e|. For e = 0 the crank is
+/// r = S/2, Obaseki & Alfred (49).
 ///
 /// # Errors
-/// [`Error::Refused`] if there is none.
+/// [`Error::Refused`] if no crank fits.
 ///
 /// ```
 /// use slider_crank::mechanism::{size_from_stroke, Limits, Linkage};

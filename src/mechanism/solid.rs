@@ -1,33 +1,33 @@
-//! Mass properties of plates: a flat shape, its depth and its density.
+//! Mass properties of plates from a flat shape, its depth and its density.
 
 use std::f64::consts::TAU;
 
-/// A shape in the plane that is symmetric to both axes, as area and second moments about its centre.
+/// Plane shape, symmetric to both axes, as area and second moments about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
-    /// m²
+    /// Area, m².
     pub area: f64,
-    /// ∫ x² along the length, m⁴.
+    /// Second moment along the length, ∫ x², m⁴.
     pub along: f64,
-    /// ∫ y² across it, m⁴.
+    /// Second moment across the length, ∫ y², m⁴.
     pub across: f64,
 }
 
 /// Mass and principal moments of inertia about the centre of gravity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
-    /// kg
+    /// Mass, kg.
     pub mass: f64,
-    /// About the normal of the shape, kg m²: the one that counts in the plane of the mechanism.
+    /// Moment of inertia about the normal of the shape, kg m²: the one that counts in the plane of the mechanism.
     pub normal: f64,
-    /// About the axis across the length, in the plane, kg m².
+    /// Moment of inertia about the axis across the length, in the plane, kg m².
     pub across: f64,
-    /// About the length, kg m².
+    /// Moment of inertia about the length, kg m².
     pub along: f64,
 }
 
 impl Shape {
-    /// A rectangle, m.
+    /// Returns a rectangle of a length and a width, m.
     pub fn rectangle(length: f64, width: f64) -> Shape {
         let area = length * width;
         Shape {
@@ -37,8 +37,8 @@ impl Shape {
         }
     }
 
-    /// A link between two pins `length` apart with half-round ends of diameter `width`, m, each drawn as half of a
-    /// regular polygon of `corners` corners, an even number: what drawing programs make of a round end.
+    /// Returns a link between two pins `length` apart with half-round ends of diameter `width`, m, each drawn as half
+    /// of a regular polygon of `corners` corners, an even number, as drawing programs approximate a round end.
     pub fn polygon_ended(length: f64, width: f64, corners: u32) -> Shape {
         let (half, radius) = (0.5 * length, 0.5 * width);
         let side = TAU / f64::from(corners);
@@ -52,7 +52,7 @@ impl Shape {
         Shape::polygon(&outline)
     }
 
-    /// The shape inside an outline of points (m), counter-clockwise around the centre.
+    /// Returns the shape inside an outline of points (m), counter-clockwise around the centre.
     pub fn polygon(outline: &[[f64; 2]]) -> Shape {
         let mut shape = Shape {
             area: 0.0,
@@ -69,7 +69,7 @@ impl Shape {
         shape
     }
 
-    /// The plate of this shape, of a depth (m) and a density (kg/m³).
+    /// Returns the plate of this shape, of a depth (m) and a density (kg/m³).
     pub fn plate(&self, depth: f64, density: f64) -> MassProperties {
         let per_area = depth * density;
         let mass = self.area * per_area;

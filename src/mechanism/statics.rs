@@ -1,10 +1,10 @@
-//! Static equilibrium of slider force and crank torque, with the band that friction at the guide allows.
+//! Static equilibrium of slider force and crank torque by virtual work, with the band that guide friction allows.
 
 use super::{Equation, Linkage, LoadValue, Pose, Reactor, Terms};
 use crate::error::Error;
 use crate::scene::{Instant, RodModel, Scene};
 
-/// The static problem of a scene: its weight and its loads at rest.
+/// Static problem of a scene: weight and loads at rest.
 #[derive(Clone, Debug)]
 pub struct Statics {
     equation: Equation,
@@ -12,37 +12,37 @@ pub struct Statics {
     friction: f64,
 }
 
-/// Equilibrium at one crank angle, without friction and with the most that friction can do.
+/// Equilibrium at one crank angle, without friction and at the limits of friction.
 ///
-/// What does not exist is `None`: a slider force that is to balance a torque at a dead centre, and
-/// everything where the rod does not reach the guide or stands normal to it, or a load has no value.
+/// Values that do not exist are `None`: a slider force against a torque at a dead centre, and every value where the rod
+/// does not reach the guide or stands normal to it, or a load has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Balance {
-    /// What holds the equilibrium without friction, between the least and the greatest that hold it with
-    /// friction: slider force (N) or crank torque (N m), beside the loads of the scene.
+    /// Slider force (N) or crank torque (N m) of equilibrium beside the loads of the scene: without friction, and the
+    /// least and the greatest that hold with friction.
     pub band: Option<Band>,
     /// Force of the slider on the guide along +y without friction, N.
     pub side_thrust: Option<f64>,
-    /// μ |tan φ| ≥ 1: no crank torque, however large, moves the slider against friction.
+    /// True if μ |tan φ| ≥ 1: no crank torque, however large, moves the slider against friction.
     pub self_locking: bool,
 }
 
-/// A force (N) or a torque (N m) and the range around it; an edge that does not exist is `None`.
+/// Force (N) or torque (N m) and the range around it; an edge that does not exist is `None`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// Without friction.
+    /// Value without friction.
     pub value: f64,
-    /// The least.
+    /// Least value.
     pub min: Option<f64>,
-    /// The greatest.
+    /// Greatest value.
     pub max: Option<f64>,
 }
 
 impl Statics {
-    /// The static problem of a scene under the friction coefficient `friction`.
+    /// Builds the static problem of a scene under the friction coefficient `friction`.
     ///
     /// # Errors
-    /// [`Error::Refused`] for a rod of model `spin-only` under gravity, to which no joint forces belong.
+    /// [`Error::Refused`] for a rod of model `spin-only` under gravity, which has no joint forces.
     pub fn new(scene: &Scene, friction: f64) -> Result<Statics, Error> {
         let mut scene = scene.reduced();
         if scene.gravity.is_none() {
@@ -56,18 +56,18 @@ impl Statics {
         })
     }
 
-    /// The equation of the scene.
+    /// Returns the equation of the scene.
     pub fn equation(&self) -> &Equation {
         &self.equation
     }
 
-    /// The slider force (N, along +x) that holds the scene in equilibrium, beside its loads:
-    /// F = (V' − τ)/x', Ng (2) and (6) for any offset, with weight.
+    /// Returns the slider force (N, along +x) that holds the scene in equilibrium, beside its loads: F = (V' − τ)/x',
+    /// Ng (2) and (6) for any offset, with weight.
     ///
-    /// The crank torque fixes the force of the rod, and so the normal force N of the guide, whatever friction
-    /// does; so the band is F ± μ |N|, Ng (8) with both of its edges.
+    /// The crank torque fixes the force of the rod, and with it the normal force N of the guide, whatever friction
+    /// does: the band is F ± μ |N|, Ng (8) with both edges.
     ///
-    /// Dry loads hold with anything up to their magnitudes.
+    /// Dry loads hold with any value up to their magnitudes.
     pub fn slider_force(&self, theta: f64) -> Balance {
         let (terms, load) = self.at(theta);
         let mut balance = self.force_beside(&terms, load, theta);
@@ -101,14 +101,14 @@ impl Statics {
         balance
     }
 
-    /// The crank torque (N m, counter-clockwise) that holds the scene in equilibrium, beside its loads:
+    /// Returns the crank torque (N m, counter-clockwise) that holds the scene in equilibrium, beside its loads:
     /// τ = V' − F x'.
     ///
-    /// The normal force depends on how much of the slider force reaches the rod: it is n₀ + n₁ R for a rod
-    /// force R along +x on the slider, and R + F is at most μ |n₀ + n₁ R|. Where μ |n₁| ≥ 1 the mechanism
-    /// locks itself and a torque of any size is held; no edge is stated there.
+    /// The normal force depends on the part of the slider force that reaches the rod: it is n₀ + n₁ R for a rod force R
+    /// along +x on the slider, and |R + F| is at most μ |n₀ + n₁ R|. Where μ |n₁| ≥ 1 the mechanism locks itself and
+    /// holds a torque of any size; no edge is stated there.
     ///
-    /// Dry loads hold with anything up to their magnitudes.
+    /// Dry loads hold with any value up to their magnitudes.
     pub fn crank_torque(&self, theta: f64) -> Balance {
         let (terms, load) = self.at(theta);
         let mut balance = self.torque_beside(&terms, load);
@@ -148,7 +148,7 @@ impl Statics {
         balance
     }
 
-    /// What dry loads hold with at most, if there are any.
+    /// Returns the magnitudes with which dry loads hold; none without dry loads.
     fn dry(&self, terms: &Terms, theta: f64) -> Option<LoadValue> {
         let loads = self.equation.loads();
         let now = Instant {
@@ -176,7 +176,7 @@ impl Statics {
         }
     }
 
-    /// Normal force of the guide on the slider along +y, N, if `force` (N) drives the slider.
+    /// Returns the normal force of the guide on the slider along +y, N, if `force` (N) drives the slider.
     fn guide(&self, pose: &Pose, torque: f64, force: f64) -> f64 {
         let load = LoadValue { torque, force };
         self.reactor.reactions(pose, 0.0, 0.0, &load).guide
@@ -184,7 +184,7 @@ impl Statics {
 }
 
 impl Band {
-    /// The band that also covers these, widened on both sides.
+    /// Returns the band that also covers `ends`, widened on both sides; an edge needs the edges of all.
     fn widened(self, ends: [Option<Band>; 2], by: f64) -> Band {
         let all = |edge: fn(&Band) -> Option<f64>, pick: fn(f64, f64) -> f64| {
             let ends = ends.iter().map(|band| band.as_ref().and_then(edge));
@@ -198,14 +198,14 @@ impl Band {
     }
 }
 
-/// Whether a crank angle cannot be told from a dead centre: x' is within what rounding of the angle changes.
+/// Whether a crank angle is a dead centre to rounding: x' is within the change by rounding of the angle.
 fn dead_centre(linkage: &Linkage, pose: &Pose, theta: f64) -> bool {
     let angle = 2.0 * f64::EPSILON * (1.0 + theta.abs());
     let size = linkage.r * (1.0 + pose.sin_phi.abs() / pose.cos_phi);
     pose.dx.abs() <= angle * (pose.d2x.abs() + size)
 }
 
-/// Friction coefficient from the tilt (rad) at which a body begins to slide, Ng (10): tan of the angle.
+/// Returns the friction coefficient, the tangent of the tilt (rad) at which a body begins to slide, Ng (10).
 ///
 /// ```
 /// use slider_crank::mechanism::friction_from_tilt;
@@ -215,7 +215,7 @@ pub fn friction_from_tilt(angle: f64) -> f64 {
     angle.tan()
 }
 
-/// Torque (N m) of a weight (N) on a cord round a drum of the given radius (m).
+/// Returns the torque (N m) of a weight (N) on a cord round a drum of the given radius (m).
 pub fn drum_torque(weight: f64, radius: f64) -> f64 {
     weight * radius
 }

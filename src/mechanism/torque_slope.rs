@@ -4,8 +4,8 @@ use super::{Bodies, Body, Length, Link, Linkage, Path, Pose, PoseSlope, single};
 use crate::error::Error;
 use crate::scene::{Load, RodModel, Scene, Variables};
 
-/// The bodies and loads whose torque changes with the lengths; masses, moments of inertia and centres of
-/// gravity stay where they are, measured from the crank pivot and the crank pin.
+/// Bodies and loads whose torque changes with the lengths; masses, moments of inertia and centres of gravity stay
+/// constant, measured from the crank pivot and the crank pin.
 #[derive(Clone, Debug)]
 pub struct TorqueSlope {
     linkage: Linkage,
@@ -15,19 +15,19 @@ pub struct TorqueSlope {
     force: f64,
     stiffness: f64,
     damping: f64,
-    /// Forces on the slider that do not depend on where it is and how fast it moves.
+    /// Forces on the slider that depend on neither its position nor its velocity.
     others: Vec<Load>,
-    /// Rod mass, place of its centre of gravity and mass at the crank pin, of two point masses.
+    /// Two-mass rod: mass, kg, distance of its centre of gravity, m, and mass at the crank pin, kg.
     two_mass: Option<[f64; 3]>,
-    /// Mass of a rod whose weight acts on the crank's line beyond its end.
+    /// Mass of a spin-only rod, kg, whose weight acts on the crank's line beyond its end.
     spin_only: Option<f64>,
 }
 
 impl TorqueSlope {
-    /// The bodies and loads of a scene.
+    /// Collects the bodies and loads of a scene.
     ///
     /// # Errors
-    /// [`Error::Refused`] for tables and formulas of the slider's position or velocity, whose slope is not
+    /// [`Error::Refused`] for slider forces of position or velocity other than springs and dampers: their slope is not
     /// known.
     pub fn new(scene: &Scene) -> Result<TorqueSlope, Error> {
         let scene = scene.reduced();
@@ -46,7 +46,7 @@ impl TorqueSlope {
         };
         match &scene.rod {
             Some(rod) if rod.model == RodModel::TwoMass => {
-                // Its mass at the crank pin moves with the pin, and is not fixed to the crank.
+                // The rod's mass at the crank pin moves with the pin and is not fixed to the crank.
                 let on_crank = |body: &Body| body.on == Link::Crank;
                 if let Some(last) = found.weights.iter().rposition(on_crank) {
                     let at_crank_pin = found.weights.remove(last).mass;
@@ -78,8 +78,8 @@ impl TorqueSlope {
         Ok(found)
     }
 
-    /// d τ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that drives the crank at constant speed ω
-    /// (rad/s) at a crank angle (rad); time counts from θ = 0.
+    /// Returns d τ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that drives the crank at constant speed ω (rad/s)
+    /// at a crank angle (rad); time counts from θ = 0.
     pub fn driving_torque(&self, theta: f64, omega: f64, length: Length) -> f64 {
         let pose = &self.linkage.pose(theta);
         let slope = self.linkage.slope(pose, length);
@@ -108,7 +108,7 @@ impl TorqueSlope {
         inertia - force * slope.dx - force_slope * pose.dx + self.moved_mass(pose, squared, length)
     }
 
-    /// The path of a body, and its change with the length.
+    /// Returns the path of a body, and its derivative with respect to the length.
     fn paths(&self, body: &Body, pose: &Pose, slope: &PoseSlope) -> [Path; 2] {
         let (along, lateral) = (body.along, body.lateral);
         match body.on {
@@ -142,8 +142,8 @@ impl TorqueSlope {
         }
     }
 
-    /// What the lengths change beside the motion of the bodies: the shares and the place of two point masses,
-    /// and the place of a weight that is measured from the crank's end.
+    /// Returns the effect of the lengths beside the motion of the bodies, N: masses and places of two point masses, and
+    /// the place of a weight that is measured from the crank's end.
     fn moved_mass(&self, pose: &Pose, squared: f64, length: Length) -> f64 {
         let [gx, gy] = self.gravity;
         let crank = Path::on_crank(pose, 1.0, 0.0);
@@ -152,7 +152,7 @@ impl TorqueSlope {
         match (length, self.two_mass, self.spin_only) {
             (Length::Crank, Some([_, _, at_crank_pin]), _) => at_crank_pin * lift,
             (Length::Rod, Some([mass, cg, _]), _) => {
-                // m c/l at the wrist pin falls, and the rest at the crank pin grows.
+                // The mass m c/l at the wrist pin falls, and the rest at the crank pin grows.
                 let to_crank_pin = mass * cg / (self.linkage.l * self.linkage.l);
                 let at_wrist_pin = squared * pose.dx * pose.d2x - gx * pose.dx;
                 to_crank_pin * (self.linkage.r * lift - at_wrist_pin)

@@ -1,8 +1,8 @@
-//! Virtual displacements along the configuration curve and across it, and the work of inertia and weight over them.
+//! Virtual displacements along the configuration curve and off the guide, and the work of inertia and weight over them.
 
 use super::{Equation, Path};
 
-/// Derivatives of θ, the rod's centre of gravity p, its direction ψ and x in one direction, or the second ones along the curve.
+/// Derivatives of θ, rod centre of gravity p, rod direction ψ and x in one direction, or second ones along the curve.
 pub(super) struct VirtualDisplacement {
     pub theta: f64,
     pub p: [f64; 2],
@@ -11,7 +11,7 @@ pub(super) struct VirtualDisplacement {
 }
 
 impl VirtualDisplacement {
-    /// First and second derivatives along the curve.
+    /// Returns the first and second derivatives along the curve.
     #[inline(always)]
     pub(super) fn along(theta: [f64; 2], path: &Path, x: [f64; 2]) -> [VirtualDisplacement; 2] {
         [
@@ -30,8 +30,8 @@ impl VirtualDisplacement {
         ]
     }
 
-    /// Across the curve, from the crank, the rod and the arm of its centre of gravity: crank and slider are lifted by one off the
-    /// guide, in the direction of least change of both angles.
+    /// Returns the displacement that lifts the slider pin by one off the guide with the least change of both angles,
+    /// from the vectors of the crank, the rod and the arm of its centre of gravity.
     #[inline(always)]
     pub(super) fn aside(crank: [f64; 2], rod: [f64; 2], arm: [f64; 2]) -> VirtualDisplacement {
         let squared = crank[0] * crank[0] + rod[0] * rod[0];
@@ -49,7 +49,7 @@ impl VirtualDisplacement {
 }
 
 impl Equation {
-    /// Σ m p_a·p_b + I ψ_a ψ_b over all bodies.
+    /// Returns Σ m p_a·p_b + I ψ_a ψ_b over all bodies.
     #[inline(always)]
     pub(super) fn inertia_over(&self, a: &VirtualDisplacement, b: &VirtualDisplacement) -> f64 {
         let rod = &self.rod;
@@ -58,7 +58,7 @@ impl Equation {
         self.crank_inertia * a.theta * b.theta + (moved + turned) + self.slider_mass * (a.x * b.x)
     }
 
-    /// −Σ m g·p_a of gravity, for a slider that stays in its guide.
+    /// Returns −Σ m g·p_a of gravity, for a slider that stays in its guide.
     #[inline(always)]
     pub(super) fn weight_over(&self, [cos, sin]: [f64; 2], a: &VirtualDisplacement) -> f64 {
         let weight = &self.weight;

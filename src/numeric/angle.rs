@@ -1,16 +1,16 @@
-//! An angle as whole turns and a remainder, so that a million turns cost no digits of the position.
+//! Angles as whole turns and a remainder: a million turns cost no digits of the position.
 
 use std::f64::consts::{PI, TAU};
 
-/// 2 pi − TAU: what the nearest double leaves out.
+/// 2 pi − TAU: rounding error of the double nearest to 2 pi, rad.
 pub const TAU_REST: f64 = 2.4492935982947064e-16;
 
-/// turns·2π + rest.
+/// Angle turns·2π + rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Angle {
     /// Whole turns.
     pub turns: f64,
-    /// The rest, rad; of any size, at its most exact when small.
+    /// Remainder, rad; of any size, most exact when small.
     pub rest: f64,
 }
 
@@ -21,18 +21,18 @@ impl From<f64> for Angle {
 }
 
 impl Angle {
-    /// So many whole turns and the rest, rad.
+    /// Returns the angle of whole turns and a remainder, rad.
     pub fn new(turns: f64, rest: f64) -> Angle {
         Angle { turns, rest }
     }
 
-    /// The whole angle, rad, rounded once.
+    /// Returns the whole angle, rad, rounded once.
     pub fn radians(self) -> f64 {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
     }
 
-    /// The angle with its rest in [−π, 2π): one that is in there is kept with all its digits, a small negative
-    /// one, too.
+    /// Returns the angle with its remainder in [−π, 2π): a remainder in that range, also a small negative one, keeps
+    /// all its digits.
     pub fn reduced(self) -> Angle {
         if (-PI..TAU).contains(&self.rest) {
             return self;
@@ -44,24 +44,24 @@ impl Angle {
         )
     }
 
-    /// This angle minus another, rad.
+    /// Returns this angle minus another, rad.
     pub fn minus(self, other: Angle) -> f64 {
         Angle::new(self.turns - other.turns, self.rest - other.rest).radians()
     }
 
-    /// This angle and `more` radians.
+    /// Returns this angle plus `more` radians.
     pub fn plus(self, more: f64) -> Angle {
         Angle::new(self.turns, self.rest + more)
     }
 }
 
-/// Angles of one turn, rad: from 0 to 2π inclusive, every `step`. Whole degrees are converted as such, so
-/// that 90 degrees is the double nearest to a right angle.
+/// Iterates over the angles of one turn, rad: from 0 to 2π inclusive, every `step`. A step that is a decimal number of
+/// degrees is converted as degrees: 90 degrees give the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {
     turns(1, step)
 }
 
-/// Angles spread over several turns.
+/// Iterates over the angles of several turns, rad: from 0 to the end inclusive, every `step`, as [`turn`].
 pub fn turns(count: u32, step: f64) -> impl Iterator<Item = f64> {
     let end = f64::from(count) * TAU;
     let whole = (end / step * (1.0 - 1e-12)).floor() as u64;

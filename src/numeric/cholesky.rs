@@ -1,11 +1,11 @@
-//! Cholesky factorization in blocks: nearly all of its work is products of matrices, at the speed of those.
+//! Cholesky factorization in blocks: nearly all of its work is products of matrices, at their speed.
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// Columns of a block.
 const BLOCK: usize = 48;
 
-/// A = L Lᵀ of a symmetric matrix given by its lower triangle; none where it is not positive definite.
+/// Factorizes A = L Lᵀ, symmetric and given by its lower triangle; none where A is not positive definite.
 pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     let order = a.nrows();
     for first in (0..order).step_by(BLOCK) {

@@ -1,14 +1,14 @@
-//! Dips of a function between places where its values are known.
+//! Detection of dips of a function between places where its values are known, by the parabola through three of them.
 
-/// A dip may go unseen where the parabola comes as near to zero as this part of its sag over the wider of the two
-/// gaps.
+/// Largest minimum of the parabola, as a part of its sag over the wider of the two gaps, at which a dip below zero
+/// counts as possible.
 const NEAR_SAG: f64 = 0.25;
 
-/// Whether a function with these values at three places in order may fall below zero between them where the values
+/// Whether a function with these values at three places in order may fall below zero between them although the values
 /// do not.
 ///
-/// The parabola through the three has its lowest point between the outer ones, and comes near to zero there. As it
-/// lies above that point by no more than a quarter of its sag at the nearest place, a lowest value of less than half
+/// True if the parabola through the three points has its lowest point between the outer ones and near zero. At the
+/// nearest place the parabola lies above that point by at most a quarter of its sag: a lowest value of less than half
 /// of the least of the three is always near.
 pub fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
     let slopes = [(y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])];

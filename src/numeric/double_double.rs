@@ -1,17 +1,17 @@
-//! Numbers of about 31 digits: unevaluated sums of two floats (Dekker, Numer. Math. 18 (1971) 224).
+//! Double-double numbers of about 31 digits: unevaluated sums of two floats (Dekker, Numer. Math. 18 (1971) 224).
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 use super::exact::two_sum;
 
-/// high + low, where low is at most half a unit in the last place of high.
+/// Number high + low, where low is at most half a unit in the last place of high.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
 
-/// The two-sum of numbers of which the first is the larger.
+/// Returns the two-sum of numbers of which the first is the larger in magnitude.
 fn quick_sum(a: f64, b: f64) -> DoubleDouble {
     let high = a + b;
     DoubleDouble {
@@ -20,7 +20,7 @@ fn quick_sum(a: f64, b: f64) -> DoubleDouble {
     }
 }
 
-/// A product and its rounding error, from factors split into halves of 26 bits.
+/// Returns a product and its rounding error, from factors split into halves of 26 bits.
 fn product(a: f64, b: f64) -> (f64, f64) {
     let split = |x: f64| {
         let c = 134_217_729.0 * x;
@@ -33,7 +33,7 @@ fn product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl DoubleDouble {
-    /// Relative rounding of one operation: some 2⁻¹⁰⁴ (Dekker).
+    /// Relative rounding error of one operation: about 2⁻¹⁰⁴ (Dekker).
     pub const ROUNDING: f64 = f64::EPSILON * f64::EPSILON;
     /// Zero.
     pub const ZERO: DoubleDouble = DoubleDouble {
@@ -46,12 +46,12 @@ impl DoubleDouble {
         low: 0.0,
     };
 
-    /// The nearest float.
+    /// Returns the nearest float.
     pub fn value(self) -> f64 {
         self.high
     }
 
-    /// Square root, not a number below zero: one Newton step from that of the float.
+    /// Returns the square root, by one Newton step from that of the float; NaN below zero.
     pub fn sqrt(self) -> DoubleDouble {
         if self.high == 0.0 {
             return DoubleDouble::ZERO;
@@ -113,7 +113,7 @@ impl<T: Into<DoubleDouble>> Mul<T> for DoubleDouble {
 impl<T: Into<DoubleDouble>> Div<T> for DoubleDouble {
     type Output = DoubleDouble;
 
-    /// Long division, three digits of a float each.
+    /// Divides by long division, with three quotient digits of one float each.
     fn div(self, other: T) -> DoubleDouble {
         let other = other.into();
         let first = self.high / other.high;

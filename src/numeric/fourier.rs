@@ -1,13 +1,13 @@
-//! Fourier coefficients of a cycle from equal steps of it.
+//! Fourier coefficients of a cycle from equidistant samples, by the rectangle rule.
 
 use std::f64::consts::TAU;
 
-/// Highest order that is shown, per turn.
+/// Highest order in the outputs, per turn.
 pub const HIGHEST: u32 = 12;
-/// Samples of a turn: the rectangle rule is exact for orders up to this less the highest.
+/// Samples of a turn: the rectangle rule is exact for signals of orders below this less the highest.
 pub const SAMPLES: u32 = 1024;
 
-/// Means of the columns times cosine and sine of what repeats k times in the cycle.
+/// Returns the means of the columns times cosine and sine of order k of the cycle: half the Fourier coefficients.
 pub fn coefficients<const N: usize>(samples: &[[f64; N]], k: u32) -> [[f64; 2]; N] {
     let count = samples.len() as f64;
     let mut sums = [[0.0, 0.0]; N];

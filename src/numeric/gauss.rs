@@ -1,9 +1,9 @@
-//! Gauss-Legendre quadrature.
+//! Gauss-Legendre quadrature: nodes and weights, composite and adaptive rules.
 
 use std::f64::consts::PI;
 
-/// Node and weight number `i` (from 0) of the rule with `n` points on [0, 1]: Newton on the Legendre
-/// polynomial (Abramowitz and Stegun, 25.4.29 and 22.16.6).
+/// Returns node and weight number `i` (from 0) of the rule with `n` points on [0, 1], by Newton's method on the
+/// Legendre polynomial (Abramowitz and Stegun, 25.4.29 and 22.16.6).
 pub fn legendre(n: u32, i: usize) -> (f64, f64) {
     let mut x = (PI * (i as f64 + 0.75) / (f64::from(n) + 0.5)).cos();
     let mut slope = 1.0;
@@ -19,7 +19,7 @@ pub fn legendre(n: u32, i: usize) -> (f64, f64) {
     (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
 }
 
-/// A Legendre series at many places, by its recurrence.
+/// Evaluates a Legendre series at many places, by its recurrence.
 pub fn legendre_series<const K: usize, const N: usize>(
     coefficients: &[f64; K],
     x: [f64; N],
@@ -37,7 +37,7 @@ pub fn legendre_series<const K: usize, const N: usize>(
     sum
 }
 
-/// ∫ f over [from, to] by the rule with three points on each of `panels` equal panels.
+/// Integrates f over [from, to] by the rule with three points on each of `panels` equal panels.
 pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64 {
     let h = (to - from) / f64::from(panels);
     let node = 0.5 * h * 0.6f64.sqrt();
@@ -48,20 +48,20 @@ pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64
     (0..panels).map(panel).sum::<f64>() * h / 18.0
 }
 
-/// Nodes and weights of the rule with 14 points on [0, 1].
+/// Returns nodes and weights of the rule with 14 points on [0, 1].
 pub fn rule_14() -> &'static [(f64, f64); 14] {
     static RULE: std::sync::OnceLock<[(f64, f64); 14]> = std::sync::OnceLock::new();
     RULE.get_or_init(|| std::array::from_fn(|i| legendre(14, i)))
 }
 
-/// Nodes and weights of the rule with 18 points on [0, 1].
+/// Returns nodes and weights of the rule with 18 points on [0, 1].
 pub fn rule_18() -> &'static [(f64, f64); 18] {
     static RULE: std::sync::OnceLock<[(f64, f64); 18]> = std::sync::OnceLock::new();
     RULE.get_or_init(|| std::array::from_fn(|i| legendre(18, i)))
 }
 
-/// ∫ f over [from, to], halved again and again where the halves together differ from the whole by more than
-/// `tolerance` and by more than rounding of f and of its argument; the worst part first, at most a thousand times.
+/// Integrates f over [from, to], bisecting where the halves together differ from the whole by more than `tolerance` and
+/// by more than rounding of f and of its argument; the worst part first, at most a thousand times.
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
     let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
@@ -91,17 +91,17 @@ pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f
         .sum()
 }
 
-/// A part of an interval.
+/// Part of an interval of integration.
 struct Part {
-    /// Ends and middle of the interval.
+    /// Ends and middle of the part.
     ends: [f64; 3],
-    /// The integrals over its halves.
+    /// Integrals over the halves.
     halves: [f64; 2],
-    /// By how much they differ from the whole more than they may.
+    /// Difference of the halves from the whole, less the allowed difference.
     excess: f64,
 }
 
-/// An integral by one application of the rule, and what rounding may do to it.
+/// Integral by one application of the rule, and its rounding error.
 struct Sum {
     value: f64,
     rounding: f64,
@@ -118,7 +118,7 @@ impl Sum {
             (least, most) = (least.min(y), most.max(y));
         }
         let length = b - a;
-        // An argument that is rounded moves f along its slope, about (most − least)/length.
+        // Rounding of the argument moves f along its slope, about (most − least)/length.
         let of_argument = 2.0 * a.abs().max(b.abs()) * (most - least);
         Sum {
             value: length * value,

@@ -1,4 +1,4 @@
-//! Interpolation in a table: linear, or the monotone cubic of Fritsch and Butland ("pchip").
+//! Interpolation in a table: linear, or by the monotone cubic of Fritsch and Butland ("pchip").
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use super::angle::TAU_REST;
 use super::enclosure::{Enclosed, Interval, Rectangle};
 use super::exact::two_product;
 
-/// How values between two rows are found.
+/// Method of interpolation between two rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight lines.
@@ -15,21 +15,21 @@ pub enum Interpolation {
     Pchip,
 }
 
-/// A curve through given points.
+/// Interpolating curve through given points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     x: Vec<f64>,
     y: Vec<f64>,
     slope: Option<Vec<f64>>,
     period: Option<f64>,
-    /// What the period lacks of what is meant.
+    /// Intended period minus the float of the period.
     lacks: f64,
     spacing: f64,
 }
 
 impl Curve {
-    /// A curve through the points (x, y); x must rise strictly and have at least two values. With a
-    /// period the last point must lie less than one period after the first.
+    /// Builds the curve through the points (x, y); x must rise strictly and have at least two values. With a period the
+    /// last point must lie less than one period after the first.
     pub fn new(x: Vec<f64>, y: Vec<f64>, kind: Interpolation, period: Option<f64>) -> Curve {
         let (mut x, mut y) = (x, y);
         if let Some(period) = period {
@@ -48,40 +48,40 @@ impl Curve {
         }
     }
 
-    /// Smallest and largest argument; a periodic curve takes any.
+    /// Returns the smallest and the largest argument; a periodic curve takes any.
     pub fn range(&self) -> (f64, f64) {
         (self.x[0], self.x[self.x.len() - 1])
     }
 
-    /// The period, if it has one.
+    /// Returns the period, if any.
     pub fn period(&self) -> Option<f64> {
         self.period
     }
 
-    /// The points.
+    /// Returns the arguments of the points.
     pub fn points(&self) -> &[f64] {
         &self.x
     }
 
-    /// The values at the points.
+    /// Returns the values at the points.
     pub fn values(&self) -> &[f64] {
         &self.y
     }
 
-    /// The first point after `at`, where the curve is not smooth; infinite if there is none.
+    /// Returns the first point after `at`, where the curve is not smooth; infinite if there is none.
     pub fn next_point(&self, at: f64) -> f64 {
         self.points_after(at)
             .next()
             .map_or(f64::INFINITY, |[x, _]| x)
     }
 
-    /// The points after `at` with their values, in rising order.
+    /// Iterates over the points after `at` with their values, in rising order.
     fn points_after(&self, at: f64) -> impl Iterator<Item = [f64; 2]> {
         let turns = match self.period {
             Some(period) => ((at - self.x[0]) / period).floor() * period,
             None => 0.0,
         };
-        // The same point again, off by rounding, is not a next one.
+        // A point that equals `at` but for rounding is not a next one.
         let after = at + 1e-12 * self.spacing + 2.0 * f64::EPSILON * at.abs();
         let next = self.x.partition_point(|x| x + turns <= after);
         // The last point of a period is the first one of the next.
@@ -95,7 +95,7 @@ impl Curve {
         })
     }
 
-    /// The points between two arguments, periods counted, in rising order.
+    /// Returns the points between two arguments, repeated with the period, in rising order.
     pub fn points_between(&self, low: f64, high: f64) -> Vec<f64> {
         let inside = |x: &f64| low < *x && *x < high;
         let Some(period) = self.period else {
@@ -107,7 +107,7 @@ impl Curve {
         (first..=last).flat_map(again).filter(inside).collect()
     }
 
-    /// The value at `at`; NaN outside the range of a curve that is not periodic.
+    /// Returns the value at `at`; NaN outside the range of a curve that is not periodic.
     pub fn value(&self, at: f64) -> f64 {
         let (low, high) = self.range();
         let at = match self.period {
@@ -130,8 +130,8 @@ impl Curve {
         }
     }
 
-    /// The values over an interval: between points the curve is monotone. They are analytic, too, and of third degree,
-    /// where no point lies inside.
+    /// Encloses the values over an interval: between points the curve is monotone. Where no point lies inside, the
+    /// values are a polynomial of third degree, hence analytic.
     pub fn enclose(&self, over: Interval) -> Enclosed {
         let (low, high) = self.range();
         let Interval {
@@ -148,7 +148,7 @@ impl Curve {
         }
         let ends = [from, to].map(|at| self.value(at));
         let mut real = Interval::between(ends[0], ends[1]);
-        // A point at the end, off by rounding, is not inside.
+        // A point that equals the end but for rounding is not inside.
         let before = to - 1e-12 * self.spacing - 2.0 * f64::EPSILON * to.abs();
         let mut smooth = true;
         for [_, y] in self.points_after(from).take_while(|[x, _]| *x < before) {
@@ -165,7 +165,7 @@ impl Curve {
         }
     }
 
-    /// Index of the piece that holds `at`: guessed from the mean spacing, searched only if that fails.
+    /// Returns the index of the piece that holds `at`: guessed from the mean spacing, searched only if the guess fails.
     fn interval(&self, at: f64) -> usize {
         let last = self.x.len() - 2;
         let guess = (((at - self.x[0]) / self.spacing) as usize).min(last);
@@ -176,17 +176,17 @@ impl Curve {
     }
 }
 
-/// at modulo period, in [0, period]; `lacks`: [`lacks`] of the period.
+/// Reduces `at` modulo period to [0, period]; `lacks`: [`lacks`] of the period.
 fn reduced(at: f64, period: f64, lacks: f64) -> f64 {
     let count = (at / period).floor();
     if count == 0.0 {
         return at;
     }
-    // Rounded once: what a product of its own rounds is the same for all angles of a period.
+    // Rounded once: a separate product would add one rounding error to all angles of a period.
     ((-count).mul_add(period, at) - count * lacks).clamp(0.0, period)
 }
 
-/// What the float of a period lacks, if that is a number of turns of 2π, or one of up to 720 equal parts of a turn.
+/// Returns the intended period minus its float: turns of 2π, or one of up to 720 equal parts of a turn; else zero.
 pub fn lacks(period: f64) -> f64 {
     const MOST_PARTS: f64 = 720.0;
     let turns = (period / TAU).round().max(1.0);
@@ -200,8 +200,8 @@ pub fn lacks(period: f64) -> f64 {
     ((meant - given) + (rest - lost) + turns * TAU_REST) / parts
 }
 
-/// Slopes of the monotone cubic: the weighted harmonic mean of Fritsch and Butland (SIAM J. Sci. Stat.
-/// Comput. 5 (1984) 300, eq. (5)) inside, the three-point formula with limits at open ends.
+/// Computes slopes of the monotone cubic: the weighted harmonic mean of Fritsch and Butland (SIAM J. Sci. Stat. Comput.
+/// 5 (1984) 300, eq. (5)) inside, the three-point formula with limits at open ends.
 fn slopes(x: &[f64], y: &[f64], periodic: bool) -> Vec<f64> {
     let n = x.len();
     let h: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
@@ -245,8 +245,8 @@ fn end_slope(h0: f64, h1: f64, rise0: f64, rise1: f64) -> f64 {
     }
 }
 
-/// The quintic of Hermite interpolation at s in [0, 1]: the way from its start, and derivatives with respect to s. Its ends have
-/// a rate and half a second derivative, and are some way apart.
+/// Evaluates quintic Hermite interpolation at s in [0, 1]: the change from the start, and first and second derivative
+/// with respect to s. Each end has a rate and half a second derivative; `apart` is the change between the ends.
 pub fn quintic([v0, c0]: [f64; 2], [v1, c1]: [f64; 2], apart: f64, s: f64) -> [f64; 3] {
     let rise = apart - v0 - c0;
     let slope = v1 - v0 - 2.0 * c0;

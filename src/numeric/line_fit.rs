@@ -1,17 +1,17 @@
-//! Straight line through points by least squares.
+//! Straight line through points by least squares, with standard errors.
 
-/// y = intercept + slope x, with its statistics.
+/// Line y = intercept + slope x, with its statistics.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct LineFit {
-    /// y at x = 0.
+    /// Value of y at x = 0.
     pub intercept: f64,
-    /// dy/dx
+    /// Slope dy/dx.
     pub slope: f64,
     /// Standard error of the intercept; none with two points.
     pub intercept_se: Option<f64>,
-    /// Standard error of the slope.
+    /// Standard error of the slope; none with two points.
     pub slope_se: Option<f64>,
-    /// Standard deviation of the residuals with n − 2 degrees of freedom.
+    /// Standard deviation of the residuals with n − 2 degrees of freedom; none with two points.
     pub residual_sd: Option<f64>,
     /// 1 − residual sum of squares over the sum of squares about the mean; none if all y are equal.
     pub r_squared: Option<f64>,
@@ -23,7 +23,7 @@ pub struct LineFit {
     spread: f64,
 }
 
-/// Sum that keeps the rounding errors of its additions (Neumaier, ZAMM 54 (1974) 39).
+/// Sums numbers and adds the rounding errors of the additions at the end (Neumaier, ZAMM 54 (1974) 39).
 fn sum(values: impl Iterator<Item = f64>) -> f64 {
     let (mut total, mut lost) = (0.0, 0.0);
     for value in values {
@@ -34,8 +34,7 @@ fn sum(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 impl LineFit {
-    /// The line through the points (x, y); none with fewer than two, all x equal, or values that are not
-    /// finite.
+    /// Fits the line through the points (x, y); none with fewer than two, all x equal, or values that are not finite.
     ///
     /// The sums are those of the distances from the means, without loss in the additions.
     pub fn new(points: &[(f64, f64)]) -> Option<LineFit> {
@@ -65,8 +64,8 @@ impl LineFit {
         })
     }
 
-    /// The line through the origin: its slope, and R² with the sums of squares about zero and about the
-    /// mean. They differ, and only the second can be compared with that of another line.
+    /// Fits the line through the origin: its slope, and R² with the sums of squares about zero and about the mean. The
+    /// two differ, and only the second can be compared with that of another line.
     pub fn through_origin(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
         let sxx = sum(points.iter().map(|(x, _)| x * x));
         let sxy = sum(points.iter().map(|(x, y)| x * y));
@@ -80,14 +79,14 @@ impl LineFit {
             .then_some((slope, 1.0 - rest / syy, 1.0 - rest / about_mean))
     }
 
-    /// y at x.
+    /// Returns y at x.
     pub fn value(&self, x: f64) -> f64 {
         self.mean[1] + self.slope * (x - self.mean[0])
     }
 
-    /// The x of a single reading y, and its standard uncertainty from the scatter of the points and of the
-    /// reading itself (Draper and Smith, Applied Regression Analysis, 3rd ed., section 3.2, to first order);
-    /// none with two points or a slope of zero.
+    /// Returns the x of a single reading y, and its standard uncertainty from the scatter of the points and of the
+    /// reading itself (Draper and Smith, Applied Regression Analysis, 3rd ed., section 3.2, to first order); no
+    /// uncertainty with two points, none at all with a slope of zero.
     pub fn inverse(&self, y: f64) -> Option<(f64, Option<f64>)> {
         let x = self.mean[0] + (y - self.mean[1]) / self.slope;
         let from_mean = (x - self.mean[0]).powi(2) / self.spread;

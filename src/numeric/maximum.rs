@@ -1,25 +1,25 @@
-//! The largest value of a function of one variable.
+//! Maximum of a function of one variable, by Brent's method.
 
 /// (3 − √5)/2, the smaller part of the golden section.
 const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
-/// Width that is left of the interval, as a part of it: about where a smooth top differs by rounding alone.
+/// Final width of the interval, as a part of it: about where a smooth maximum differs by rounding alone.
 const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
 
-/// Where between a and b a function with one top is largest, and its value there: by parabolas through three
-/// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without
-/// Derivatives, 1973, ch. 5).
+/// Locates the maximum of a function with one maximum between a and b, and its value: by parabolas through three
+/// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without Derivatives,
+/// 1973, ch. 5).
 pub fn largest(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     largest_to(f, [a.min(b), a.max(b)], WIDTH * (b - a).abs())
 }
 
-/// As [`largest`], to a place that is right to about twice a width.
+/// Locates the maximum as [`largest`], to about twice a width.
 pub fn largest_to(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], width: f64) -> (f64, f64) {
     let first = a + GOLDEN_PART * (b - a);
     let first = (first, f(first));
     brent(f, [a, b], [first; 3], 0.0, width)
 }
 
-/// As [`largest`], of a function that is known at three places in order and no smaller at the middle one.
+/// Locates the maximum as [`largest`], of a function known at three places in order and no smaller at the middle one.
 pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     let [low, middle, high] = known;
     let (next, last) = if low.1 > high.1 {
@@ -37,8 +37,8 @@ pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) 
     )
 }
 
-/// Where a function is largest beside a place, and its value there: `known` at the place and its neighbours, of which the place
-/// itself may be one.
+/// Locates the maximum of a function next to a place, and its value: `known` at the place and its neighbours, of which
+/// the place itself may be one.
 pub fn beside(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     let [(from, _), here, (to, _)] = known;
     let between = match from < here.0 && here.0 < to {
@@ -48,7 +48,7 @@ pub fn beside(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     if between.1 > here.1 { between } else { here }
 }
 
-/// Where a function is largest beside the best of the places at which it is known, in order, and its value there.
+/// Locates the maximum next to the best of the places in order at which a function is known, and its value.
 pub fn beside_best(f: impl FnMut(f64) -> f64, known: &[(f64, f64)]) -> (f64, f64) {
     let best = (0..known.len()).max_by(|i, j| known[*i].1.total_cmp(&known[*j].1));
     let best = best.unwrap_or(0);
@@ -56,7 +56,7 @@ pub fn beside_best(f: impl FnMut(f64) -> f64, known: &[(f64, f64)]) -> (f64, f64
     beside(f, [best.saturating_sub(1), best, after].map(|i| known[i]))
 }
 
-/// From the best three points, the best one first, and the size of the step before last.
+/// Runs Brent's iteration from the best three points, the best one first, and the size of the step before last.
 fn brent(
     mut f: impl FnMut(f64) -> f64,
     [mut a, mut b]: [f64; 2],
@@ -65,7 +65,7 @@ fn brent(
     least_step: f64,
 ) -> (f64, f64) {
     let mut step = last_step;
-    // Three times as many as golden sections alone take.
+    // Three times the steps of golden sections alone.
     for _ in 0..120 {
         let middle = 0.5 * (a + b);
         let [(x, at_x), (w, at_w), (v, at_v)] = best;

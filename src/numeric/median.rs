@@ -1,6 +1,6 @@
-//! The median.
+//! Median of a list of numbers.
 
-/// The median, the upper of two in the middle; none of no numbers.
+/// Returns the median, the upper of two in the middle; none for an empty list.
 pub fn median(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut list: Vec<f64> = numbers.into_iter().collect();
     let middle = list.len() / 2;

@@ -1,4 +1,4 @@
-//! Small numerical tools, each with its source.
+//! Numerical methods: small tools, each with its source.
 
 pub mod angle;
 pub mod chebyshev;
@@ -26,5 +26,5 @@ pub mod stop;
 pub mod student;
 pub mod trigonometry;
 
-/// Values that are computed side by side, and sums that are kept apart.
+/// Number of values computed side by side, and of partial sums that are kept apart.
 pub const LANES: usize = 4;

@@ -1,18 +1,18 @@
-//! Polynomials that are orthonormal over given points and weights, and least squares with them.
+//! Least squares by polynomials that are orthonormal over given points and weights.
 //!
-//! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) makes the columns of Q in the QR
-//! factorization of the matrix of powers, one after the other, in time and memory linear in the points.
+//! The three-term recurrence of Forsythe (J. SIAM 5 (1957) 74) generates the columns of Q in the QR factorization of
+//! the matrix of powers, one after the other, in time and memory linear in the points.
 
 use super::real::Real;
 use super::{LANES, parallel};
 
-/// Coefficients over orthonormal polynomials q_j of s = (t − middle)/half:
+/// Expansion in orthonormal polynomials q_j of s = (t − middle)/half:
 /// norm_{j+1} q_{j+1} = (s − centre_j) q_j − norm_j q_{j−1}, q_0 = 1/norm_0.
 #[derive(Clone, Debug)]
 pub struct Expansion<T> {
     /// Middle of the points.
     pub middle: f64,
-    /// Half of their span.
+    /// Half of the span of the points.
     pub half: f64,
     /// Centres of the recurrence.
     pub centres: Vec<T>,
@@ -24,8 +24,8 @@ pub struct Expansion<T> {
     pub squares: Vec<T>,
 }
 
-/// Least squares with rows `weight`·p(t) = `target`, degree by degree from 0 until `go_on`, which sees the
-/// sums of squared residuals so far, says no, or the points are used up.
+/// Solves least squares with rows `weight`·p(t) = `target`, degree by degree from 0, until `go_on`, given the sums of
+/// squared residuals up to then, returns false, or the points are used up.
 pub fn fit<T: Real>(
     t: &[f64],
     target: &[f64],
@@ -84,7 +84,7 @@ pub fn fit<T: Real>(
 /// Points that a thread takes at a time.
 const PIECE: usize = 1 << 14;
 
-/// Two sums over pieces.
+/// Returns two sums over pieces.
 fn summed<T: Real, P: Send>(
     mut pieces: impl ExactSizeIterator<Item = P>,
     sums: impl Fn(P) -> [T; 2] + Sync,
@@ -103,7 +103,7 @@ fn total<T: Real>([a, b, c, d]: [T; LANES]) -> T {
     (a + b) + (c + d)
 }
 
-/// Norms a polynomial: its centre, and its coefficient for what is left of the targets.
+/// Normalises a polynomial; returns its centre, and its coefficient for the remainder of the targets.
 fn project<T: Real>(q: &mut [T], s: &[T], rest: &[T], inverse: T) -> [T; 2] {
     let mut sums = [[T::from(0.0); LANES]; 2];
     let [centre, coefficient] = &mut sums;
@@ -125,7 +125,7 @@ fn project<T: Real>(q: &mut [T], s: &[T], rest: &[T], inverse: T) -> [T; 2] {
     sums.map(total)
 }
 
-/// Takes a polynomial out of the targets and makes the next one: the sums of squares of both.
+/// Subtracts a polynomial from the targets and generates the next one; returns the sums of squares of both.
 fn advance<T: Real>(
     q: &mut [T],
     before: &mut [T],
@@ -159,7 +159,7 @@ fn advance<T: Real>(
 }
 
 impl<T: Copy> Expansion<T> {
-    /// The expansion in other numbers.
+    /// Converts the expansion to another number type.
     pub fn convert<S>(&self, number: &impl Fn(T) -> S) -> Expansion<S> {
         let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
         Expansion {
@@ -172,7 +172,7 @@ impl<T: Copy> Expansion<T> {
         }
     }
 
-    /// Leaves out all beyond a degree.
+    /// Drops all terms beyond a degree.
     pub fn truncate(&mut self, degree: usize) {
         for list in [
             &mut self.centres,

@@ -1,11 +1,11 @@
-//! Polynomials by weighted least squares on Forsythe's orthogonal basis, of a given degree or of the likeliest one.
+//! Polynomials by weighted least squares on Forsythe's orthogonal basis, of a given degree or the likeliest (Schwarz).
 
 use super::double_double::DoubleDouble;
 use super::orthogonal::{self, Expansion};
 use super::powers::Powers;
 use super::real::Real;
 
-/// Equations `weight`·p(t) = `target` + noise of one standard deviation.
+/// Equations `weight`·p(t) = `target` + noise of equal standard deviation.
 #[derive(Clone, Copy, Debug)]
 pub struct Equations<'a> {
     /// Arguments, in any order.
@@ -18,53 +18,53 @@ pub struct Equations<'a> {
     pub floor: f64,
 }
 
-/// Why no polynomial is fitted.
+/// Error: too few arguments for a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooFewArguments {
-    /// Arguments that are not alike.
+    /// Number of different arguments.
     pub found: usize,
-    /// Least number of them that the polynomial needs.
+    /// Least number of different arguments that the polynomial needs.
     pub needed: usize,
 }
 
-/// A polynomial and its derivatives at one argument.
+/// Polynomial and its derivatives at one argument.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PolynomialState {
     /// p, p′, p″.
     pub value: [f64; 3],
-    /// Covariance of the three, rows of the lower triangle.
+    /// Covariance of p, p′ and p″, rows of the lower triangle.
     pub covariance: [f64; 6],
-    /// What rounding may have done to the three.
+    /// Rounding errors of p, p′ and p″.
     pub rounding: [f64; 3],
 }
 
-/// A fitted polynomial.
+/// Fitted polynomial.
 #[derive(Clone, Debug)]
 pub struct PolynomialFit {
-    /// Coefficients of 1, t, t², ...; not a number where cancellation leaves no digits.
+    /// Coefficients of 1, t, t², ...; NaN where cancellation leaves no digits.
     pub coefficients: Vec<f64>,
-    /// Their standard errors.
+    /// Standard errors of the coefficients.
     pub standard_errors: Vec<f64>,
-    /// Standard deviation of a target, at least the floor.
+    /// Standard deviation of the noise of a target, at least the floor.
     pub sigma: f64,
     /// Condition number of the matrix of powers, in the Frobenius norm.
     pub condition: f64,
     basis: Expansion<f64>,
 }
 
-/// The highest degree that is chosen from the samples.
+/// Highest degree that is chosen from the samples.
 pub const HIGHEST_CHOSEN: usize = 12;
 
-/// Most equations that are solved in double-double arithmetic.
+/// Largest number of equations that are solved in double-double arithmetic.
 const MOST_IN_DOUBLE: usize = 10_000;
 
 impl PolynomialFit {
-    /// Fits a polynomial of a degree, or of the degree with the least criterion of Schwarz (Ann. Statist. 6 (1978) 461).
-    /// Its second derivative is what is asked for: that of Akaike takes a degree too high in one record of four, with
-    /// 1.6 times the error.
+    /// Fits a polynomial of a degree, or of the degree with the least criterion of Schwarz (Ann. Statist. 6 (1978)
+    /// 461). Akaike's criterion takes too high a degree in one record of four, with 1.6 times the error of the second
+    /// derivative, which is the wanted quantity.
     ///
     /// # Errors
-    /// [`TooFewArguments`] where the equations do not determine it.
+    /// [`TooFewArguments`] where the equations do not determine the polynomial.
     pub fn new(
         equations: &Equations<'_>,
         degree: Option<usize>,
@@ -119,12 +119,12 @@ impl PolynomialFit {
         })
     }
 
-    /// Degree.
+    /// Returns the degree.
     pub fn degree(&self) -> usize {
         self.coefficients.len() - 1
     }
 
-    /// The polynomial and its derivatives at `t`, by the recurrence of the basis differentiated twice.
+    /// Returns the polynomial and its derivatives at `t`, by the recurrence of the basis differentiated twice.
     pub fn state(&self, t: f64) -> PolynomialState {
         let Expansion {
             middle,
@@ -159,7 +159,7 @@ impl PolynomialFit {
     }
 }
 
-/// The degree with the least −2 ln(likelihood) + k ln(n), the variance of the noise at its likeliest above the floor.
+/// Returns the degree with the least −2 ln(likelihood) + k ln(n), at the likeliest noise variance above the floor.
 fn likeliest(squares: &[f64], rows: usize, floor: f64) -> usize {
     let n = rows as f64;
     let criterion = |degree: usize| {

@@ -1,23 +1,23 @@
-//! A polynomial in powers of its argument, with standard errors and what the conversion costs.
+//! Conversion of an orthogonal expansion to powers of its argument, with standard errors and condition number.
 
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::orthogonal::Expansion;
 use crate::numeric::real::Real;
 
-/// Coefficients of 1, t, t², ...
+/// Polynomial in powers 1, t, t², ...
 #[derive(Clone, Debug, PartialEq)]
 pub struct Powers {
-    /// The coefficients; not a number where cancellation leaves no digits.
+    /// Coefficients; NaN where cancellation leaves no digits.
     pub coefficients: Vec<f64>,
-    /// Their standard errors, for samples of unit variance.
+    /// Standard errors of the coefficients, for samples of unit variance.
     pub errors: Vec<f64>,
     /// Condition number, in the Frobenius norm, of the matrix of powers of the sampled arguments.
     pub condition: f64,
 }
 
 impl Powers {
-    /// Converts an expansion over orthonormal polynomials, whose powers have huge coefficients of alternating
-    /// sign where the arguments are far from zero: hence the extended precision.
+    /// Converts an expansion in orthonormal polynomials. Where the arguments are far from zero, its powers have huge
+    /// coefficients of alternating sign: hence the extended precision.
     pub fn new(expansion: &Expansion<DoubleDouble>) -> Powers {
         let zero = DoubleDouble::default();
         let count = expansion.coefficients.len();
@@ -69,7 +69,7 @@ impl Powers {
     }
 }
 
-/// Sum of squares of the matrix that expands the powers of t in the orthonormal polynomials: t times a
+/// Returns the sum of squares of the matrix that expands the powers of t in the orthonormal polynomials: t times a
 /// polynomial is a product with the tridiagonal matrix of the recurrence.
 fn powers_over(
     expansion: &Expansion<DoubleDouble>,

@@ -1,10 +1,10 @@
-//! The precisions least squares are solved in.
+//! Number types of least squares: double and double-double precision.
 
 use std::ops::{Add, Div, Mul, Sub};
 
 use super::double_double::DoubleDouble;
 
-/// What a number must do for least squares, so that one algorithm serves both precisions.
+/// Operations that least squares needs of a number: one algorithm serves both precisions.
 pub trait Real:
     Copy
     + Send
@@ -15,10 +15,10 @@ pub trait Real:
     + Div<Output = Self>
     + From<f64>
 {
-    /// The nearest float.
+    /// Returns the nearest float.
     fn value(self) -> f64;
 
-    /// Square root of a number that is not negative.
+    /// Returns the square root of a number that is not negative.
     fn root(self) -> Self;
 }
 

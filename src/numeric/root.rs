@@ -1,15 +1,14 @@
-//! Roots of scalar functions, bracketed, to the last bit.
+//! Roots of scalar functions in a bracket, by Brent's method, to rounding.
 
-/// Root of `f` in [a, b], where f(a) and f(b) differ in sign or one of them is zero: Brent's method
-/// (Algorithms for Minimization without Derivatives, 1973, ch. 4), run until the bracket is two
-/// neighbouring numbers or f is exactly zero.
+/// Solves f(x) = 0 in [a, b], where f(a) and f(b) differ in sign or one of them is zero, by Brent's method (Algorithms
+/// for Minimization without Derivatives, 1973, ch. 4), until the bracket is at most 2 ε |x| wide or f is exactly zero.
 ///
-/// Returns `None` if the signs do not differ or a value is not a number.
+/// Returns `None` if the signs do not differ or a value is NaN.
 pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
     within(f, a, b, 0.0)
 }
 
-/// Root between a and b to `width`, where the last bits of the root are not needed.
+/// Solves f(x) = 0 between a and b to `width`, where the last bits of the root are not needed.
 pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
     let (mut a, mut b) = (a, b);
     let (mut fa, mut fb) = (f(a), f(b));

@@ -1,10 +1,10 @@
-//! A request from outside to end a long computation, and how far that is.
+//! Request from outside to end a long computation, and progress of the computation.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-/// A request to stop: whoever has a copy may make it, from another thread or a signal handler, and what computes with another
-/// copy ends soon after. A run then keeps what it has, as at its work limit.
+/// Request to stop: any holder of a copy may make it, from another thread or a signal handler, and the computation with
+/// another copy ends soon after. A run then keeps its results up to there, as at its work limit.
 ///
 /// ```
 /// use slider_crank::Stop;
@@ -19,27 +19,27 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 #[derive(Clone, Debug, Default)]
 pub struct Stop {
     requested: Arc<AtomicBool>,
-    /// Bits of the part that is done.
+    /// Bits of the finished part.
     done: Arc<AtomicU64>,
 }
 
 impl Stop {
-    /// Asks for the end.
+    /// Requests the end.
     pub fn request(&self) {
         self.requested.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the end was asked for.
+    /// Whether the end was requested.
     pub fn is_requested(&self) -> bool {
         self.requested.load(Ordering::Relaxed)
     }
 
-    /// The part of the computation that is done, from 0 to 1; a second run, as for an error estimate, begins anew.
+    /// Returns the finished part of the computation, from 0 to 1; a second run, as for an error estimate, begins anew.
     pub fn done(&self) -> f64 {
         f64::from_bits(self.done.load(Ordering::Relaxed))
     }
 
-    /// The request for one of many computations, which says nothing of how far they are together.
+    /// Returns the request for one of many computations, with a progress of its own.
     pub fn of_one(&self) -> Stop {
         Stop {
             requested: Arc::clone(&self.requested),
@@ -47,7 +47,7 @@ impl Stop {
         }
     }
 
-    /// Says that a computation has got so far, from 0 to 1.
+    /// Sets the finished part of a computation, from 0 to 1.
     pub fn reach(&self, part: f64) {
         self.done.store(part.to_bits(), Ordering::Relaxed);
     }

@@ -1,4 +1,4 @@
-//! Student's distribution.
+//! Student's t distribution: half-width of a 95 % band.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,16 +7,16 @@ use super::{gauss, root};
 /// Degrees of freedom from which the series is exact to rounding: its next term is below 8/freedom^5.
 const ASYMPTOTIC: f64 = 2000.0;
 
-/// Half of a 95 % band in standard errors: the 97.5 % point of Student's distribution with this many degrees of
-/// freedom ν, at least 1 and not always whole. With t = √ν tan φ the density is that of cos^(ν−1) φ, of which nothing is left
-/// nine standard deviations out.
+/// Returns the half-width of a 95 % band in standard errors: the 97.5 % point of Student's distribution with this many
+/// degrees of freedom ν, at least 1 and not always whole. With t = √ν tan φ the density is proportional to cos^(ν−1) φ
+/// and negligible nine standard deviations out.
 pub fn half_band(freedom: f64) -> f64 {
     if freedom > ASYMPTOTIC {
         return expanded(freedom);
     }
     let end = FRAC_PI_2.min(9.0 / freedom.sqrt());
     let density = |angle: f64| angle.cos().powf(freedom - 1.0);
-    // The power takes digits from the density: no more of them are asked for than there are.
+    // The power takes digits from the density: the tolerance is that of the digits left.
     let rounding = 0.005 * f64::EPSILON * freedom.sqrt();
     let beyond = |angle: f64| gauss::adaptive(&density, angle, end, rounding);
     let all = beyond(0.0);
@@ -24,7 +24,7 @@ pub fn half_band(freedom: f64) -> f64 {
     freedom.sqrt() * angle.unwrap_or(end).tan()
 }
 
-/// The point from that of the normal distribution, by powers of 1/freedom (Abramowitz and Stegun, 26.7.5).
+/// Returns the point from that of the normal distribution, by powers of 1/freedom (Abramowitz and Stegun, 26.7.5).
 fn expanded(freedom: f64) -> f64 {
     let x: f64 = 1.959_963_984_540_054;
     let (x3, x5, x7, x9) = (x.powi(3), x.powi(5), x.powi(7), x.powi(9));

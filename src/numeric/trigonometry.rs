@@ -1,20 +1,19 @@
-//! Sine and cosine of many angles at once, without branches, so that the compiler works on several at a
-//! time.
+//! Sine and cosine of many angles at once, without branches, in a form that the compiler vectorises.
 
 use std::f64::consts::{FRAC_2_PI, PI};
 
-/// π/2 in three parts (fdlibm, e_rem_pio2.c): the first two have so few digits that their products with
-/// small whole numbers are exact.
+/// π/2 in three parts (fdlibm, e_rem_pio2.c): the first two have few digits, and their products with small whole
+/// numbers are exact.
 const QUARTER: [f64; 3] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),
     f64::from_bits(0x3BA3_198A_2E03_7073),
 ];
 
-/// Added to a number of moderate size, it leaves the nearest whole number in the last bits.
+/// Shift for rounding: added to a number of moderate size, it leaves the nearest whole number in the last bits.
 const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
 
-/// Beyond this the reduction to one quarter would lose digits.
+/// Largest angle, rad, that the reduction to one quadrant leaves with all digits.
 const REDUCTION_RANGE: f64 = 1e4 * PI;
 
 /// Minimax coefficients on ±π/4 (fdlibm, k_sin.c and k_cos.c).
@@ -35,7 +34,7 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Sines and cosines of angles (rad), right to about one unit in the last place.
+/// Computes sines and cosines of angles (rad), accurate to about one unit in the last place.
 #[inline]
 pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
@@ -62,7 +61,7 @@ fn near_zero(angle: f64) -> (f64, f64) {
     let [c1, c2, c3, c4, c5, c6] = COSINE;
     let s = r + (r * z) * (s1 + z * (s2 + z * (s3 + z * (s4 + z * (s5 + z * s6)))));
     let tail = z * z * (c1 + z * (c2 + z * (c3 + z * (c4 + z * (c5 + z * c6)))));
-    // 1 − z/2 rounds; what it loses comes back with the tail.
+    // 1 − z/2 rounds; the tail returns the loss.
     let half = 0.5 * z;
     let head = 1.0 - half;
     let c = head + (((1.0 - head) - half) + tail);

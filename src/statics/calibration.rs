@@ -1,4 +1,4 @@
-//! Calibration of a force sensor: a straight line through readings under known loads, and its inverse use.
+//! Calibration of a force sensor: least-squares line through readings under known loads, and its inverse.
 
 use std::path::Path;
 
@@ -8,34 +8,34 @@ use crate::error::Error;
 use crate::numeric::line_fit::LineFit;
 use crate::scene::calibration_points;
 
-/// The line reading = intercept + slope load, and the forces of given readings.
+/// Line reading = intercept + slope load, and the forces of given readings.
 #[derive(Clone, Debug, Serialize)]
 pub struct Calibration {
-    /// Slope (reading per N), intercept, their standard errors, R² about the mean.
+    /// Slope (reading per N), intercept, standard errors of both, R² about the mean.
     pub fit: LineFit,
-    /// Forces that belong to readings.
+    /// Forces of the given readings.
     pub forces: Vec<Measured>,
-    /// What the reader should know.
+    /// Warnings about the result.
     pub warnings: Vec<String>,
 }
 
-/// A reading and the force it stands for.
+/// Reading and its force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Measured {
-    /// As read.
+    /// Reading of the sensor.
     pub reading: f64,
-    /// N
+    /// Force, N.
     pub force_n: f64,
     /// Standard uncertainty of the force from the scatter about the line, N; none with two points.
     pub force_se_n: Option<f64>,
 }
 
-/// Fits loads (N) in the first column of a CSV file to readings in the second, and takes `readings` back to
-/// forces.
+/// Fits readings in the second column of a CSV file to loads (N) in the first, and converts `readings` to forces by the
+/// line.
 ///
 /// # Errors
-/// [`Error::Read`] and [`Error::Refused`] for files that are no calibration, fewer than two different loads,
-/// or readings that do not depend on the load.
+/// [`Error::Read`] and [`Error::Refused`] for files that are no calibration, fewer than two different loads, or
+/// readings that do not depend on the load.
 pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
     let points = calibration_points(file)?;
     let refused = |what: &str| {

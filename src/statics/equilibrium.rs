@@ -1,4 +1,4 @@
-//! Static slider force against crank torque over one turn, and the reverse.
+//! Static slider force from the crank torque over one turn, or the reverse, by virtual work, with the friction band.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::mechanism::{Balance, Limits, NamedPosition, Statics};
 use crate::numeric::{angle, difference, root};
 use crate::scene::{Load, Scene, Variables};
 
-/// What is given in place of the scene's own loads and friction.
+/// Values in place of the scene's own loads and friction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StaticsOptions {
     /// Crank torque in place of the scene's torques, N m.
@@ -32,16 +32,16 @@ pub struct StaticAnalysis {
     pub sought: &'static str,
     /// Static friction coefficient at the guide.
     pub friction: f64,
-    /// Where the least slider force (N) or crank torque (N m) is needed, without friction: one place in each
-    /// stroke, zero where the loads hold each other.
+    /// Minima of the magnitude of the slider force (N) or crank torque (N m), without friction: one place in each
+    /// stroke, zero where the loads balance each other.
     pub least: Vec<Located>,
-    /// Places where the edge of the friction band that is nearer to zero is least.
+    /// Minima of the magnitude of the edge of the friction band that is nearer to zero.
     pub least_with_friction: Vec<Located>,
-    /// Crank angles at which friction at the guide locks the mechanism, from and to, rad; none without friction.
+    /// Intervals of crank angles, rad, in which guide friction locks the mechanism, from and to; none without friction.
     pub self_locking_rad: Vec<[f64; 2]>,
-    /// Dead centres, self-locking intervals and other positions that have a name, by angle.
+    /// Dead centres, self-locking intervals and other named positions, by angle.
     pub positions: Vec<NamedPosition>,
-    /// What the reader should know.
+    /// Warnings about the result.
     pub warnings: Vec<String>,
     #[serde(skip)]
     statics: Statics,
@@ -49,10 +49,10 @@ pub struct StaticAnalysis {
     seek_torque: bool,
 }
 
-/// The equilibrium at one crank angle.
+/// Equilibrium at one crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StaticsRow {
-    /// rad
+    /// Crank angle, rad.
     pub theta: f64,
     /// Force or torque, side thrust, self-locking.
     pub balance: Balance,
@@ -64,11 +64,11 @@ pub struct StaticsRow {
     pub crank_pin_angle: f64,
 }
 
-/// Static equilibrium of a scene at rest, at any offset, branch and weight.
+/// Computes the static equilibrium of a scene at rest, at any offset, branch and weight.
 ///
 /// # Errors
-/// [`Error::Scene`] for impossible values, [`Error::Refused`] for a friction coefficient that is none and for
-/// what [`Statics::new`] refuses.
+/// [`Error::Scene`] for impossible values, [`Error::Refused`] for a friction coefficient that is negative or not finite
+/// and where [`Statics::new`] refuses.
 ///
 /// ```
 /// use slider_crank::scene::{Load, Scene};
@@ -150,7 +150,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     Ok(result)
 }
 
-/// The edge of the band on the side of zero; none if the band has zero in it, where friction alone holds.
+/// Returns the edge of the band nearer to zero; none if zero lies in the band, where friction alone holds.
 fn nearer_edge(balance: &Balance) -> Option<f64> {
     let band = balance.band?;
     let (min, max) = (band.min?, band.max?);
@@ -162,7 +162,7 @@ fn nearer_edge(balance: &Balance) -> Option<f64> {
 }
 
 impl StaticAnalysis {
-    /// The equilibrium at a crank angle, rad.
+    /// Returns the equilibrium at a crank angle, rad.
     pub fn row(&self, theta: f64) -> StaticsRow {
         let linkage = self.statics.equation().linkage();
         let pose = linkage.pose(theta);
@@ -179,7 +179,7 @@ impl StaticAnalysis {
         }
     }
 
-    /// Rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    /// Iterates over the rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = StaticsRow> + '_ {
         angle::turn(step).map(|theta| self.row(theta))
     }
@@ -192,7 +192,7 @@ impl StaticAnalysis {
         }
     }
 
-    /// Least magnitudes of a value over the turn from 0 to 360 degrees; loads need not be the same in the next one.
+    /// Locates the least magnitudes of a value over the turn from 0 to 360 degrees; loads may differ in the next turn.
     fn least_of(&self, value: impl Fn(&Balance) -> Option<f64>) -> Vec<Located> {
         let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
         let mut grid = self.statics.equation().linkage().turn_grid(false);

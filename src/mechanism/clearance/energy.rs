@@ -1,24 +1,24 @@
-//! Energy of the mechanism with a loose joint.
+//! Energy of the mechanism with a loose joint, and projection of a state onto a massless link.
 
 use super::{LooseMechanism, dot};
 use crate::mechanism::LooseState;
 use crate::scene::{ContactLaw, Joint};
 
 impl LooseMechanism {
-    /// Kinetic energy, potential energy of gravity and energy stored in the contact, J. The crank's kinetic
-    /// energy counts where its motion is free.
+    /// Returns the sum of kinetic energy, potential energy of gravity and energy stored in the contact, J. The crank's
+    /// kinetic energy counts only where its motion is free.
     pub fn energy(&self, s: &LooseState) -> f64 {
         self.kinetic(s) + self.gravity_energy(s) + self.stored(s)
     }
 
-    /// Kinetic energy, J; that of a crank of prescribed speed is constant and does not count.
+    /// Returns the kinetic energy, J, without that of a crank of prescribed speed, which is constant.
     pub fn kinetic(&self, s: &LooseState) -> f64 {
         let f = self.frame(s);
         let pin = match self.joint {
             Joint::CrankPin => [s.v, 0.0],
             Joint::WristPin => [-s.omega * f.crank_pin[1], s.omega * f.crank_pin[0]],
         };
-        // The centre of gravity's part of the inertia about the pinned end is in `rod_inertia` already.
+        // `rod_inertia` is about the pinned end and contains the part of the centre of gravity.
         let across = [-f.centre[1], f.centre[0]];
         let rod = 0.5 * self.rod_mass * dot(pin, pin)
             + self.rod_mass * s.spin * dot(pin, across)
@@ -42,7 +42,7 @@ impl LooseMechanism {
         -crank - self.rod_mass * dot(self.gravity, centre) - slider
     }
 
-    /// Energy stored in the contact, J.
+    /// Returns the energy stored in the contact, J.
     pub fn stored(&self, s: &LooseState) -> f64 {
         if self.clearance.law == ContactLaw::MasslessLink {
             return 0.0;
@@ -50,14 +50,14 @@ impl LooseMechanism {
         self.force.stored(self.depth(s).0.max(0.0))
     }
 
-    /// The state of a massless link, its length and the rate of its length put right: the slider gives way.
+    /// Projects a state onto a massless link, length and rate of length corrected: rod and slider give way.
     pub fn relinked(&self, s: &LooseState) -> LooseState {
         let mut s = *s;
         for _ in 0..2 {
             let f = self.frame(&s);
             let c = self.clearance.radial;
             let excess = dot(f.offset, f.offset) - c * c;
-            // Least change of (ψ, x), weighed by the length of the rod.
+            // Least change of (ψ, x), with ψ weighted by the length of the rod.
             let turn = [
                 -self.side * self.l * f.axis[1],
                 self.side * self.l * f.axis[0],

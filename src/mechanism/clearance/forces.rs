@@ -1,4 +1,4 @@
-//! Forces in the loose joint, and the accelerations that follow from them.
+//! Forces in the loose joint, and the accelerations that follow from them by the Newton-Euler equations.
 
 use super::rubbing::Rubbing;
 use super::{Action, Frame, LooseMechanism, cross, dot};
@@ -7,8 +7,8 @@ use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Joint};
 
 impl LooseMechanism {
-    /// What the loose joint does at an approach speed (m/s) of the impact and a depth (m), that of the state if none is given;
-    /// beside it the normal force, N, and the power that it takes, W.
+    /// Returns the action of the loose joint at an approach speed (m/s) of the impact and a depth (m), by default that
+    /// of the state, with the normal force, N, and the power lost, W.
     #[inline(always)]
     pub(super) fn contact(
         &self,
@@ -33,7 +33,7 @@ impl LooseMechanism {
         };
         let mut lost = (normal - elastic) * closing;
         if self.friction != 0.0 {
-            // Both surfaces at the one point where they touch, so that action equals reaction.
+            // Both surfaces at one point of contact: action equals reaction.
             let arm = self.bearing - distance;
             let turning = match self.joint {
                 Joint::CrankPin => s.omega,
@@ -52,7 +52,7 @@ impl LooseMechanism {
         (action, normal, lost)
     }
 
-    /// The link's force N keeps ε·ε̈ + ε̇² at zero; it is linear in the accelerations.
+    /// Solves for the link's force N, which keeps ε·ε̈ + ε̇² at zero: linear in the accelerations, and these in N.
     #[inline(never)]
     pub(super) fn linked(&self, load: &LoadValue, s: &LooseState, f: &Frame) -> LooseRates {
         let distance = dot(f.offset, f.offset).sqrt();
@@ -66,7 +66,7 @@ impl LooseMechanism {
             let bend = dot(f.offset, self.second(f, s, &rates)) + dot(f.rate, f.rate);
             (rates, bend)
         };
-        // A force of the size of those that occur, N.
+        // Trial force of a typical size, N.
         let unit = self.slider_mass + self.rod_mass;
         let (free, pressed) = (at(0.0).1, at(unit).1);
         let normal = unit * free / (free - pressed);
@@ -75,7 +75,7 @@ impl LooseMechanism {
         rates
     }
 
-    /// The accelerations under a load, what acts in the loose joint, and at the guide.
+    /// Computes the accelerations under a load, an action in the loose joint, and friction at the guide.
     #[inline(always)]
     pub(super) fn under(
         &self,
@@ -117,13 +117,13 @@ impl LooseMechanism {
         })
     }
 
-    /// Moment of gravity on the crank, N m.
+    /// Returns the moment of gravity on the crank, N m.
     #[inline(always)]
     fn weight_on_crank(&self, f: &Frame) -> f64 {
         self.crank_weight[0] * f.crank_pin[0] - self.crank_weight[1] * f.crank_pin[1]
     }
 
-    /// The crank by itself; slider and rod along x, and the moments of the rod about the wrist pin.
+    /// Solves for a loose crank pin: crank alone; slider and rod along x, and moments of the rod about the wrist pin.
     #[inline(always)]
     fn loose_at_crank(
         &self,
@@ -174,7 +174,7 @@ impl LooseMechanism {
         (rates, on_crank)
     }
 
-    /// The slider by itself; moments about O with the rod's mass carried along, and those about the crank pin.
+    /// Solves for a loose wrist pin: slider alone; moments about O with the rod's mass, and those about the crank pin.
     #[inline(always)]
     fn loose_at_slider(
         &self,
@@ -221,7 +221,7 @@ impl LooseMechanism {
         (rates, on_crank)
     }
 
-    /// What one newton on the slider along the guide adds to the guide's normal force, N.
+    /// Returns the change of the guide's normal force, N, per newton on the slider along the guide.
     pub(super) fn guide_gain(&self, f: &Frame) -> f64 {
         let (m, [along, across]) = (self.rod_mass, f.centre);
         let mass = m + self.slider_mass;

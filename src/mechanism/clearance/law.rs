@@ -1,4 +1,4 @@
-//! Force between journal and bearing.
+//! Contact law: normal force between journal and bearing from penetration and penetration rate.
 
 use crate::scene::{Clearance, ContactLaw, Problem, Problems};
 
@@ -12,10 +12,10 @@ pub struct NormalForce {
 }
 
 impl NormalForce {
-    /// The force of a scene's joint.
+    /// Builds the law of a scene's joint.
     ///
     /// # Errors
-    /// [`Problems`]: all that the law needs and the scene does not say.
+    /// [`Problems`]: all values that the law needs and the scene lacks.
     pub fn new(clearance: &Clearance) -> Result<NormalForce, Problems> {
         let mut missing = Vec::new();
         let mut given = |value: Option<f64>, name: &str, example: &str| {
@@ -41,25 +41,24 @@ impl NormalForce {
         })
     }
 
-    /// Force without damping, N, at a penetration (m) that is not negative.
+    /// Returns the force without damping, N, at a penetration (m) that is not negative.
     pub fn elastic(&self, depth: f64) -> f64 {
         self.stiffness * depth * depth.sqrt()
     }
 
-    /// Energy stored at a penetration, J.
+    /// Returns the energy stored at a penetration (m), J.
     pub fn stored(&self, depth: f64) -> f64 {
         0.4 * self.stiffness * depth * depth * depth.max(0.0).sqrt()
     }
 
-    /// 1 + D δ̇/δ̇₀: what damping makes of the elastic force; below zero there is no force.
+    /// Returns 1 + D δ̇/δ̇₀, the damping factor of the elastic force; below zero no force acts.
     pub fn factor(&self, rate: f64, approach: f64) -> f64 {
         1.0 + self.damping * rate / approach
     }
 }
 
-/// Hertz stiffness K, N/m^1.5, of two spheres, one hollow, of the same material:
-/// K = 4/(3·2σ) √(R₁R₂/(R₁ − R₂)) with σ = (1 − ν²)/E (Lankarani and Nikravesh 1990, eq. 2; the hollow radius
-/// counts negative).
+/// Returns the Hertz stiffness K, N/m^1.5, of two spheres, one hollow, of the same material: K = 4/(3·2σ)
+/// √(R₁R₂/(R₁ − R₂)) with σ = (1 − ν²)/E (Lankarani and Nikravesh 1990, eq. 2; the hollow radius counts negative).
 fn hertz_stiffness(bearing: f64, radial: f64, modulus: f64, poisson: f64) -> f64 {
     let compliance = (1.0 - poisson * poisson) / modulus;
     let journal = bearing - radial;

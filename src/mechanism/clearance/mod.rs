@@ -1,8 +1,8 @@
-//! The mechanism with one loose joint: crank angle θ, direction ψ of the rod and slider position x are free of
-//! each other, and a force acts between the pin (journal) and the end of the rod (bearing).
+//! Mechanism with one loose joint: crank angle θ, direction ψ of the rod and slider position x are independent, and a
+//! contact force acts between the pin (journal) and the end of the rod (bearing).
 //!
-//! The rod stays pinned at its other end. With the clearance at the crank pin that is the slider, with the
-//! clearance at the wrist pin it is the crank. Equations by Newton and Euler, about the pinned end.
+//! The rod stays pinned at its other end: to the slider with the clearance at the crank pin, to the crank with the
+//! clearance at the wrist pin. Equations by Newton and Euler, about the pinned end.
 
 mod energy;
 mod forces;
@@ -20,7 +20,7 @@ pub use turn::Turned;
 use super::{Loads, LooseRates, LooseState};
 use crate::scene::{Clearance, Friction, Joint};
 
-/// Depth of the contact with its derivatives.
+/// Depth of the contact with its time derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Depth {
     /// Penetration δ, m, negative while apart.
@@ -31,24 +31,23 @@ pub struct Depth {
     pub acceleration: f64,
 }
 
-/// How journal and bearing act on each other.
+/// Contact of journal and bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointTouch {
-    /// Not at all.
+    /// No contact.
     Apart,
-    /// By the contact law, for a contact that began with this speed, m/s. The penetration, m, may be known
-    /// better than from the position.
+    /// Contact by the contact law. The penetration may be known more accurately than from the position.
     Pressed {
-        /// m/s
+        /// Speed at which the contact began, m/s.
         approach: f64,
-        /// m
+        /// Penetration, m; none: that of the position.
         depth: Option<f64>,
     },
-    /// As the two ends of a massless link.
+    /// Journal and bearing are the two ends of a massless link.
     Linked,
 }
 
-/// A mechanism with a loose joint: constant, shared by all who evaluate it.
+/// Mechanism with a loose joint: immutable, shared by all evaluations.
 #[derive(Clone, Debug)]
 pub struct LooseMechanism {
     joint: Joint,
@@ -59,12 +58,12 @@ pub struct LooseMechanism {
     e: f64,
     driven: bool,
     crank_inertia: f64,
-    /// Moment of gravity on the crank over the components of its pin.
+    /// Coefficients of the moment of gravity on the crank, N, over the components of its pin.
     crank_weight: [f64; 2],
     rod_mass: f64,
-    /// Centre of gravity from the pinned end, along the rod and to its left.
+    /// Centre of gravity of the rod from the pinned end, along the rod and to its left, m.
     rod_centre: [f64; 2],
-    /// About the pinned end.
+    /// Moment of inertia of the rod about the pinned end, kg m².
     rod_inertia: f64,
     per_rod_inertia: f64,
     slider_mass: f64,
@@ -79,17 +78,17 @@ pub struct LooseMechanism {
     guide: Option<Friction>,
 }
 
-/// A state with what is often needed of it.
+/// Vectors of a state that several terms need, m and m/s.
 struct Frame {
     crank_pin: [f64; 2],
     axis: [f64; 2],
     centre: [f64; 2],
-    /// From the bearing's centre to the journal's, and its rate.
+    /// Vector from the bearing's centre to the journal's, and its rate.
     offset: [f64; 2],
     rate: [f64; 2],
 }
 
-/// Force on the rod at its loose end, and couples on rod and journal.
+/// Force on the rod at its loose end, N, and couples on rod and journal, N m.
 #[derive(Clone, Copy, Default)]
 struct Action {
     force: [f64; 2],
@@ -123,12 +122,12 @@ impl LooseMechanism {
         }
     }
 
-    /// Centre of the journal from the centre of the bearing, m.
+    /// Returns the centre of the journal from the centre of the bearing, m.
     pub fn journal(&self, s: &LooseState) -> [f64; 2] {
         self.frame(s).offset
     }
 
-    /// Penetration δ, m, negative while apart, and its rate, m/s.
+    /// Returns the penetration δ, m, negative while apart, and its rate, m/s.
     pub fn depth(&self, s: &LooseState) -> (f64, f64) {
         self.depth_in(&self.frame(s))
     }
@@ -140,7 +139,7 @@ impl LooseMechanism {
         (distance - c, dot(f.offset, f.rate) * (1.0 / distance))
     }
 
-    /// (c² − ε²)/2c, m, and its rate, m/s: the gap where it is small, and smooth everywhere.
+    /// Returns (c² − ε²)/2c, m, and its rate, m/s: about the gap where it is small, and smooth everywhere.
     pub fn gap(&self, s: &LooseState) -> (f64, f64) {
         let f = self.frame(s);
         let c = self.clearance.radial;
@@ -151,7 +150,7 @@ impl LooseMechanism {
         )
     }
 
-    /// δ̈, m/s², that goes with accelerations.
+    /// Returns δ̈, m/s², for given accelerations.
     #[inline(always)]
     fn depth_acceleration(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> f64 {
         let distance = dot(f.offset, f.offset).sqrt();
@@ -160,7 +159,7 @@ impl LooseMechanism {
         (dot(f.offset, second) + dot(f.rate, f.rate) - closing * closing) / distance
     }
 
-    /// Second derivative of the offset.
+    /// Returns the second derivative of the offset, m/s².
     #[inline(always)]
     fn second(&self, f: &Frame, s: &LooseState, rates: &LooseRates) -> [f64; 2] {
         let (a, axis, l) = (f.crank_pin, f.axis, self.l);
@@ -177,38 +176,37 @@ impl LooseMechanism {
         ]
     }
 
-    /// The joint that is loose.
+    /// Returns the joint that is loose.
     pub fn joint(&self) -> Joint {
         self.joint
     }
 
-    /// The clearance of the scene.
+    /// Returns the clearance of the scene.
     pub fn clearance(&self) -> &Clearance {
         &self.clearance
     }
 
-    /// Factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
+    /// Returns the factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
     pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
         self.force.factor(rate, approach)
     }
 
-    /// Speed by which the contact law divides, m/s, for a contact that begins with this speed.
+    /// Returns the speed by which the contact law divides, m/s, for a contact that begins with this speed.
     pub fn approach(&self, speed: f64) -> f64 {
         speed.max(self.clearance.least_approach_speed)
     }
 
-    /// The law of the contact.
+    /// Returns the law of the contact.
     pub fn force(&self) -> &NormalForce {
         &self.force
     }
 
-    /// Accelerations, powers and forces.
+    /// Computes accelerations, powers and forces at a state.
     pub fn rates(&self, s: &LooseState, touch: JointTouch) -> LooseRates {
         self.rates_in(s, &self.frame(s), touch, self.rubbing(s, touch))
     }
 
-    /// As [`Self::rates`], from the directions of crank and rod at a state nearby and with a slider that rubs in
-    /// this way; and the depth.
+    /// Computes [`Self::rates`] and the depth, with sines and cosines from a state nearby and a given friction state.
     #[inline(always)]
     pub fn rates_near(
         &self,

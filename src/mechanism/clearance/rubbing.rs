@@ -4,15 +4,15 @@ use super::{JointTouch, LooseMechanism};
 use crate::mechanism::{GuideForces, LooseState};
 use crate::numeric::exact::SUM_ROUNDING;
 
-/// How the slider rubs in its guide.
+/// Friction state of the slider in its guide.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Rubbing {
-    /// Not at all: the guide has no friction.
+    /// The guide has no friction.
     #[default]
     Never,
     /// The slider slides, towards +x (+1) or −x (−1).
     Slides(f64),
-    /// The slider is held fast.
+    /// The slider sticks.
     Sticks,
 }
 
@@ -22,7 +22,7 @@ impl LooseMechanism {
         self.guide.is_some()
     }
 
-    /// How the slider rubs in a state: as it moves, and at rest as the forces decide.
+    /// Returns the friction state of the slider: by its velocity, and at rest by the forces.
     pub fn rubbing(&self, s: &LooseState, touch: JointTouch) -> Rubbing {
         if !self.rubs() {
             Rubbing::Never
@@ -35,12 +35,12 @@ impl LooseMechanism {
         }
     }
 
-    /// What a slider does that is held no longer.
+    /// Returns the friction state of a slider that sticks no longer.
     pub fn let_go(&self, s: &LooseState, touch: JointTouch) -> Rubbing {
         Rubbing::Slides(-self.held(s, touch).friction.signum())
     }
 
-    /// By how much the guide could hold the slider more than it has to, N, beyond rounding.
+    /// Returns the margin of static friction at rest, N, with an allowance for rounding.
     fn hold(&self, s: &LooseState, touch: JointTouch) -> f64 {
         let forces = self.held(s, touch);
         let most = self.guide.map_or(0.0, |guide| guide.static_coefficient) * forces.normal.abs();
@@ -52,8 +52,8 @@ impl LooseMechanism {
             .guide
     }
 
-    /// What is positive while the slider rubs in this way, and what leaves a kink in the accelerations where its
-    /// sign changes. `speed` is the size of the speeds, m/s.
+    /// Returns two event functions: the first is positive while the friction state lasts; the accelerations have a kink
+    /// where the second changes its sign. `speed` is the size of the speeds, m/s.
     pub fn rubs_on(
         &self,
         s: &LooseState,
@@ -71,7 +71,7 @@ impl LooseMechanism {
         }
     }
 
-    /// The guide's forces on a slider that slides. Not numbers where rigid bodies jam.
+    /// Returns the guide's forces on a slider that slides; NaN where rigid bodies jam.
     pub(super) fn sliding(&self, direction: f64, free: f64, kappa: f64) -> GuideForces {
         let mu = self.guide.map_or(0.0, |guide| guide.coefficient);
         GuideForces::sliding(free, kappa, mu, direction).unwrap_or(GuideForces {

@@ -1,4 +1,4 @@
-//! What loads do between two states of a mechanism with a loose joint.
+//! Detail of the loads between two states of a mechanism with a loose joint.
 
 use std::f64::consts::TAU;
 
@@ -8,23 +8,23 @@ use crate::mechanism::{Arms, EnclosedState, LoadValue, LooseState};
 use crate::numeric::enclosure::{Detail, Interval};
 use crate::scene::Joint;
 
-/// Sizes of the speeds, which their changes are measured by.
+/// Sizes of the speeds, relative to which their changes are measured.
 #[derive(Clone, Copy, Debug)]
 pub struct SpeedSizes {
-    /// Of crank and rod, rad/s.
+    /// Size of the speeds of crank and rod, rad/s.
     pub turning: f64,
-    /// Of the slider, m/s.
+    /// Size of the speed of the slider, m/s.
     pub sliding: f64,
 }
 
 impl LooseMechanism {
-    /// Whether loads may do something between the stages of a step.
+    /// Whether loads may vary between the stages of a step.
     pub fn has_detail(&self) -> bool {
         self.loads.as_ref().is_some_and(|loads| loads.have_detail())
     }
 
-    /// What the loads change in the accelerations, each over the size of its speed (1/s), where all numbers of the state
-    /// lie between those of two states, and in an ellipse of this size around that.
+    /// Returns the detail of the accelerations by the loads, each over the size of its speed (1/s), where all numbers
+    /// of the state lie between those of two states, and in an ellipse of this size around that range.
     pub fn detail(&self, [low, high]: [&LooseState; 2], sizes: SpeedSizes, ellipse: f64) -> Detail {
         let Some(loads) = &self.loads else {
             return Detail::NONE;
@@ -41,8 +41,8 @@ impl LooseMechanism {
         loads.detail(&seen, self.arms(low, sizes), ellipse)
     }
 
-    /// The largest change of an acceleration over the size of its speed by a load of one, while the joint does not touch. Then
-    /// torque and force act on bodies of their own, and the rod goes with one of them.
+    /// Returns the largest change of an acceleration over the size of its speed per unit load, while the joint is open:
+    /// torque and force then act on separate bodies, and the rod moves with one of them.
     fn arms(&self, s: &LooseState, sizes: SpeedSizes) -> Arms {
         let frame = self.frame(s);
         let rates = |size: f64| {

@@ -1,4 +1,4 @@
-//! The loose mechanism of a scene, and where its motion begins.
+//! Loose mechanism of a scene, and its initial state.
 
 use super::{LooseMechanism, NormalForce};
 use crate::mechanism::{Body, Equation, Linkage, Loads, LooseState, Reactor};
@@ -6,10 +6,10 @@ use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, ContactLaw, Joint, MotionKind, Problem, Problems, Scene};
 
 impl LooseMechanism {
-    /// The mechanism of a scene from which parts without strength were taken out.
+    /// Builds the mechanism of a scene without parts of zero strength.
     ///
     /// # Errors
-    /// [`Problems`]: parts that must have inertia and have none, and what the contact force needs and is not given.
+    /// [`Problems`]: parts that must have inertia and have none, and values that the contact force needs and lacks.
     pub fn new(scene: &Scene, clearance: Clearance) -> Result<LooseMechanism, Problems> {
         let crank = scene.crank.unwrap_or_default();
         let gravity = scene.gravity.map_or([0.0; 2], |gravity| gravity.vector());
@@ -21,7 +21,7 @@ impl LooseMechanism {
                 "the rod model \"spin-only\" leaves out the rod's translation, so it does not move freely in a clearance",
                 "use model = \"rigid\" or \"two-mass\"",
             ));
-            // One that raises no further problem.
+            // A rod that raises no further problem.
             Body {
                 mass: 1.0,
                 inertia: 1.0,
@@ -80,7 +80,7 @@ impl LooseMechanism {
         }
     }
 
-    /// Parts that move by themselves and have no inertia.
+    /// Returns a problem for each part that moves by itself without inertia.
     fn without_inertia(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         let mut refused = |field: &str, what: &str, help: &str| {
@@ -96,7 +96,7 @@ impl LooseMechanism {
         let coupled = self.rod_mass * self.rod_centre[0].hypot(self.rod_centre[1]);
         let movable = (self.rod_mass + self.slider_mass) * self.rod_inertia - coupled * coupled;
         let alone = match self.joint {
-            // What moves together with a rod without inertia is not known.
+            // The mass that moves together with a rod without inertia is unknown.
             Joint::CrankPin if self.rod_inertia <= 0.0 => self.slider_mass > 0.0,
             Joint::CrankPin => movable > 1e-12 * coupled * coupled && movable > 0.0,
             Joint::WristPin => self.slider_mass > 0.0,
@@ -126,14 +126,14 @@ impl LooseMechanism {
         problems
     }
 
-    /// The state at the start: the crank as the scene says, the journal at its eccentricity and at rest
-    /// against the bearing.
+    /// Returns the initial state: the crank as the scene says, the journal at its eccentricity and at rest against the
+    /// bearing.
     ///
     /// # Errors
-    /// [`Problems`] if the rod does not reach.
+    /// [`Problems`] if the rod does not reach the guide.
     pub fn start(&self, scene: &Scene) -> Result<LooseState, Problems> {
         let [ex, ey] = self.eccentricity(scene);
-        // A journal off its bearing's centre is an ideal joint on a guide that much higher or lower.
+        // A journal off its bearing's centre is an ideal joint on a guide that is higher or lower by the eccentricity.
         let mut geometry = scene.geometry;
         geometry.offset -= self.side * ey;
         let theta = Angle::from(scene.motion.angle).reduced().rest;
@@ -160,7 +160,7 @@ impl LooseMechanism {
         })
     }
 
-    /// From the bearing's centre to the journal's at the start.
+    /// Returns the vector from the bearing's centre to the journal's at the start, m.
     fn eccentricity(&self, scene: &Scene) -> [f64; 2] {
         let linked = self.clearance.law == ContactLaw::MasslessLink;
         let default = if linked { self.clearance.radial } else { 0.0 };
@@ -171,7 +171,7 @@ impl LooseMechanism {
         if let Some(angle) = self.clearance.eccentricity_angle {
             return [distance * angle.cos(), distance * angle.sin()];
         }
-        // The wall pushes the rod away from the pin: along the force on the rod of the ideal joint.
+        // The wall pushes the rod away from the pin: along the force on the rod in the ideal joint.
         let equation = Equation::new(scene);
         let (theta, omega) = (scene.motion.angle, scene.motion.speed);
         let alpha = match self.driven {

@@ -1,18 +1,18 @@
-//! Sine and cosine of angles close to some whose sine and cosine are known: a step of an integrator turns the
-//! links by little, and a short series is three times faster than the library's functions.
+//! Sine and cosine of angles close to known ones by a short series: a step of an integrator turns the links by little,
+//! and the series is three times faster than the library's functions.
 
-/// Directions of crank and rod at some state.
+/// Directions of crank and rod at a state, each as angle, sine and cosine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turned {
     crank: [f64; 3],
     rod: [f64; 3],
 }
 
-/// Beyond this angle, rad, the series is not exact to rounding.
+/// Largest turn, rad, up to which the series is exact to rounding.
 const SERIES_RANGE: f64 = 0.02;
 
 impl Turned {
-    /// At a crank angle and a direction of the rod, rad.
+    /// Computes the directions at a crank angle and a direction of the rod, rad.
     pub fn new(theta: f64, psi: f64) -> Turned {
         let known = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
@@ -24,13 +24,13 @@ impl Turned {
         }
     }
 
-    /// Sine and cosine of a crank angle, rad.
+    /// Returns sine and cosine of a crank angle, rad.
     #[inline(always)]
     pub fn crank(&self, theta: f64) -> (f64, f64) {
         turned(&self.crank, theta)
     }
 
-    /// Sine and cosine of a direction of the rod, rad.
+    /// Returns sine and cosine of a direction of the rod, rad.
     #[inline(always)]
     pub fn rod(&self, psi: f64) -> (f64, f64) {
         turned(&self.rod, psi)

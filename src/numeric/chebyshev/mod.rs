@@ -1,4 +1,4 @@
-//! Chebyshev series on [−1, 1]: through values at the Lobatto points, evaluated, integrated (Trefethen,
+//! Chebyshev series on [−1, 1] through values at the Lobatto points: evaluation, integral, derivative (Trefethen,
 //! Approximation Theory and Approximation Practice, ch. 3 and 19).
 
 mod rule;
@@ -6,18 +6,18 @@ mod transform;
 
 pub use rule::Rule;
 
-/// The largest degree of a series.
+/// Largest degree of a series.
 pub const MAX_DEGREE: usize = 32;
 
-/// What rounding leaves of the last terms of a series and of an integral by a rule, relative to the largest.
+/// Rounding error of the last terms of a series and of an integral by a rule, relative to the largest.
 pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Values at the points of a rule, or coefficients; what is beyond its degree is zero.
+/// Values at the points of a rule, or coefficients; entries beyond its degree are zero.
 pub type Values = [f64; MAX_DEGREE + 1];
 
-/// The largest of some values, as a magnitude.
+/// Returns the largest magnitude of some values.
 pub fn largest(values: &[f64]) -> f64 {
-    // Apart from each other, for the processor to compare side by side.
+    // Four separate maxima, for the processor to compare side by side.
     let mut most = [0.0; 4];
     let larger = |most: f64, value: f64| if value > most { value } else { most };
     let chunks = values.chunks_exact(4);
@@ -31,7 +31,7 @@ pub fn largest(values: &[f64]) -> f64 {
     most.into_iter().fold(of_rest, larger)
 }
 
-/// 1/(2k), to integrate Tₖ₋₁ − Tₖ₊₁.
+/// 1/(2k), factor of Tₖ₋₁ − Tₖ₊₁ in the integral.
 const HALF_RECIPROCALS: Values = {
     let mut all = [0.0; MAX_DEGREE + 1];
     let mut k = 1;
@@ -42,7 +42,7 @@ const HALF_RECIPROCALS: Values = {
     all
 };
 
-/// A series Σ cₖ Tₖ(x).
+/// Series Σ cₖ Tₖ(x).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Series {
     degree: usize,
@@ -50,12 +50,12 @@ pub struct Series {
 }
 
 impl Series {
-    /// Degree.
+    /// Returns the degree.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// A series from its coefficients.
+    /// Builds a series from its coefficients.
     pub fn new(degree: usize, coefficients: Values) -> Series {
         Series {
             degree,
@@ -63,7 +63,7 @@ impl Series {
         }
     }
 
-    /// The coefficient of a term.
+    /// Returns the coefficient of a term.
     pub fn coefficient(&self, index: usize) -> f64 {
         self.coefficients[index]
     }
@@ -72,7 +72,7 @@ impl Series {
         &self.coefficients[..=self.degree]
     }
 
-    /// Value at `x` in [−1, 1], by Clenshaw's recurrence.
+    /// Returns the value at `x` in [−1, 1], by Clenshaw's recurrence.
     pub fn value(&self, x: f64) -> f64 {
         let twice = 2.0 * x;
         let (mut b1, mut b2) = (0.0, 0.0);
@@ -82,7 +82,7 @@ impl Series {
         (self.coefficients[0] - b2) + x * b1
     }
 
-    /// Values at many places at once.
+    /// Returns the values at many places at once.
     pub fn values<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
         for c in self.terms()[1..].iter().rev() {
@@ -94,7 +94,7 @@ impl Series {
         std::array::from_fn(|j| (self.coefficients[0] - b2[j]) + x[j] * b1[j])
     }
 
-    /// Integral from −1; the term beyond the degree is left out, for it is as small as the tail.
+    /// Returns the integral from −1; the term beyond the degree is left out, for it is as small as the tail.
     pub fn integral(&self) -> Series {
         let c = &self.coefficients;
         let mut result = [0.0; MAX_DEGREE + 1];
@@ -110,7 +110,7 @@ impl Series {
         Series::new(self.degree, result)
     }
 
-    /// The sum of series of one degree, each times its share.
+    /// Returns the weighted sum of series of one degree.
     pub fn blend<'a>(parts: impl Iterator<Item = (&'a Series, f64)>) -> Series {
         let mut sum = Series::new(0, [0.0; MAX_DEGREE + 1]);
         for (series, share) in parts {
@@ -122,7 +122,7 @@ impl Series {
         sum
     }
 
-    /// Derivative.
+    /// Returns the derivative.
     pub fn derivative(&self) -> Series {
         let mut result = [0.0; MAX_DEGREE + 1];
         for k in (0..self.degree).rev() {
@@ -133,17 +133,17 @@ impl Series {
         Series::new(self.degree, result)
     }
 
-    /// The largest of its coefficients, as a magnitude.
+    /// Returns the largest magnitude of the coefficients.
     pub fn largest(&self) -> f64 {
         largest(self.terms())
     }
 
-    /// How far the coefficients have not yet decayed, relative to the largest: the last two of them.
+    /// Returns the sum of the magnitudes of the last two coefficients over the largest: small where they have decayed.
     pub fn tail(&self) -> f64 {
         self.tail_at(self.degree)
     }
 
-    /// Tail if the series ended at a smaller degree.
+    /// Returns the tail of the series cut at a smaller degree.
     pub fn tail_at(&self, degree: usize) -> f64 {
         let largest = self.largest();
         if largest == 0.0 {

@@ -1,4 +1,4 @@
-//! Points, weights and matrices of one degree.
+//! Lobatto points of one degree, with Clenshaw-Curtis weights and the matrices of transform and integration.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -9,19 +9,19 @@ use super::{MAX_DEGREE, Series, Values};
 use crate::numeric::LANES;
 use crate::numeric::exact::two_sum;
 
-/// The Lobatto points x₀ = −1, …, x_n = 1 of a degree n and what belongs to them.
+/// Lobatto points x₀ = −1, …, x_n = 1 of a degree n, with their weights and matrices.
 pub struct Rule {
     degree: usize,
     points: Values,
     /// Clenshaw-Curtis weights.
     weights: Values,
-    /// Coefficients 2k from the even part at the points, 2k + 1 from the odd part.
+    /// Matrices from values to coefficients: 2k from the even part at the points, 2k + 1 from the odd part.
     series: Matrices,
-    /// Integrals from 0 to the points.
+    /// Matrices from values to integrals from 0 to the points.
     integrals: Matrices,
-    /// Shares of the values in the last two coefficients.
+    /// Weights of the values in the last two coefficients.
     last: [[f64; 2]; MAX_DEGREE + 1],
-    /// The matrix of integration, once it is asked for.
+    /// Matrix of integration, built on first use.
     integration: OnceLock<Vec<Values>>,
 }
 
@@ -32,10 +32,10 @@ impl fmt::Debug for Rule {
 }
 
 impl Rule {
-    /// The degrees there are.
+    /// Available degrees.
     pub const DEGREES: [usize; 5] = [12, 16, 20, 24, 32];
 
-    /// The rule of one of the degrees [`Self::DEGREES`]; of the largest for any other.
+    /// Returns the rule of one of the degrees [`Self::DEGREES`]; the rule of the largest for any other.
     pub fn of(degree: usize) -> &'static Rule {
         const COUNT: usize = Rule::DEGREES.len();
         static RULES: [OnceLock<Box<Rule>>; COUNT] = [const { OnceLock::new() }; COUNT];
@@ -57,7 +57,7 @@ impl Rule {
         let n = degree as f64;
         let cosines = cosines(degree);
         for j in 0..=degree {
-            // From the sine of a symmetric argument, so that the points are symmetric to the last bit.
+            // Sine of a symmetric argument: the points are symmetric to the last bit.
             rule.points[j] = (PI * (2.0 * j as f64 - n) / (2.0 * n)).sin();
         }
         let half = degree / 2;
@@ -84,7 +84,7 @@ impl Rule {
         rule
     }
 
-    /// Integrals of the even and the odd functions that are one at one pair of points and zero at the others.
+    /// Computes integrals of the even and the odd functions that are one at one pair of points and zero at the others.
     fn fill_integrals(&mut self, cosines: &[f64]) {
         let half = self.degree / 2;
         let primitives: Vec<Half> = (0..=self.degree)
@@ -104,8 +104,8 @@ impl Rule {
         }
     }
 
-    /// Integrals of T_k from 0 to the points: of T_1, T_2/4 and (T_(k+1)/(k+1) − T_(k−1)/(k−1))/2 for k = 0, 1
-    /// and more.
+    /// Returns the integrals of T_k from 0 to the points, by the primitives T_1, T_2/4 and
+    /// (T_(k+1)/(k+1) − T_(k−1)/(k−1))/2 for k = 0, 1 and more.
     fn primitives(&self, cosines: &[f64], k: usize) -> Half {
         let half = self.degree / 2;
         let primitive = |i: usize| {
@@ -123,17 +123,17 @@ impl Rule {
         result
     }
 
-    /// The degree n.
+    /// Returns the degree n.
     pub fn degree(&self) -> usize {
         self.degree
     }
 
-    /// The points, rising from −1 to 1.
+    /// Returns the points, rising from −1 to 1.
     pub fn points(&self) -> &[f64] {
         &self.points[..=self.degree]
     }
 
-    /// Values of a function at the points.
+    /// Evaluates a function at the points.
     pub fn values(&self, mut f: impl FnMut(f64) -> f64) -> Values {
         let mut values = [0.0; MAX_DEGREE + 1];
         for (value, x) in values.iter_mut().zip(self.points()) {
@@ -142,7 +142,7 @@ impl Rule {
         values
     }
 
-    /// The series through values at the points.
+    /// Returns the series through values at the points.
     pub fn series(&self, values: &Values) -> Series {
         let matrices = &self.series;
         let coefficients = match self.degree {
@@ -155,7 +155,7 @@ impl Rule {
         Series::new(self.degree, coefficients)
     }
 
-    /// Integrals from −1 to each point of the series through values at the points.
+    /// Returns integrals from −1 to each point of the series through values at the points.
     pub fn integrals(&self, values: &Values) -> Values {
         let matrices = &self.integrals;
         match self.degree {
@@ -167,7 +167,7 @@ impl Rule {
         }
     }
 
-    /// Magnitudes of the last two coefficients of the series through values at the points, added.
+    /// Returns the sum of the magnitudes of the last two coefficients of the series through values at the points.
     pub fn last_terms(&self, values: &Values) -> f64 {
         let last = &self.last;
         let products = last.iter().zip(values).take(self.degree + 1);
@@ -177,7 +177,7 @@ impl Rule {
         a.abs() + b.abs()
     }
 
-    /// The matrix of [`Self::integrals`], by rows.
+    /// Returns the matrix of [`Self::integrals`], by rows.
     pub fn integration(&self) -> &[Values] {
         self.integration.get_or_init(|| {
             let mut rows = vec![[0.0; MAX_DEGREE + 1]; self.degree + 1];
@@ -193,10 +193,10 @@ impl Rule {
         })
     }
 
-    /// Integral over [−1, 1] of the series through values at the points (Clenshaw and Curtis), as a rounded
-    /// value and its rest.
+    /// Integrates the series through values at the points over [−1, 1] (Clenshaw and Curtis): a rounded value and its
+    /// remainder.
     pub fn integral(&self, values: &Values) -> (f64, f64) {
-        // Sums apart from each other, for the processor to add side by side.
+        // Separate partial sums, for the processor to add side by side.
         let (mut sums, mut rests) = ([0.0; LANES], [0.0; LANES]);
         let weights = self.weights[..self.degree].chunks_exact(LANES);
         for (weights, values) in weights.zip(values.chunks_exact(LANES)) {
@@ -216,7 +216,7 @@ impl Rule {
         two_sum(sum, rest)
     }
 
-    /// Shares of the values at the points in the value at `x` of the polynomial through them (barycentric
+    /// Returns the weights of the values at the points in the value at `x` of the polynomial through them (barycentric
     /// formula; Trefethen, theorem 5.2).
     pub fn shares(&self, x: f64) -> Values {
         let mut shares = [0.0; MAX_DEGREE + 1];
@@ -235,7 +235,7 @@ impl Rule {
         shares.map(|share| share / sum)
     }
 
-    /// The integral as by [`Self::integral`], simply rounded.
+    /// Integrates as [`Self::integral`], simply rounded.
     pub fn rounded_integral(&self, values: &Values) -> f64 {
         let mut sums = [0.0; LANES];
         let weights = self.weights[..self.degree].chunks_exact(LANES);
@@ -249,14 +249,14 @@ impl Rule {
     }
 }
 
-/// cos(π m/degree) for m from 0 to 2·degree − 1, exactly symmetric.
+/// Returns cos(π m/degree) for m from 0 to 2·degree − 1, exactly symmetric.
 fn cosines(degree: usize) -> Vec<f64> {
     let n = degree as f64;
     let cosine = |m: usize| (PI * (n - 2.0 * m as f64) / (2.0 * n)).sin();
     (0..2 * degree).map(cosine).collect()
 }
 
-/// cos(π m/degree) of any m.
+/// Returns cos(π m/degree) of any m.
 fn cosine(cosines: &[f64], m: usize) -> f64 {
     cosines[m % cosines.len()]
 }

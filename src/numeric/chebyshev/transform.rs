@@ -1,17 +1,17 @@
 //! Products of the matrices of a rule with values at its points.
 //!
-//! The points are symmetric, so even and odd parts of a function are transformed apart, with half the
-//! points each. Degrees are constants here, so that the compiler keeps the sums in registers, two in each.
+//! The points are symmetric: even and odd parts of a function are transformed apart, with half the points each. Degrees
+//! are constants, for the compiler to keep the sums in registers, two in each.
 
 use super::{MAX_DEGREE, Values};
 
-/// Half of the largest degree, the middle point, and one for pairs of rows to be complete.
+/// Entries of a half: half of the largest degree, the middle point, and one that completes pairs of rows.
 pub(super) const HALF: usize = MAX_DEGREE / 2 + 2;
 
-/// What belongs to half of the points or coefficients.
+/// Vector over half of the points or coefficients.
 pub(super) type Half = [f64; HALF];
 
-/// A matrix for each part, by columns.
+/// Matrices of the even and the odd part, by columns.
 pub(super) struct Matrices {
     pub even: [Half; HALF],
     pub odd: [Half; HALF],
@@ -25,8 +25,8 @@ impl Matrices {
         }
     }
 
-    /// Products with the even and the odd part of values at the points of a degree; `ROWS` is even and more than
-    /// half the degree. Not inlined: where the results go on scattered, the sums would be kept one by one.
+    /// Multiplies by the even and the odd part of values at the points of a degree; `ROWS` is even and more than half
+    /// the degree. Not inlined: where the results go on scattered, the sums would be kept one by one.
     #[inline(never)]
     fn products<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> [Half; 2] {
         let (mut of_even, mut of_odd) = ([0.0; ROWS], [0.0; ROWS]);
@@ -48,7 +48,7 @@ impl Matrices {
         results
     }
 
-    /// Coefficients, where the matrices give the even and the odd ones.
+    /// Returns the coefficients, where the matrices give the even and the odd ones.
     pub fn coefficients<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
         let [even, odd] = self.products::<DEGREE, ROWS>(values);
         let mut coefficients = [0.0; MAX_DEGREE + 1];
@@ -60,8 +60,8 @@ impl Matrices {
         coefficients
     }
 
-    /// Integrals from −1 to each point, where the matrices give those from 0: the even part has an odd integral,
-    /// and the other way round.
+    /// Returns the integrals from −1 to each point, where the matrices give the integrals from 0: the even part has an
+    /// odd integral, and the reverse.
     pub fn integrals<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
         let [odd, even] = self.products::<DEGREE, ROWS>(values);
         let from_start = odd[0] - even[0];

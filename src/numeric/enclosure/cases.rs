@@ -1,9 +1,9 @@
-//! Functions of several cases, analytic where one case serves the whole interval.
+//! Enclosures of functions of several cases, analytic where one case serves the whole interval.
 
 use super::{Enclosed, Interval};
 
 impl Enclosed {
-    /// Magnitudes.
+    /// Encloses the magnitudes.
     pub fn abs(self) -> Enclosed {
         let Interval { low, high } = self.real;
         if low >= 0.0 {
@@ -15,7 +15,7 @@ impl Enclosed {
         }
     }
 
-    /// The whole numbers below.
+    /// Encloses the floors, the largest whole numbers not above.
     pub fn floor(self) -> Enclosed {
         let real = self.real.rising(f64::floor);
         if real.low == real.high {
@@ -25,17 +25,17 @@ impl Enclosed {
         }
     }
 
-    /// −1, 0 or 1.
+    /// Encloses the signs, −1, 0 or 1.
     pub fn sign(self) -> Enclosed {
         self.of_sign(-1.0, 0.0, 1.0)
     }
 
-    /// 0 below zero, else 1.
+    /// Encloses the unit step: 0 below zero, else 1.
     pub fn step(self) -> Enclosed {
         self.of_sign(0.0, 1.0, 1.0)
     }
 
-    /// The greater of two.
+    /// Encloses the greater of two functions.
     pub fn max(self, other: Enclosed) -> Enclosed {
         let (a, b) = (self.real, other.real);
         if a.low >= b.high {
@@ -47,12 +47,12 @@ impl Enclosed {
         }
     }
 
-    /// The lesser of two.
+    /// Encloses the lesser of two functions.
     pub fn min(self, other: Enclosed) -> Enclosed {
         -(-self).max(-other)
     }
 
-    /// What is left of multiples of the other, never negative.
+    /// Encloses the remainder of division by the magnitude of the other, never negative.
     pub fn modulo(self, other: Enclosed) -> Enclosed {
         let by = other.abs();
         if by.real.low <= 0.0 {

@@ -1,44 +1,44 @@
-//! How many nodes show a function.
+//! Number of nodes that resolve a function on a piece of a motion.
 
 use super::{Enclosed, Interval};
 
-/// A piece of a motion.
+/// Piece of a motion: ranges of time, angle and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// s
+    /// Time, s.
     pub t: Interval,
-    /// Crank angle, rad, unwrapped.
+    /// Crank angle, or coordinate of the configuration curve, rad, unwrapped.
     pub angle: Interval,
-    /// rad/s
+    /// Rate of the angle, rad/s.
     pub speed: Interval,
 }
 
-/// What a function does on a piece of a motion.
+/// Variation of a function on a piece of a motion, and in the plane around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Detail {
     /// Greatest value less the least.
     pub change: f64,
-    /// How far it is from a constant in the Bernstein ellipse around the piece; none if it may not be analytic there.
+    /// Bound M of the distance from a constant in the Bernstein ellipse; none where the function may not be analytic.
     pub around: Option<f64>,
 }
 
-/// Pieces of tables are cubic: fewer nodes show no function of two.
+/// Least number of nodes: pieces of tables are cubics, which four nodes determine.
 const LEAST_NODES: usize = 4;
 
 impl Detail {
-    /// Of a function that is constant, or is not known from anything but its values.
+    /// Detail of a function that is constant, or is known by its values alone.
     pub const NONE: Detail = Detail {
         change: 0.0,
         around: Some(0.0),
     };
 
-    /// Of a function that may do anything.
+    /// Detail of a function that may do anything.
     pub const HIDDEN: Detail = Detail {
         change: f64::INFINITY,
         around: None,
     };
 
-    /// Of an enclosed function.
+    /// Returns the detail of an enclosed function.
     pub fn of(function: Enclosed) -> Detail {
         let change = 2.0 * function.real.half();
         Detail {
@@ -54,7 +54,7 @@ impl Detail {
         }
     }
 
-    /// The sum of two functions.
+    /// Returns the detail of the sum of two functions.
     pub fn plus(self, other: Detail) -> Detail {
         Detail {
             change: self.change + other.change,
@@ -62,7 +62,7 @@ impl Detail {
         }
     }
 
-    /// The function times a factor.
+    /// Returns the detail of the function times a factor.
     pub fn times(self, by: f64) -> Detail {
         if self == Detail::NONE {
             return self;
@@ -81,8 +81,8 @@ impl Detail {
         }
     }
 
-    /// Nodes that show it but for `allowed`, where it is enclosed in an ellipse of this size: 4M ρ⁻ⁿ/(ρ − 1) is left. None
-    /// where it may not be analytic.
+    /// Returns the number of nodes that resolve the function to `allowed`, where it is enclosed in an ellipse of this
+    /// size: the error is 4M ρ⁻ⁿ/(ρ − 1). None where the function may not be analytic.
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
         let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
         let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
@@ -90,16 +90,16 @@ impl Detail {
     }
 }
 
-/// Sizes of the ellipses in which so many nodes leave less than this part. A function that grows slowly, as one with a
-/// singularity nearby may, is shown by the smaller one, an entire one rather by the larger.
+/// Returns two sizes of ellipses in which this number of nodes leaves less than this part. The smaller serves a
+/// function that grows slowly, as with a singularity nearby, the larger rather an entire function.
 pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
-    // The bound is a hundred times the change of the function on the piece.
+    // The bound 4M/(ρ − 1) is taken as a hundred times the change of the function on the piece.
     let smaller = (part / 100.0).powf(-1.0 / nodes as f64);
     [smaller, smaller * smaller]
 }
 
-/// What a function does on a piece, and the least nodes that show it but for `allowed` by these ellipses, where that is no more
-/// than `most`.
+/// Returns the detail of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
+/// ellipses, if no more than `most`.
 pub fn shown(
     detail: impl Fn(f64) -> Detail,
     ellipses: [f64; 2],

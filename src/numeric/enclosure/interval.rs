@@ -1,26 +1,26 @@
-//! Intervals of real numbers (Moore, Interval Analysis, 1966). Bounds are rounded to nearest: what that leaves out is
-//! rounding of the values themselves.
+//! Intervals of real numbers (Moore, Interval Analysis, 1966). Bounds are rounded to nearest: the enclosed values
+//! exceed them by rounding at most.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// All numbers from one to another.
+/// Interval of all numbers from one to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
-    /// The least of them.
+    /// Least number.
     pub low: f64,
-    /// The greatest.
+    /// Greatest number.
     pub high: f64,
 }
 
 impl Interval {
-    /// Every number: nothing is known.
+    /// Whole line: nothing is known.
     pub const WHOLE: Interval = Interval {
         low: f64::NEG_INFINITY,
         high: f64::INFINITY,
     };
 
-    /// Between two bounds; the whole line where one is none.
+    /// Returns the interval between two bounds; the whole line where one is NaN.
     pub fn new(low: f64, high: f64) -> Interval {
         if low.is_nan() || high.is_nan() {
             return Interval::WHOLE;
@@ -28,7 +28,7 @@ impl Interval {
         Interval { low, high }
     }
 
-    /// Between two numbers in either order.
+    /// Returns the interval between two numbers in either order.
     pub fn between(a: f64, b: f64) -> Interval {
         if a <= b {
             Interval::new(a, b)
@@ -37,49 +37,49 @@ impl Interval {
         }
     }
 
-    /// One number.
+    /// Returns the interval of one number.
     pub fn point(at: f64) -> Interval {
         Interval::new(at, at)
     }
 
-    /// The middle of it.
+    /// Returns the middle.
     pub fn middle(self) -> f64 {
         0.5 * self.low + 0.5 * self.high
     }
 
-    /// Half its width.
+    /// Returns half the width.
     pub fn half(self) -> f64 {
         0.5 * (self.high - self.low)
     }
 
-    /// The largest magnitude in it.
+    /// Returns the largest magnitude.
     pub fn largest(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 
-    /// Whether a number lies in it.
+    /// Whether a number lies in the interval.
     pub fn contains(self, at: f64) -> bool {
         self.low <= at && at <= self.high
     }
 
-    /// The least interval that holds both.
+    /// Returns the least interval that holds both.
     pub fn hull(self, other: Interval) -> Interval {
         Interval::new(self.low.min(other.low), self.high.max(other.high))
     }
 
-    /// Wider by so much on both sides.
+    /// Returns the interval widened by `by` on both sides.
     pub fn widened(self, by: f64) -> Interval {
         Interval::new(self.low - by, self.high + by)
     }
 
-    /// Squares.
+    /// Encloses the squares.
     pub fn square(self) -> Interval {
         let [a, b] = [self.low * self.low, self.high * self.high];
         let least = if self.contains(0.0) { 0.0 } else { a.min(b) };
         Interval::new(least, a.max(b))
     }
 
-    /// 1/x; the whole line around zero.
+    /// Encloses 1/x; the whole line around zero.
     pub fn reciprocal(self) -> Interval {
         if self.contains(0.0) {
             return Interval::WHOLE;
@@ -87,12 +87,12 @@ impl Interval {
         Interval::new(1.0 / self.high, 1.0 / self.low)
     }
 
-    /// The values of a function that does not fall.
+    /// Encloses the values of a function that does not fall.
     pub fn rising(self, f: impl Fn(f64) -> f64) -> Interval {
         Interval::new(f(self.low), f(self.high))
     }
 
-    /// Sines.
+    /// Encloses the sines.
     pub fn sin(self) -> Interval {
         let peak = |at: f64| ((self.low - at) / TAU).ceil() * TAU + at <= self.high;
         let (a, b) = (self.low.sin(), self.high.sin());
@@ -105,12 +105,12 @@ impl Interval {
         Interval::new(low, high)
     }
 
-    /// Cosines.
+    /// Encloses the cosines.
     pub fn cos(self) -> Interval {
         (self + Interval::point(FRAC_PI_2)).sin()
     }
 
-    /// Hyperbolic cosines.
+    /// Encloses the hyperbolic cosines.
     pub fn cosh(self) -> Interval {
         let [a, b] = [self.low.cosh(), self.high.cosh()];
         let least = if self.contains(0.0) { 1.0 } else { a.min(b) };

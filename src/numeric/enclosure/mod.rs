@@ -1,9 +1,9 @@
-//! Enclosures of the values of a function over an interval, and over a neighbourhood of it in the complex plane.
+//! Enclosures of a function over an interval and over a complex neighbourhood of it, by interval arithmetic.
 //!
 //! A function that is analytic there, and differs from a constant by M at most, is a polynomial of degree n but for
-//! 2M ρ⁻ⁿ/(ρ − 1), where ρ is the size of the Bernstein ellipse that the neighbourhood holds (Trefethen, Approximation Theory
-//! and Approximation Practice, theorem 8.2): n + 1 nodes show it but for twice that. Functions of several cases (abs, min,
-//! floor, ...) are analytic where one case serves the whole interval; it is this one that is followed into the plane.
+//! 2M ρ⁻ⁿ/(ρ − 1), where ρ is the size of the Bernstein ellipse inside (Trefethen, Approximation Theory and
+//! Approximation Practice, theorem 8.2): n + 1 nodes resolve it but for twice that error. Functions of several cases
+//! (abs, min, floor, ...) are analytic where one case serves the whole interval; this case is continued into the plane.
 
 mod cases;
 mod detail;
@@ -19,12 +19,12 @@ pub use interval::Interval;
 pub use partition::{Wanted, partition};
 pub use rectangle::Rectangle;
 
-/// Values over an interval and around it.
+/// Enclosure of values over an interval and around it in the complex plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Enclosed {
-    /// Over the interval.
+    /// Values over the interval.
     pub real: Interval,
-    /// Around it; none where the function is not known to be analytic.
+    /// Values around the interval; none where the function is not known to be analytic.
     pub plane: Option<Rectangle>,
 }
 
@@ -35,10 +35,10 @@ impl Default for Enclosed {
 }
 
 impl Enclosed {
-    /// Nothing is known.
+    /// Enclosure of an unknown function.
     pub const UNKNOWN: Enclosed = Enclosed::jumps(Interval::WHOLE);
 
-    /// A constant.
+    /// Encloses a constant.
     pub fn point(value: f64) -> Enclosed {
         Enclosed {
             real: Interval::point(value),
@@ -46,7 +46,7 @@ impl Enclosed {
         }
     }
 
-    /// A variable over an interval, and in the Bernstein ellipse of this size around it.
+    /// Encloses a variable over an interval, and in the Bernstein ellipse of this size around it.
     pub fn variable(real: Interval, ellipse: f64) -> Enclosed {
         let half = real.half();
         let [along, across] =
@@ -58,12 +58,12 @@ impl Enclosed {
         }
     }
 
-    /// Values of a function that is not known to be analytic.
+    /// Encloses a function that is not known to be analytic.
     pub const fn jumps(real: Interval) -> Enclosed {
         Enclosed { real, plane: None }
     }
 
-    /// An entire function.
+    /// Applies an entire function.
     fn map(self, real: fn(Interval) -> Interval, plane: fn(Rectangle) -> Rectangle) -> Enclosed {
         Enclosed {
             real: real(self.real),
@@ -71,7 +71,7 @@ impl Enclosed {
         }
     }
 
-    /// A function that is rising over the interval, with its continuation.
+    /// Applies a function that rises over the interval, with its continuation into the plane.
     fn rising(
         self,
         f: impl Fn(f64) -> f64,
@@ -83,7 +83,7 @@ impl Enclosed {
         }
     }
 
-    /// A constant that depends on the sign of the argument.
+    /// Returns a constant that depends on the sign of the argument.
     fn of_sign(self, negative: f64, zero: f64, positive: f64) -> Enclosed {
         let Interval { low, high } = self.real;
         if low > 0.0 || low == 0.0 && zero == positive {
@@ -95,12 +95,12 @@ impl Enclosed {
         }
     }
 
-    /// Squares.
+    /// Encloses the squares.
     pub fn square(self) -> Enclosed {
         self.map(Interval::square, Rectangle::square)
     }
 
-    /// 1/z
+    /// Encloses 1/z.
     pub fn reciprocal(self) -> Enclosed {
         Enclosed {
             real: self.real.reciprocal(),
@@ -108,22 +108,22 @@ impl Enclosed {
         }
     }
 
-    /// Quotients.
+    /// Encloses the quotients.
     pub fn divided_by(self, other: Enclosed) -> Enclosed {
         self * other.reciprocal()
     }
 
-    /// Sines.
+    /// Encloses the sines.
     pub fn sin(self) -> Enclosed {
         self.map(Interval::sin, Rectangle::sin)
     }
 
-    /// Cosines.
+    /// Encloses the cosines.
     pub fn cos(self) -> Enclosed {
         self.map(Interval::cos, Rectangle::cos)
     }
 
-    /// Tangents.
+    /// Encloses the tangents.
     pub fn tan(self) -> Enclosed {
         let within_a_branch = self.real.high - self.real.low < PI && !self.real.cos().contains(0.0);
         if within_a_branch {
@@ -133,7 +133,7 @@ impl Enclosed {
         }
     }
 
-    /// Inverse sines.
+    /// Encloses the inverse sines.
     pub fn asin(self) -> Enclosed {
         if self.real.largest() > 1.0 {
             return Enclosed::UNKNOWN;
@@ -144,32 +144,32 @@ impl Enclosed {
         })
     }
 
-    /// Inverse cosines.
+    /// Encloses the inverse cosines.
     pub fn acos(self) -> Enclosed {
         Enclosed::point(FRAC_PI_2) - self.asin()
     }
 
-    /// Inverse tangents.
+    /// Encloses the inverse tangents.
     pub fn atan(self) -> Enclosed {
         self.rising(f64::atan, |z| {
             let size = Rectangle::point(1.0) + z.square();
-            // Beyond that the branch points ±i are near.
+            // Elsewhere the branch points ±i are near.
             (size.re.low > 0.0).then_some(())?;
             Some(z.by_slope(f64::atan, size.reciprocal()?))
         })
     }
 
-    /// Hyperbolic sines.
+    /// Encloses the hyperbolic sines.
     pub fn sinh(self) -> Enclosed {
         self.rising(f64::sinh, |z| Some(z.sinh()))
     }
 
-    /// Hyperbolic cosines.
+    /// Encloses the hyperbolic cosines.
     pub fn cosh(self) -> Enclosed {
         self.map(Interval::cosh, Rectangle::cosh)
     }
 
-    /// Hyperbolic tangents, from (1 − u)/(1 + u), u = e^(−2z), which does not overflow on the right, and is odd.
+    /// Encloses the hyperbolic tangents: (1 − u)/(1 + u), u = e^(−2z), does not overflow on the right; tanh is odd.
     pub fn tanh(self) -> Enclosed {
         let right = |z: Rectangle| {
             let one = Rectangle::point(1.0);
@@ -182,12 +182,12 @@ impl Enclosed {
         })
     }
 
-    /// e^z
+    /// Encloses e^z.
     pub fn exp(self) -> Enclosed {
         self.rising(f64::exp, |z| Some(z.exp()))
     }
 
-    /// Natural logarithms.
+    /// Encloses the natural logarithms.
     pub fn ln(self) -> Enclosed {
         if self.real.low < 0.0 {
             return Enclosed::UNKNOWN;
@@ -195,12 +195,12 @@ impl Enclosed {
         self.rising(f64::ln, Rectangle::ln)
     }
 
-    /// Decimal logarithms.
+    /// Encloses the decimal logarithms.
     pub fn log10(self) -> Enclosed {
         self.ln() * Enclosed::point(LOG10_E)
     }
 
-    /// Square roots.
+    /// Encloses the square roots.
     pub fn sqrt(self) -> Enclosed {
         if self.real.low < 0.0 {
             return Enclosed::UNKNOWN;
@@ -208,7 +208,7 @@ impl Enclosed {
         self.rising(f64::sqrt, Rectangle::sqrt)
     }
 
-    /// Directions of points (x, self).
+    /// Encloses the directions of the points (x, self), rad.
     pub fn atan2(self, x: Enclosed) -> Enclosed {
         let right_angle = Enclosed::point(FRAC_PI_2);
         if x.real.low > 0.0 {
@@ -222,10 +222,10 @@ impl Enclosed {
         }
     }
 
-    /// Powers.
+    /// Encloses the powers.
     pub fn power(self, exponent: Enclosed) -> Enclosed {
         let Interval { low, high } = exponent.real;
-        // Higher powers go by the logarithm.
+        // Higher powers use the logarithm.
         if low == high && low == low.trunc() && low.abs() <= 64.0 {
             let whole = self.to_the(low.abs() as u32);
             return if low < 0.0 { whole.reciprocal() } else { whole };

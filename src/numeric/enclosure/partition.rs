@@ -1,31 +1,31 @@
-//! Where panels have to end so that their nodes show a function.
+//! Partition of an interval into panels whose nodes resolve a function, by bisection.
 
 use super::{Detail, Interval, ellipses, shown};
 
-/// How panels are to show a function.
+/// Required resolution of the panels.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
     /// Nodes of a panel.
     pub nodes: usize,
-    /// What they may leave, as part of the change of the function over the whole, or of a unit.
+    /// Allowed error, as a part of the change of the function over the whole, or of a unit.
     pub part: f64,
 }
 
-/// A corner or a jump is found to so many halvings of the whole, which leave some units of its last place.
+/// Halvings of the whole that locate a corner or a jump, to some units of its last place.
 const HALVINGS: usize = 50;
-/// Most pieces that are looked at.
+/// Largest number of pieces.
 const MOST_PIECES: usize = 100_000;
 
-/// One piece: how it is shown.
+/// Verdict on one piece: the nodes resolve the function, or a corner lies inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Piece {
     Shown,
     Corner,
 }
 
-/// The ends inside an interval between panels that each show a function, whose detail on an interval and in an ellipse of some
-/// size around it is given; in rising order. A corner or a jump is such an end; beside a narrow pulse panels become
-/// shorter towards it.
+/// Locates the ends between panels inside an interval, in rising order, for a function whose `detail` on an interval
+/// and in an ellipse of some size is given: the nodes of each panel resolve it. A corner or a jump is an end; beside a
+/// narrow pulse panels become shorter towards it.
 pub fn partition(
     detail: impl Fn(Interval, f64) -> Detail,
     over: Interval,
@@ -63,7 +63,7 @@ pub fn partition(
     merged(&pieces, is_shown)
 }
 
-/// The change over the whole, or over the first part of it on which it is finite; not less than a unit.
+/// Returns the change over the whole, or over the first part of it on which it is finite; not less than a unit.
 fn scale(detail: &impl Fn(Interval) -> Detail, over: Interval, unit: f64) -> f64 {
     let mut part = over;
     for _ in 0..HALVINGS {
@@ -76,7 +76,7 @@ fn scale(detail: &impl Fn(Interval) -> Detail, over: Interval, unit: f64) -> f64
     unit.max(f64::MIN_POSITIVE)
 }
 
-/// Ends between pieces, of which neighbours that are shown together are one; a corner lies in the middle of its piece.
+/// Returns the ends between pieces; neighbours resolved together are one, a corner lies in the middle of its piece.
 fn merged(pieces: &[(Interval, Piece)], is_shown: impl Fn(Interval) -> bool) -> Vec<f64> {
     let mut ends = Vec::new();
     let mut begin = None;

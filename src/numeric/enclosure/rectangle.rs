@@ -1,10 +1,10 @@
-//! Rectangles of complex numbers.
+//! Rectangles of complex numbers: interval arithmetic in the plane.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::Interval;
 
-/// All complex numbers whose real and imaginary parts lie in two intervals.
+/// Rectangle of all complex numbers whose real and imaginary parts lie in two intervals.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rectangle {
     /// Real parts.
@@ -14,33 +14,33 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// From real and imaginary parts.
+    /// Returns the rectangle of real and imaginary parts.
     pub fn new(re: Interval, im: Interval) -> Rectangle {
         Rectangle { re, im }
     }
 
-    /// One real number.
+    /// Returns the rectangle of one real number.
     pub fn point(at: f64) -> Rectangle {
         Rectangle::real(Interval::point(at))
     }
 
-    /// Real numbers.
+    /// Returns the rectangle of real numbers.
     pub fn real(re: Interval) -> Rectangle {
         Rectangle::new(re, Interval::point(0.0))
     }
 
-    /// How far a value in it may be from its middle.
+    /// Returns the largest distance of a value from the middle.
     pub fn radius(self) -> f64 {
         self.re.half().hypot(self.im.half())
     }
 
-    /// Squares.
+    /// Encloses the squares.
     pub fn square(self) -> Rectangle {
         let product = self.re * self.im;
         Rectangle::new(self.re.square() - self.im.square(), product + product)
     }
 
-    /// 1/z; none if zero is in it.
+    /// Encloses 1/z; none if zero may be inside.
     pub fn reciprocal(self) -> Option<Rectangle> {
         let size = self.re.square() + self.im.square();
         if size.low <= 0.0 {
@@ -50,19 +50,19 @@ impl Rectangle {
         Some(Rectangle::new(self.re * by, -(self.im * by)))
     }
 
-    /// Times a real number.
+    /// Returns the rectangle times a real number.
     pub fn times(self, by: f64) -> Rectangle {
         let by = Interval::point(by);
         Rectangle::new(self.re * by, self.im * by)
     }
 
-    /// e^z
+    /// Encloses e^z.
     pub fn exp(self) -> Rectangle {
         let size = self.re.rising(f64::exp);
         Rectangle::new(size * self.im.cos(), size * self.im.sin())
     }
 
-    /// ln z, where the real parts are positive; none elsewhere.
+    /// Encloses ln z, where the real parts are positive; none elsewhere.
     pub fn ln(self) -> Option<Rectangle> {
         if self.re.low <= 0.0 {
             return None;
@@ -75,12 +75,12 @@ impl Rectangle {
         ))
     }
 
-    /// The root with a positive real part, where the real parts are positive; none elsewhere.
+    /// Encloses the root with a positive real part, where the real parts are positive; none elsewhere.
     pub fn sqrt(self) -> Option<Rectangle> {
         Some(self.ln()?.times(0.5).exp())
     }
 
-    /// sin z
+    /// Encloses sin z.
     pub fn sin(self) -> Rectangle {
         Rectangle::new(
             self.re.sin() * self.im.cosh(),
@@ -88,7 +88,7 @@ impl Rectangle {
         )
     }
 
-    /// cos z
+    /// Encloses cos z.
     pub fn cos(self) -> Rectangle {
         Rectangle::new(
             self.re.cos() * self.im.cosh(),
@@ -96,22 +96,22 @@ impl Rectangle {
         )
     }
 
-    /// i z
+    /// Returns i z.
     fn turned(self) -> Rectangle {
         Rectangle::new(-self.im, self.re)
     }
 
-    /// sinh z = −i sin iz
+    /// Encloses sinh z = −i sin iz.
     pub fn sinh(self) -> Rectangle {
         -self.turned().sin().turned()
     }
 
-    /// cosh z = cos iz
+    /// Encloses cosh z = cos iz.
     pub fn cosh(self) -> Rectangle {
         self.turned().cos()
     }
 
-    /// The values of an analytic function with a given slope: the mean value theorem on a convex set.
+    /// Encloses an analytic function with a given slope, by the mean value theorem on a convex set.
     pub fn by_slope(self, f: impl Fn(f64) -> f64, slope: Rectangle) -> Rectangle {
         let middle = self.re.middle();
         Rectangle::point(f(middle)) + slope * (self - Rectangle::point(middle))
