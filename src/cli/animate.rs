@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, check_ending};
+use super::streams::{Outcome, Streams, check_extension};
 use super::values::angle;
 use super::watch::print;
 use crate::error::Error;
@@ -39,7 +39,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    check_ending(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
+    check_extension(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
     let streams = Streams::new(
         &[arguments.scene.as_ref()],
         Some(&arguments.out),

@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 use super::streams::{Outcome, Streams, create, fill};
 use crate::error::Error;
-use crate::optimise::{Asked, Subject, optimise};
+use crate::optimise::{Constraint, Problem, optimise};
 use crate::plan::Method;
 use crate::report;
 use crate::scene::Varied;
@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     most: Option<Figure>,
     /// A limit that the design has to keep, like "transmission_min >= 40 deg"; given again, all of them
     #[arg(long, value_name = "FIGURE >= VALUE")]
-    subject: Vec<Subject>,
+    subject: Vec<Constraint>,
     /// Seed of the samples
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
@@ -55,12 +55,6 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    fn goal(&self) -> Option<Goal> {
-        let goal = |most| move |figure| Goal { figure, most };
-        let least = self.least.map(goal(false));
-        least.or(self.most.map(goal(true)))
-    }
-
     fn options(&self, stop: &Stop) -> SweepOptions {
         let steady = SteadyOptions {
             fluctuation: self.fluctuation,
@@ -86,17 +80,18 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         arguments.json,
     )?;
     let draft = streams.draft(read.as_ref())?;
-    let goal = arguments
-        .goal()
+    let least = arguments.least.map(Goal::least);
+    let goal = least.or(arguments.most.map(Goal::most));
+    let goal = goal
         .ok_or_else(|| Error::refused("there is no goal", "say which, like --least guide_peak"))?;
-    let asked = Asked {
+    let problem = Problem {
         goal,
-        subjects: arguments.subject.clone(),
+        constraints: arguments.subject.clone(),
         seed: arguments.seed,
     };
     let (out, best) = (create(out.as_ref())?, create(best.as_ref())?);
     let varied = arguments.vary.clone();
-    let found = optimise(draft.clone(), varied, &asked, arguments.options(stop))?;
+    let found = optimise(draft.clone(), varied, &problem, arguments.options(stop))?;
     fill(out, || Ok(report::starts_csv(&found)))?;
     fill(best, || {
         let values = arguments.vary.iter().zip(&found.values);

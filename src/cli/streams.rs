@@ -145,7 +145,7 @@ fn place(path: &Path) -> PathBuf {
 }
 
 /// Refuses a path whose extension is not among the formats `written`.
-pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
+pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
     };
@@ -196,7 +196,7 @@ pub(super) fn draw(
 /// # Errors
 /// [`Error::Refused`] if the extension is not one of a page; [`Error::Write`].
 pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
-    check_ending(path, &["html", "htm"])?;
+    check_extension(path, &["html", "htm"])?;
     create(path)
 }
 

@@ -3,7 +3,7 @@
 use super::csv::{self, CsvCell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
-use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
+use crate::optimise::{AGREEMENT, EvaluatedConstraint, FinalSweeps, Optimum, OptimumValue};
 
 /// Returns the best design, its limits, agreement of the searches and final sweeps, as text.
 pub fn optimum(found: &Optimum) -> String {
@@ -52,7 +52,7 @@ fn varied(one: &OptimumValue) -> String {
     }
 }
 
-fn subject(one: &SubjectMet) -> String {
+fn subject(one: &EvaluatedConstraint) -> String {
     let of = Quantity::of(&one.figure);
     let limit = format!("{} {} {}", one.sense, six(one.limit * of.factor), of.unit);
     let how = match (one.is_met, one.is_active) {
@@ -68,7 +68,7 @@ fn subject(one: &SubjectMet) -> String {
 }
 
 fn proof(found: &Optimum) -> String {
-    let Proof {
+    let FinalSweeps {
         is_complete,
         half_widths,
         designs_each,

@@ -10,7 +10,7 @@ use super::Output;
 use crate::error::Error;
 
 /// Extensions of picture files.
-pub const ENDINGS: [&str; 3] = ["svg", "png", "pdf"];
+pub const EXTENSIONS: [&str; 3] = ["svg", "png", "pdf"];
 
 /// Pixels of a PNG per pixel of the figure: sharp in print and on high-resolution screens.
 const SCALE: f32 = 2.0;

@@ -1,9 +1,9 @@
 //! Reports of the work-precision comparison of methods: CSV, text, page and figure.
 
 use super::csv::{self, CsvCell};
+use super::default_view::{DefaultView, Scatter};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, aligned, fact, six};
-use super::look::{Look, Scatter};
 use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
@@ -76,11 +76,11 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
         kind: "method",
         within: "scene",
     };
-    let look = Look {
+    let default = DefaultView {
         scatter: Some(scatter),
-        ..Look::default()
+        ..DefaultView::default()
     };
-    page::html(origin, &facts, &table, &look)
+    page::html(origin, &facts, &table, &default)
 }
 
 /// Widths of the columns of the table, characters; negative for left-aligned.

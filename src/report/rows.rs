@@ -2,7 +2,7 @@
 
 use super::Output;
 use super::csv::line;
-use super::decimate::Thinned;
+use super::decimate::Decimated;
 use super::table::Table;
 use crate::error::Error;
 use crate::simulate::{Reactions, Row, RowSink};
@@ -112,7 +112,7 @@ impl RowSink for RowColumns {
 /// Few rows, evenly spread over a run of unknown length, for a table on the terminal.
 #[derive(Debug)]
 pub struct Preview {
-    few: Thinned<Row>,
+    few: Decimated<Row>,
     last: Option<Row>,
 }
 
@@ -122,7 +122,7 @@ const PREVIEW_ROWS: usize = 24;
 impl Default for Preview {
     fn default() -> Preview {
         Preview {
-            few: Thinned::new(PREVIEW_ROWS),
+            few: Decimated::new(PREVIEW_ROWS),
             last: None,
         }
     }

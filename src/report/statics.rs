@@ -3,7 +3,7 @@
 use super::curves::SPACING;
 use super::key_values::{Facts, aligned, fact, given, six, with_error};
 use super::text::{NAMES, extreme, place};
-use super::{Look, Report, Table, View};
+use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::statics::{Calibration, StaticAnalysis, StaticsRow};
@@ -86,26 +86,29 @@ impl Report for StaticsReport<'_> {
         let mut table = Table::new(&format!(
             "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
         ));
-        table.beside = if self.details { 0 } else { 2 };
+        table.plot_only_columns = if self.details { 0 } else { 2 };
         let rows = self.result.rows(self.every);
         rows.for_each(|row| table.push(cells(&row)));
         table
     }
 
     /// Returns the plot of the unknown load with its friction band, and the side thrust.
-    fn look(&self) -> Look<'_> {
-        Look {
+    fn default_view(&self) -> DefaultView<'_> {
+        DefaultView {
             title: &self.result.scene,
             show: &["slider_force", "crank_torque", "side_thrust"],
             has_poles: true,
             scene: Some(self.scene),
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 
     fn figure(&self, view: &View) -> Result<String, Error> {
         let every = SPACING;
-        view.svg(&StaticsReport { every, ..*self }.table(), self.look())
+        view.svg(
+            &StaticsReport { every, ..*self }.table(),
+            self.default_view(),
+        )
     }
 }
 

@@ -27,17 +27,17 @@ pub struct Figure {
 /// Function that reads a figure, by the result it needs.
 #[derive(Clone, Copy)]
 enum Of {
-    Turn(fn(&Kinematics) -> Cell<'_>),
-    Diagrams(fn(&Diagrams) -> Cell<'_>),
-    Motion(fn(&Summary) -> Cell<'_>),
-    Peaks(fn(&Peaks) -> Cell<'_>),
-    Steady(fn(&SteadyState) -> Cell<'_>),
-    Flywheel(fn(&SteadyState) -> Cell<'_>),
+    Turn(fn(&Kinematics) -> FigureValue<'_>),
+    Diagrams(fn(&Diagrams) -> FigureValue<'_>),
+    Motion(fn(&Summary) -> FigureValue<'_>),
+    Peaks(fn(&Peaks) -> FigureValue<'_>),
+    Steady(fn(&SteadyState) -> FigureValue<'_>),
+    Flywheel(fn(&SteadyState) -> FigureValue<'_>),
 }
 
 /// Value of a figure for one design.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell<'a> {
+pub enum FigureValue<'a> {
     /// Number in SI units and radians.
     Number(f64),
     /// Word, for a class or an engine.
@@ -63,22 +63,34 @@ pub enum Source {
     Flywheel,
 }
 
-const fn turn(name: &'static str, quantity: Quantity, of: fn(&Kinematics) -> Cell<'_>) -> Figure {
+const fn turn(
+    name: &'static str,
+    quantity: Quantity,
+    of: fn(&Kinematics) -> FigureValue<'_>,
+) -> Figure {
     let of = Of::Turn(of);
     Figure { name, quantity, of }
 }
 
-const fn diagram(name: &'static str, quantity: Quantity, of: fn(&Diagrams) -> Cell<'_>) -> Figure {
+const fn diagram(
+    name: &'static str,
+    quantity: Quantity,
+    of: fn(&Diagrams) -> FigureValue<'_>,
+) -> Figure {
     let of = Of::Diagrams(of);
     Figure { name, quantity, of }
 }
 
-const fn motion(name: &'static str, quantity: Quantity, of: fn(&Summary) -> Cell<'_>) -> Figure {
+const fn motion(
+    name: &'static str,
+    quantity: Quantity,
+    of: fn(&Summary) -> FigureValue<'_>,
+) -> Figure {
     let of = Of::Motion(of);
     Figure { name, quantity, of }
 }
 
-const fn peak(name: &'static str, of: fn(&Peaks) -> Cell<'_>) -> Figure {
+const fn peak(name: &'static str, of: fn(&Peaks) -> FigureValue<'_>) -> Figure {
     Figure {
         name,
         quantity: Quantity::Force,
@@ -89,18 +101,18 @@ const fn peak(name: &'static str, of: fn(&Peaks) -> Cell<'_>) -> Figure {
 const fn steady(
     name: &'static str,
     quantity: Quantity,
-    of: fn(&SteadyState) -> Cell<'_>,
+    of: fn(&SteadyState) -> FigureValue<'_>,
 ) -> Figure {
     let of = Of::Steady(of);
     Figure { name, quantity, of }
 }
 
-fn some(value: Option<f64>) -> Cell<'static> {
-    value.map_or(Cell::Empty, Cell::Number)
+fn some(value: Option<f64>) -> FigureValue<'static> {
+    value.map_or(FigureValue::Empty, FigureValue::Number)
 }
 
 /// Velocity or acceleration of the slider; empty if the scene has no speed to scale it.
-fn at_speed(turn: &Kinematics, located: Option<Located>) -> Cell<'static> {
+fn at_speed(turn: &Kinematics, located: Option<Located>) -> FigureValue<'static> {
     let moves = turn.speed_rad_per_s.is_some();
     some(located.filter(|_| moves).map(|located| located.value))
 }
@@ -108,7 +120,7 @@ fn at_speed(turn: &Kinematics, located: Option<Located>) -> Cell<'static> {
 impl Figure {
     /// All figures, in the order of the columns.
     pub const ALL: &[Figure] = {
-        use Cell::{Number, Word};
+        use FigureValue::{Number, Word};
         use Quantity::{
             Acceleration, Angle, AngularSpeed, Energy, Inertia, Length, Power, Pressure, Time,
             Torque, Velocity,
@@ -232,7 +244,7 @@ impl Figure {
     }
 
     /// Returns the value for a design.
-    pub fn cell<'a>(&self, design: &'a Design) -> Cell<'a> {
+    pub fn cell<'a>(&self, design: &'a Design) -> FigureValue<'a> {
         let motion = design.motion.as_ref();
         let cell = match self.of {
             Of::Turn(cell) => design.kinematics.as_ref().map(cell),
@@ -241,14 +253,14 @@ impl Figure {
             Of::Peaks(cell) => motion.and_then(|run| run.peaks.as_ref()).map(cell),
             Of::Steady(cell) | Of::Flywheel(cell) => design.steady.as_ref().map(cell),
         };
-        cell.unwrap_or(Cell::Empty)
+        cell.unwrap_or(FigureValue::Empty)
     }
 
     /// Returns the number for a design, in SI units and radians; none for a word or an absent value.
     pub fn number(&self, design: &Design) -> Option<f64> {
         match self.cell(design) {
-            Cell::Number(number) => Some(number),
-            Cell::Word(_) | Cell::Empty => None,
+            FigureValue::Number(number) => Some(number),
+            FigureValue::Word(_) | FigureValue::Empty => None,
         }
     }
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::key_values::{Facts, fact, six};
 use super::quantity::{Quantity, split};
 use super::table::Table;
-use super::{Look, Report};
+use super::{DefaultView, Report};
 use crate::error::Error;
 pub use motion::Motion;
 use motion::TIME;
@@ -159,8 +159,8 @@ impl Report for Comparison {
     }
 
     /// Returns the plot of position and speed of crank and slider.
-    fn look(&self) -> Look<'_> {
-        Look {
+    fn default_view(&self) -> DefaultView<'_> {
+        DefaultView {
             title: &self.title,
             show: &[
                 "theta_of",
@@ -174,7 +174,7 @@ impl Report for Comparison {
             ],
             over: "t",
             columns: 2,
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 }

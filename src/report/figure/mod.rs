@@ -26,7 +26,7 @@ enum SeriesStyle {
 #[derive(Clone, Debug, PartialEq)]
 struct Series {
     label: String,
-    look: SeriesStyle,
+    style: SeriesStyle,
     points: Vec<(f64, f64, f64)>,
     /// Index of colour and marker, one per label.
     colour: usize,
@@ -106,9 +106,9 @@ impl Figure {
         self.with(label, SeriesStyle::VerticalMark, vec![(x, f64::NAN)])
     }
 
-    fn with(self, label: impl Into<String>, look: SeriesStyle, points: Vec<(f64, f64)>) -> Figure {
+    fn with(self, label: impl Into<String>, style: SeriesStyle, points: Vec<(f64, f64)>) -> Figure {
         let points = points.into_iter().map(|(x, y)| (x, y, y));
-        self.push(label.into(), look, points.collect())
+        self.push(label.into(), style, points.collect())
     }
 
     /// Adds the area between `low` and `high` of points (x, low, high).
@@ -116,21 +116,21 @@ impl Figure {
         self.push(label.into(), SeriesStyle::Band, points)
     }
 
-    fn push(mut self, label: String, look: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
+    fn push(mut self, label: String, style: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
         let next = |numbers: &mut dyn Iterator<Item = usize>| numbers.max().map_or(0, |n| n + 1);
         let coloured = || {
             self.series
                 .iter()
-                .filter(|s| s.look != SeriesStyle::VerticalMark)
+                .filter(|s| s.style != SeriesStyle::VerticalMark)
         };
         let known = coloured().find(|s| !label.is_empty() && s.label == label);
         let colour = known.map_or_else(|| next(&mut coloured().map(|s| s.colour)), |s| s.colour);
-        let alike = || self.series.iter().filter(|s| s.look == look);
+        let alike = || self.series.iter().filter(|s| s.style == style);
         let known = alike().find(|s| s.colour == colour);
         let stroke = known.map_or_else(|| next(&mut alike().map(|s| s.stroke)), |s| s.stroke);
         self.series.push(Series {
             label,
-            look,
+            style,
             points,
             colour,
             stroke,
@@ -150,7 +150,7 @@ impl Figure {
     fn values(&self, of: impl Fn((f64, f64, f64)) -> [f64; 2]) -> impl Iterator<Item = f64> {
         let seen = |series: &Series, (x, low, high): (f64, f64, f64)| {
             let shown = self.y.shows(low) || self.y.shows(high);
-            self.x.shows(x) && (shown || series.look == SeriesStyle::VerticalMark)
+            self.x.shows(x) && (shown || series.style == SeriesStyle::VerticalMark)
         };
         let all = self.series.iter();
         let points = all.flat_map(move |series| {

@@ -184,7 +184,7 @@ fn draw(
 ) {
     let points = series.points.iter();
     let positions = points.map(|&(a, b, _)| (x.position(a), y.position(b)));
-    match (layer, series.look) {
+    match (layer, series.style) {
         (0, SeriesStyle::Band) => {
             let edges: Vec<_> = series
                 .points

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::super::key_values::{Facts, fact, six};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
+use crate::report::key_values::{Facts, fact, six};
 
 /// Number of lines of the whole text, to fit a screen.
 const TEXT_LINES: usize = 40;

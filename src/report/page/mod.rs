@@ -3,9 +3,9 @@
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
+use super::default_view::{DefaultView, Scatter};
 use super::drawing::Drawing;
 use super::key_values::Facts;
-use super::look::{Look, Scatter};
 use super::table::{Shown, Table};
 use crate::error::Error;
 use crate::simulate::Event;
@@ -89,7 +89,7 @@ pub(super) fn html(
     origin: &Origin,
     facts: &Facts,
     table: &Table,
-    look: &Look<'_>,
+    default: &DefaultView<'_>,
 ) -> Result<String, Error> {
     let (titles, facts): (Vec<_>, Vec<_>) = facts.iter().partition(|(name, _)| *name == "scene");
     let mut notes = Vec::new();
@@ -98,7 +98,7 @@ pub(super) fn html(
     }
     let mut terms: Vec<[String; 3]> = Vec::new();
     let mut events: &[Event] = &[];
-    if let Some(run) = look.run {
+    if let Some(run) = default.run {
         let plan = &run.plan;
         for (what, of) in [("kept", &plan.kept), ("left out", &plan.left_out)] {
             terms.extend(of.iter().map(|term| {
@@ -117,11 +117,11 @@ pub(super) fn html(
     }
     let data = Data {
         columns: table.shown(),
-        drawing: look.scene.map(Drawing::of),
+        drawing: default.scene.map(Drawing::of),
         events: events.iter().map(Mark::of).collect(),
-        band: look.band,
-        poles: look.has_poles,
-        scatter: &look.scatter,
+        band: default.band,
+        poles: default.has_poles,
+        scatter: &default.scatter,
     };
     // Only the end tag has a meaning inside a script element; JSON can escape it.
     let data = serde_json::to_string(&data)
@@ -139,9 +139,9 @@ pub(super) fn html(
         command => &origin.command,
         events => Value::from_serialize(&listed),
         events_left => events.len().saturating_sub(LISTED),
-        figures => Value::from_serialize(&look.figures),
-        has_scatter => look.scatter.is_some(),
-        has_motion => look.scene.is_some(),
+        figures => Value::from_serialize(&default.figures),
+        has_scatter => default.scatter.is_some(),
+        has_motion => default.scene.is_some(),
         style => Value::from_safe_string(STYLE.to_owned()),
         scripts => Value::from_safe_string(SCRIPTS.join("\n")),
         plot_style,

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::super::key_values::{Facts, aligned, fact, six};
-use super::super::look::{Look, Scatter};
-use super::super::page::{self, Origin};
-use super::super::table::Table;
 use crate::error::Error;
+use crate::report::default_view::{DefaultView, Scatter};
+use crate::report::key_values::{Facts, aligned, fact, six};
+use crate::report::page::{self, Origin};
+use crate::report::table::Table;
 
 /// Summary of a sweep.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -163,11 +163,11 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
         kind: "status",
         ..Scatter::default()
     };
-    let look = Look {
+    let default = DefaultView {
         scatter: Some(scatter),
-        ..Look::default()
+        ..DefaultView::default()
     };
-    page::html(origin, &facts, table, &look)
+    page::html(origin, &facts, table, &default)
 }
 
 fn facts(summary: &SweepSummary) -> Facts {
