@@ -136,9 +136,8 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
 
 /// Returns the canonical path of a file that may not exist yet.
 fn place(path: &Path) -> PathBuf {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path.parent();
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
     let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
     let new = || Some(folder.ok()?.join(path.file_name()?));
     std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
@@ -149,10 +148,8 @@ pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Resul
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
     };
-    if written
-        .iter()
-        .any(|known| ending.eq_ignore_ascii_case(known))
-    {
+    let is_known = |known: &&str| ending.eq_ignore_ascii_case(known);
+    if written.iter().any(is_known) {
         return Ok(());
     }
     let (shown, format) = (path.display(), written[0]);
@@ -168,6 +165,17 @@ pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Resul
 /// Whether a path stands for standard input or output.
 pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| report::is_standard_output(path))
+}
+
+/// Refuses scene and data that are both read from standard input.
+pub(super) fn check_inputs(scene: Option<&PathBuf>, data: Option<&PathBuf>) -> Result<(), Error> {
+    if is_standard(scene) && is_standard(data) {
+        return Err(Error::refused(
+            "scene and data cannot both come from standard input",
+            "give one of them as a file",
+        ));
+    }
+    Ok(())
 }
 
 /// Opens an optional output, `-` for standard output.

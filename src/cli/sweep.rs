@@ -83,11 +83,6 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    fn sample(&self) -> Option<LatinHypercube> {
-        let seed = self.seed;
-        self.sample.map(|count| LatinHypercube { count, seed })
-    }
-
     fn goals(&self) -> Vec<Goal> {
         let least = self.least.iter().copied().map(Goal::least);
         let most = self.most.iter().copied().map(Goal::most);
@@ -128,10 +123,11 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         max_evaluations: arguments.max_evaluations,
         stop: Some(stop.of_one()),
     };
+    let (sample, seed) = (arguments.sample, arguments.seed);
     let has_steady = arguments.steady_state || arguments.fluctuation.is_some();
     let options = SweepOptions {
         figures: arguments.figures(),
-        sample: arguments.sample(),
+        sample: sample.map(|count| LatinHypercube { count, seed }),
         diagrams: false,
         motion: !arguments.no_motion,
         reactions: arguments.reactions,

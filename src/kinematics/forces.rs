@@ -193,9 +193,8 @@ impl ForceAnalysis {
         angles.extend(&rows);
         angles.sort_by(f64::total_cmp);
         let slope = |theta: f64| difference::slope(torque, theta, 1e-3);
-        let tops = angles
-            .windows(2)
-            .filter_map(|w| root::bracketed(slope, w[0], w[1]));
+        let top = |w: &[f64]| root::bracketed(slope, w[0], w[1]);
+        let tops = angles.windows(2).filter_map(top);
         let located = tops.chain([from, to]).chain(rows).chain(seam);
         located
             .map(|theta| Located {

@@ -68,9 +68,8 @@ impl ForceAnalysis {
         }
         let next = crossings.iter().skip(1).copied();
         // The last area ends in the next cycle.
-        let first = crossings
-            .first()
-            .map(|(to, energy)| (to + self.whole(), energy + stored));
+        let first = crossings.first();
+        let first = first.map(|(to, energy)| (to + self.whole(), energy + stored));
         let areas = crossings.iter().zip(next.chain(first));
         let energies = || crossings.iter().map(|(_, energy)| *energy);
         TurningMoment {

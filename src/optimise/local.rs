@@ -9,8 +9,8 @@ use super::evaluator::{Candidate, Evaluator};
 /// Final trust-region radius of a search, in parts of the ranges between the bounds.
 const LAST_STEP: f64 = 1e-10;
 
-/// Safety margin to each limit, in scales of the figure: ten times `LAST_STEP`, for ends of searches to meet limits.
-const KEPT_FROM_LIMITS: f64 = 1e-9;
+/// Safety margin to each limit, in scales of the figure, for ends of searches to meet limits.
+const KEPT_FROM_LIMITS: f64 = 10.0 * LAST_STEP;
 
 /// Maximum number of designs of a search per key; COBYLA needs a few dozen where no valley is curved.
 const DESIGNS: usize = 300;

@@ -48,9 +48,8 @@ pub(super) fn run(
     let mut sorted = evaluator.calibrate(explored);
     sorted.sort_by(Candidate::order);
     let computed = sorted.iter().filter(|one| one.objective.is_some());
-    let worst = computed
-        .map(|one| evaluator.scaled_objective(one, 0.0))
-        .fold(f64::NEG_INFINITY, f64::max);
+    let scaled = computed.map(|one| evaluator.scaled_objective(one, 0.0));
+    let worst = scaled.fold(f64::NEG_INFINITY, f64::max);
     let evaluator = &*evaluator;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
         search(evaluator, from, FIRST_STEP, worst)

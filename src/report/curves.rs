@@ -54,27 +54,21 @@ impl View {
         }
         if self.show.is_empty() {
             // Default columns may be missing from the rows.
-            let found = default
-                .show
-                .iter()
-                .filter_map(|text| curves(&names, text).ok());
+            let found = default.show.iter();
+            let found = found.filter_map(|text| curves(&names, text).ok());
             chosen.extend(found.flatten());
         }
         let mut panels: Vec<Vec<Curve>> = Vec::new();
         for curve in chosen {
             let key = |curve: &Curve| (curve.quantity.group.clone(), curve.quantity.unit.clone());
-            match panels
-                .iter_mut()
-                .find(|panel| key(&panel[0]) == key(&curve))
-            {
+            let alike = |panel: &&mut Vec<Curve>| key(&panel[0]) == key(&curve);
+            match panels.iter_mut().find(alike) {
                 Some(panel) => panel.push(curve),
                 None => panels.push(vec![curve]),
             }
         }
-        let panels = panels
-            .iter()
-            .map(|curves| panel(table, &over, curves, &default));
-        let mut figures: Vec<Figure> = panels.collect();
+        let drawn = |curves: &Vec<Curve>| panel(table, &over, curves, &default);
+        let mut figures: Vec<Figure> = panels.iter().map(drawn).collect();
         let columns = if figures.len() > 3 {
             default.columns
         } else {

@@ -102,9 +102,8 @@ impl Report for RunReport<'_> {
         let mut table = Table::new(&rows.first().map_or(String::new(), columns));
         table.stride = self.plot.rows.stride();
         for row in &rows {
-            let [kinetic, potential] = energies
-                .as_ref()
-                .map_or([f64::NAN; 2], |energies| energies.at(row));
+            let energies = energies.as_ref().map(|energies| energies.at(row));
+            let [kinetic, potential] = energies.unwrap_or([f64::NAN; 2]);
             let mut cells = cells(row);
             cells.extend([kinetic, potential, kinetic + potential]);
             cells.extend(row.clearance.map(|joint| row.x - joint.ideal[0]));

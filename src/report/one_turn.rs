@@ -218,18 +218,12 @@ fn forces(facts: &mut Facts, result: &OneTurn) {
     let masses = &analysis.masses;
     let [rotating, reciprocating] = [masses.rotating_kg, masses.reciprocating_kg].map(six);
     fact!(facts, "rotating mass", "{rotating} kg at the crank pin");
-    fact!(
-        facts,
-        "reciprocating mass",
-        "{reciprocating} kg at the wrist pin"
-    );
+    let text = format!("{reciprocating} kg at the wrist pin");
+    facts.add("reciprocating mass", text);
     let turns = analysis.cycle_turns;
     if turns > 1 {
-        fact!(
-            facts,
-            "forces",
-            "over {turns} turns, the cycle of the loads"
-        );
+        let text = format!("over {turns} turns, the cycle of the loads");
+        facts.add("forces", text);
     }
     for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
         if let Some(StrokeTorque { max, min }) = stroke {

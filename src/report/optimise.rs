@@ -8,8 +8,7 @@ use crate::optimise::{AGREEMENT, EvaluatedConstraint, FinalSweeps, Optimum, Opti
 /// Returns the best design, its limits, agreement of the searches and final sweeps, as text.
 pub fn optimum(found: &Optimum) -> String {
     let mut facts = Facts::of(&found.scene);
-    let value = shown(&found.figure, found.value);
-    fact!(facts, found.sense, "{value}");
+    facts.add(found.sense, shown(&found.figure, found.value));
     for one in &found.values {
         facts.add(&one.key, varied(one));
     }
@@ -94,23 +93,23 @@ fn proof(found: &Optimum) -> String {
 
 /// Returns one CSV row per local search.
 pub fn starts_csv(found: &Optimum) -> String {
-    let of = |prefix: &'static str| {
+    let columns = |prefix: &str| -> String {
         let values = found.values.iter();
-        values.map(move |one| format!("{prefix}{}", one.column))
+        values
+            .map(|one| format!("{prefix}{},", one.column))
+            .collect()
     };
-    let last = [&found.figure, "meets_subjects", "agrees", "designs"].map(str::to_owned);
-    let header = ["search".to_owned()].into_iter().chain(of("start_"));
-    let header: Vec<String> = header.chain(of("")).chain(last).collect();
+    let (starts, ends, figure) = (columns("start_"), columns(""), &found.figure);
+    let header = format!("search,{starts}{ends}{figure},meets_subjects,agrees,designs");
     let rows = found.starts.iter().zip(1u32..).map(|(start, number)| {
-        let [meets, agrees] = [start.meets_subjects, start.agrees].map(u8::from);
-        let values = start.from.iter().chain(&start.to);
-        let mut cells = vec![CsvCell::from(f64::from(number))];
-        cells.extend(values.map(|value| CsvCell::from(*value)));
+        let [meets, agrees] =
+            [start.meets_subjects, start.agrees].map(|is| f64::from(u8::from(is)));
+        let values = start.from.iter().chain(&start.to).copied();
+        let values = [f64::from(number)].into_iter().chain(values);
+        let mut cells: Vec<CsvCell> = values.map(CsvCell::from).collect();
         cells.push(start.value.into());
-        cells.extend([meets, agrees].map(|flag| CsvCell::from(f64::from(flag))));
-        cells.push(CsvCell::from(start.designs as f64));
+        cells.extend([meets, agrees, start.designs as f64].map(CsvCell::from));
         cells
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     csv::text(&header, rows)
 }

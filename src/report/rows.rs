@@ -21,11 +21,8 @@ pub(super) const ROWS_KEPT: usize = 100_000;
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
     let joints = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
     let rest = [forces.guide].into_iter().chain(forces.shaking);
-    joints
-        .into_iter()
-        .flatten()
-        .chain(rest)
-        .chain([forces.shaking_moment])
+    let joints = joints.into_iter().flatten();
+    joints.chain(rest).chain([forces.shaking_moment])
 }
 
 /// Writer of the rows of `simulate` as CSV.

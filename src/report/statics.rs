@@ -22,19 +22,11 @@ pub struct StaticsReport<'a> {
 }
 
 impl StaticsReport<'_> {
-    /// Returns the name of the unknown load, its unit, and its columns.
-    fn sought(&self) -> (&'static str, &'static str, &'static str) {
+    /// Returns name and unit of the unknown load.
+    fn sought(&self) -> (&'static str, &'static str) {
         match self.result.sought {
-            "crank-torque" => (
-                "crank torque",
-                "N m",
-                "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
-            ),
-            _ => (
-                "slider force",
-                "N",
-                "slider_force_n,slider_force_min_n,slider_force_max_n",
-            ),
+            "crank-torque" => ("crank torque", "N m"),
+            _ => ("slider force", "N"),
         }
     }
 }
@@ -42,7 +34,7 @@ impl StaticsReport<'_> {
 impl Report for StaticsReport<'_> {
     fn facts(&self) -> Facts {
         let result = self.result;
-        let (what, unit, _) = self.sought();
+        let (what, unit) = self.sought();
         let mut facts = Facts::of(&result.scene);
         facts.add("class", result.class);
         fact!(facts, "sought", "{what} beside the other loads");
@@ -63,7 +55,7 @@ impl Report for StaticsReport<'_> {
     /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
         const WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
-        let (what, unit, _) = self.sought();
+        let (what, unit) = self.sought();
         let sought = format!("{what} [{unit}]");
         let [thrust, transmission] = ["side thrust [N]", "transmission [deg]"];
         let header = ["theta [deg]", &sought, "from", "to", thrust, transmission];
@@ -82,7 +74,10 @@ impl Report for StaticsReport<'_> {
     }
 
     fn table(&self) -> Table {
-        let (.., sought) = self.sought();
+        let sought = match self.result.sought {
+            "crank-torque" => "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
+            _ => "slider_force_n,slider_force_min_n,slider_force_max_n",
+        };
         let mut table = Table::new(&format!(
             "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
         ));

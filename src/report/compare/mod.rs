@@ -61,12 +61,9 @@ impl Comparison {
             ));
         };
         let times = first.times();
-        let shared = |name: &&str| {
-            *name != TIME
-                && others
-                    .iter()
-                    .all(|other| other.table.numbers(name).is_some())
-        };
+        let has = |other: &Motion, name: &str| other.table.numbers(name).is_some();
+        let all_have = |name: &str| others.iter().all(|other| has(other, name));
+        let shared = |name: &&str| *name != TIME && all_have(name);
         let columns: Vec<&str> = first.table.names().filter(shared).collect();
         let mut names = TIME.to_owned();
         let mut values = vec![times.to_vec()];
@@ -82,10 +79,9 @@ impl Comparison {
                 let mut off: Vec<f64> = theirs.iter().zip(own).map(|(b, a)| b - a).collect();
                 if unit == "_rad" {
                     let turns = whole_turns(&off);
-                    theirs
-                        .iter_mut()
-                        .chain(&mut off)
-                        .for_each(|value| *value -= turns);
+                    for value in theirs.iter_mut().chain(&mut off) {
+                        *value -= turns;
+                    }
                 }
                 let _ = write!(
                     names,

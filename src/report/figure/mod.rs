@@ -11,6 +11,9 @@ use crate::error::Error;
 pub use axis::Axis;
 pub(super) use words::escaped;
 
+/// Pixels of a figure per inch.
+pub(super) const PIXELS_PER_INCH: f64 = 96.0;
+
 /// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SeriesStyle {
@@ -118,11 +121,8 @@ impl Figure {
 
     fn push(mut self, label: String, style: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
         let next = |numbers: &mut dyn Iterator<Item = usize>| numbers.max().map_or(0, |n| n + 1);
-        let coloured = || {
-            self.series
-                .iter()
-                .filter(|s| s.style != SeriesStyle::VerticalMark)
-        };
+        let is_coloured = |s: &&Series| s.style != SeriesStyle::VerticalMark;
+        let coloured = || self.series.iter().filter(is_coloured);
         let known = coloured().find(|s| !label.is_empty() && s.label == label);
         let colour = known.map_or_else(|| next(&mut coloured().map(|s| s.colour)), |s| s.colour);
         let alike = || self.series.iter().filter(|s| s.style == style);

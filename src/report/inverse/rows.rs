@@ -43,11 +43,8 @@ impl Report for InverseReport<'_> {
         table.stride = result.rows.len().div_ceil(ROWS_KEPT).max(1) as u64;
         let rows = result.rows.iter().zip(&result.residuals);
         for (row, sample) in rows.step_by(table.stride as usize) {
-            table.push(
-                values(row)
-                    .into_iter()
-                    .chain([sample.measured, sample.residual]),
-            );
+            let measured = [sample.measured, sample.residual];
+            table.push(values(row).into_iter().chain(measured));
         }
         table
     }

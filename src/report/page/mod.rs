@@ -60,17 +60,6 @@ struct Mark {
     omega: Option<f64>,
 }
 
-impl Mark {
-    fn of(event: &Event) -> Mark {
-        Mark {
-            kind: event.kind,
-            t: event.t_s,
-            theta: event.theta_rad,
-            omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
-        }
-    }
-}
-
 /// Returns the cells of an event in the list.
 fn listed(event: &Event) -> [String; 4] {
     let shown = |value: f64| match value.is_finite() {
@@ -101,13 +90,10 @@ pub(super) fn html(
     if let Some(run) = default.run {
         let plan = &run.plan;
         for (what, of) in [("kept", &plan.kept), ("left out", &plan.left_out)] {
-            terms.extend(of.iter().map(|term| {
-                [
-                    term.name.to_string(),
-                    what.to_owned(),
-                    term.reason.to_string(),
-                ]
-            }));
+            for term in of {
+                let (name, reason) = (term.name.to_string(), term.reason.to_string());
+                terms.push([name, what.to_owned(), reason]);
+            }
         }
         events = &run.events;
         let (listed, total) = (events.len(), run.events_total);
@@ -115,18 +101,23 @@ pub(super) fn html(
             notes.push(format!("The first {listed} of {total} events are listed."));
         }
     }
+    let mark = |event: &Event| Mark {
+        kind: event.kind,
+        t: event.t_s,
+        theta: event.theta_rad,
+        omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
+    };
     let data = Data {
         columns: table.shown(),
         drawing: default.scene.map(Drawing::of),
-        events: events.iter().map(Mark::of).collect(),
+        events: events.iter().map(mark).collect(),
         band: default.band,
         poles: default.has_poles,
         scatter: &default.scatter,
     };
     // Only the end tag has a meaning inside a script element; JSON can escape it.
-    let data = serde_json::to_string(&data)
-        .map_err(|error| failed(error.into()))?
-        .replace('<', "\\u003c");
+    let data = serde_json::to_string(&data).map_err(|error| failed(error.into()))?;
+    let data = data.replace('<', "\\u003c");
     let listed: Vec<_> = events.iter().take(LISTED).map(listed).collect();
     let [plot_style, plot_script] = PLOTS.map(|text| Value::from_safe_string(text.to_owned()));
     let page = context! {
@@ -150,9 +141,8 @@ pub(super) fn html(
     };
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment
-        .render_str(TEMPLATE, page)
-        .map_err(|error| failed(error.into()))
+    let page = environment.render_str(TEMPLATE, page);
+    page.map_err(|error| failed(error.into()))
 }
 
 fn failed(source: Box<dyn std::error::Error + Send + Sync>) -> Error {

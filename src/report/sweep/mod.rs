@@ -78,11 +78,8 @@ impl<'a> SweepWriter<'a> {
     ) -> Result<SweepWriter<'a>, Error> {
         let mut shown = asked.kept.map(Decimated::new);
         let header = header(sweep);
-        let mut tally = Tally::new(
-            &header,
-            asked.percentiles || sweep.sample().is_some(),
-            &asked.goals,
-        )?;
+        let percentiles = asked.percentiles || sweep.sample().is_some();
+        let mut tally = Tally::new(&header, percentiles, &asked.goals)?;
         let names: Vec<CsvCell> = header.iter().map(|name| CsvCell::from(&**name)).collect();
         let header = if part == 1 { line(&names) } else { Vec::new() };
         let range = sweep.part(part, parts)?;
@@ -95,12 +92,8 @@ impl<'a> SweepWriter<'a> {
                 Target::Stream(output)
             }
             Some(path) => {
-                let mark = format!(
-                    "sweep {:016x} {}..{}",
-                    sweep.identity(),
-                    range.start,
-                    range.end
-                );
+                let (identity, Range { start, end }) = (sweep.identity(), &range);
+                let mark = format!("sweep {identity:016x} {start}..{end}");
                 let mut last = String::new();
                 let file = ResumableFile::open(path, &mark, &header, |row| {
                     let found = csv::read(row)?;
@@ -175,9 +168,8 @@ impl<'a> SweepWriter<'a> {
             Target::Stream(output) => output.finish()?,
             Target::File(file) => file.finish()?,
         }
-        Ok(self
-            .tally
-            .summary(self.sweep, &self.range, self.kept, wall_s))
+        let (sweep, kept) = (self.sweep, self.kept);
+        Ok(self.tally.summary(sweep, &self.range, kept, wall_s))
     }
 }
 
@@ -197,7 +189,7 @@ fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
     }
     cells.push(design.outcome.name().into());
     let figures = sweep.figures().iter();
-    cells.extend(figures.map(|figure| match figure.cell(design) {
+    cells.extend(figures.map(|figure| match figure.value(design) {
         sweep::FigureValue::Number(number) => number.into(),
         sweep::FigureValue::Word(word) => word.into(),
         sweep::FigureValue::Empty => CsvCell::EMPTY,

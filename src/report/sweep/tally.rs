@@ -75,10 +75,7 @@ impl Tally {
         };
         let design = design as usize;
         self.rows += 1;
-        match self.status.get_mut(status.as_ref()) {
-            Some(count) => *count += 1,
-            None => drop(self.status.insert(status.clone().into_owned(), 1)),
-        }
+        *self.status.entry(status.to_string()).or_default() += 1;
         let figures = cells.iter().zip(&mut self.columns).skip(self.before);
         for (cell, column) in figures {
             if let Some(value) = cell.number() {
