@@ -3,7 +3,7 @@
 use super::csv::{self, CsvCell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
-use crate::optimise::{AGREEMENT, EvaluatedConstraint, FinalSweeps, Optimum, OptimumValue};
+use crate::optimise::{AGREEMENT, EvaluatedConstraint, Optimum, OptimumValue};
 
 /// Returns the best design, its limits, agreement of the searches and final sweeps, as text.
 pub fn optimum(found: &Optimum) -> String {
@@ -59,35 +59,23 @@ fn subject(one: &EvaluatedConstraint) -> String {
         (true, true) => ", reached",
         (true, false) => "",
     };
-    format!(
-        "{} {}{how}",
-        shown(&one.figure, one.value),
-        limit.trim_end()
-    )
+    let figure = shown(&one.figure, one.value);
+    format!("{figure} {}{how}", limit.trim_end())
 }
 
 fn proof(found: &Optimum) -> String {
-    let FinalSweeps {
-        is_complete,
-        half_widths,
-        designs_each,
-        improvements,
-    } = &found.proof;
     if found.interrupted {
         return "none: the search was interrupted".to_owned();
     }
-    let widths = half_widths.iter().map(|width| six(width * 100.0));
+    let (sweeps, of) = (&found.proof, Quantity::of(&found.figure));
+    let widths = sweeps.half_widths.iter().map(|width| six(width * 100.0));
     let widths = widths.collect::<Vec<_>>().join(", ");
-    let sweeps = format!("of {designs_each} designs each within {widths} % of the ranges");
-    let resolution = Quantity::of(&found.figure);
-    let resolution = format!(
-        "{:.1e} {}",
-        found.resolution * resolution.factor,
-        resolution.unit
-    );
-    match is_complete {
-        true => format!("{sweeps} none is better by {}", resolution.trim_end()),
-        false => format!("none: {sweeps} some are still better after {improvements} improvements"),
+    let (each, improvements) = (sweeps.designs_each, sweeps.improvements);
+    let boxes = format!("of {each} designs each within {widths} % of the ranges");
+    let resolution = format!("{:.1e} {}", found.resolution * of.factor, of.unit);
+    match sweeps.is_complete {
+        true => format!("{boxes} none is better by {}", resolution.trim_end()),
+        false => format!("none: {boxes} some are still better after {improvements} improvements"),
     }
 }
 

@@ -44,8 +44,12 @@ impl Table {
             name: name.to_owned(),
             cells: Cells::Numbers(Vec::new(), None),
         };
+        Table::of_columns(header.split(',').map(column).collect())
+    }
+
+    fn of_columns(columns: Vec<Column>) -> Table {
         Table {
-            columns: header.split(',').map(column).collect(),
+            columns,
             stride: 1,
             plot_only_columns: 0,
         }
@@ -73,11 +77,7 @@ impl Table {
             name: name.as_ref().to_owned(),
             cells: Cells::of(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
         };
-        Table {
-            columns: header.par_iter().enumerate().map(column).collect(),
-            stride: 1,
-            plot_only_columns: 0,
-        }
+        Table::of_columns(header.par_iter().enumerate().map(column).collect())
     }
 
     /// Returns the numbers of a column, in SI units or the unit of its texts; none for texts or an unknown column.

@@ -136,11 +136,8 @@ impl Report for Comparison {
                 2 => quantity.label.clone(),
                 _ => format!("{} {}", found.motion, quantity.label),
             };
-            fact!(
-                facts,
-                name,
-                "differs by at most {largest} {unit} at {at} s, rms {rms}, at last {last}"
-            );
+            let most = format!("differs by at most {largest} {unit} at {at} s");
+            fact!(facts, name, "{most}, rms {rms}, at last {last}");
         }
         facts.warnings(&self.warnings);
         facts
