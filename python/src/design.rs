@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use pyo3::prelude::*;
 use slider_crank::kinematics::{Choice, synthesis as lengths};
-use slider_crank::optimise::{Asked, optimise as search};
+use slider_crank::optimise::{Problem, optimise as search};
 use slider_crank::report;
 use slider_crank::scene::Varied;
 use slider_crank::scene::unit::Quantity;
@@ -41,11 +41,8 @@ impl Wanted {
     fn goal(&self) -> PyResult<Goal> {
         let (least, most) = (parsed(&self.least)?, parsed(&self.most)?);
         match (&least[..], &most[..]) {
-            (&[figure], []) => Ok(Goal {
-                figure,
-                most: false,
-            }),
-            ([], &[figure]) => Ok(Goal { figure, most: true }),
+            (&[figure], []) => Ok(Goal::least(figure)),
+            ([], &[figure]) => Ok(Goal::most(figure)),
             _ => Err(refused(
                 "there is one goal",
                 "give least or most, the name of a key figure",
@@ -70,9 +67,9 @@ pub fn optimise(py: Python<'_>, scene: Py<Scene>, wanted: Wanted) -> PyResult<(S
     let this = scene.get();
     this.only_text("optimise").map_err(raised)?;
     let varied: Vec<Varied> = parsed(&wanted.vary)?;
-    let asked = Asked {
+    let problem = Problem {
         goal: wanted.goal()?,
-        subjects: parsed(&wanted.subject)?,
+        constraints: parsed(&wanted.subject)?,
         seed: wanted.seed,
     };
     let options = wanted.options()?;
@@ -87,7 +84,7 @@ pub fn optimise(py: Python<'_>, scene: Py<Scene>, wanted: Wanted) -> PyResult<(S
             stop: Some(call.stop.clone()),
             ..options
         };
-        search(this.draft.clone(), varied.clone(), &asked, options)
+        search(this.draft.clone(), varied.clone(), &problem, options)
     })?;
     let values = varied.iter().zip(&found.values);
     let values = values.map(|(varied, value)| (varied, value.text.as_str()));

@@ -5,7 +5,9 @@ use std::time::Instant;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::error::Error;
-use slider_crank::report::{self, MOST_ON_PAGE, SweepAsked, SweepSummary, SweepWriter, Table};
+use slider_crank::report::{
+    self, MOST_ON_PAGE, SweepSummary, SweepSummaryOptions, SweepWriter, Table,
+};
 use slider_crank::scene::Varied;
 use slider_crank::simulate::SteadyOptions;
 use slider_crank::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
@@ -20,7 +22,7 @@ use crate::scene::{Scene, method_of};
 #[pyclass(frozen)]
 pub struct Designs {
     sweep: Sweep,
-    rows: SweepAsked,
+    rows: SweepSummaryOptions,
     summary: SweepSummary,
     scene: Py<Scene>,
 }
@@ -47,10 +49,9 @@ pub struct Asked {
 
 impl Asked {
     fn goals(&self) -> PyResult<Vec<Goal>> {
-        let goal = |most| move |figure| Goal { figure, most };
-        let mut goals: Vec<Goal> = parsed(&self.least)?.into_iter().map(goal(false)).collect();
-        goals.extend(parsed(&self.most)?.into_iter().map(goal(true)));
-        Ok(goals)
+        let least = parsed(&self.least)?.into_iter().map(Goal::least);
+        let most = parsed(&self.most)?.into_iter().map(Goal::most);
+        Ok(least.chain(most).collect())
     }
 
     /// But for the request to stop.
@@ -86,7 +87,10 @@ impl Asked {
 }
 
 /// Computes all designs: columns, and what they range over.
-fn computed(sweep: &Sweep, asked: &SweepAsked) -> Result<(Option<Table>, SweepSummary), Error> {
+fn computed(
+    sweep: &Sweep,
+    asked: &SweepSummaryOptions,
+) -> Result<(Option<Table>, SweepSummary), Error> {
     let begun = Instant::now();
     let mut writer = SweepWriter::new(None, sweep, [1, 1], asked)?;
     sweep.designs(writer.missing(), |designs| writer.take(&designs))?;
@@ -109,7 +113,7 @@ pub fn sweep<'py>(
     }
     let goals = asked.goals()?;
     let options = asked.options(&goals)?;
-    let rows = SweepAsked {
+    let rows = SweepSummaryOptions {
         goals,
         percentiles: asked.percentiles,
         kept: Some(usize::MAX),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, check_ending};
+use super::streams::{Outcome, Streams, check_extension};
 use super::values::angle;
 use super::watch::print;
 use crate::error::Error;
@@ -39,14 +39,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    check_ending(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
-    let streams = Streams::new(
-        &[arguments.scene.as_ref()],
-        Some(&arguments.out),
-        &[],
-        false,
-    )?;
-    let scene = streams.scene(arguments.scene.as_ref())?;
+    check_extension(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
+    let read = arguments.scene.as_ref();
+    let scene = Streams::new(&[read], Some(&arguments.out), &[], false)?.scene(read)?;
     let ending = arguments.out.extension().unwrap_or_default();
     match ending.to_ascii_lowercase().to_str() {
         Some("gif") => animate(arguments, &scene),
@@ -72,21 +67,15 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<Outcome, Error> {
     let last = rows.len().saturating_sub(1);
     let frame = |k: usize| {
         let row = &rows[k * last / (count - 1).max(1)];
-        let pose = Pose {
-            theta: row.theta,
-            x: row.x,
-        };
-        let degrees = row.theta.to_degrees();
-        (
-            pose,
-            format!("t = {:.4} s, theta = {degrees:.1} deg", row.t),
-        )
+        let Row { t, theta, x, .. } = *row;
+        let degrees = theta.to_degrees();
+        let note = format!("t = {t:.4} s, theta = {degrees:.1} deg");
+        (Pose { theta, x }, note)
     };
     let frames: Vec<_> = (0..count).map(frame).collect();
     // Browsers show a frame for at least 0.02 s.
-    let hundredths = (100.0 * arguments.seconds / count.max(1) as f64)
-        .round()
-        .max(2.0) as u16;
+    let hundredths = 100.0 * arguments.seconds / count.max(1) as f64;
+    let hundredths = hundredths.round().max(2.0) as u16;
     animation(&Sketch::of(scene), &frames, hundredths, output)?;
     let end = rows.last().map_or(0.0, |row| row.t);
     let lasts = f64::from(hundredths) * count as f64 / 100.0;

@@ -23,29 +23,25 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let reading = arguments.reading.reading();
-    if let Some(file) = &arguments.scene
-        && file
-            .extension()
-            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
-    {
+    let is_csv = |file: &&PathBuf| {
+        file.extension()
+            .is_some_and(|end| end.eq_ignore_ascii_case("csv"))
+    };
+    if let Some(file) = arguments.scene.as_ref().filter(is_csv) {
+        let shown = file.display();
         if reading == Reading::default()
             && let Some(table) = load_table(file)?
         {
+            let (gives, of, rows) = (table.gives, table.of.name(), table.rows);
             print(&format!(
-                "{}: nothing is wrong with a table of {} over {} with {} rows\n",
-                file.display(),
-                table.gives,
-                table.of.name(),
-                table.rows
+                "{shown}: nothing is wrong with a table of {gives} over {of} with {rows} rows\n"
             ))?;
             return Ok(Outcome::Done);
         }
         let motion = Measurement::load(file, &reading)?;
+        let (samples, column) = (motion.len(), motion.measured().name());
         print(&format!(
-            "{}: nothing is wrong with {} samples of {}\n",
-            file.display(),
-            motion.len(),
-            motion.measured().name()
+            "{shown}: nothing is wrong with {samples} samples of {column}\n"
         ))?;
         for note in motion.notes() {
             say(&format!("note: {note}"));
@@ -65,10 +61,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Some(file) => file.display().to_string(),
         None => "the built-in scene".to_owned(),
     };
-    let title = scene
-        .title
-        .map(|title| format!(" ({title})"))
-        .unwrap_or_default();
+    let title = scene.title.map(|title| format!(" ({title})"));
+    let title = title.unwrap_or_default();
     print(&format!("{name}{title}: nothing is wrong\n"))?;
     Ok(Outcome::Done)
 }

@@ -1,6 +1,6 @@
 //! Command `completions`: writes shell completions and the man page.
 
-use clap::{Args, Command, ValueEnum};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 use super::streams::Outcome;
@@ -11,33 +11,15 @@ use crate::error::Error;
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Writes for this shell to standard output, or the man page
-    #[arg(value_name = "FOR")]
-    reader: Reader,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Reader {
-    Bash,
-    Zsh,
-    Fish,
-    #[value(name = "powershell")]
-    PowerShell,
-    Elvish,
-    Man,
+    #[arg(value_name = "FOR", value_parser = ["bash", "zsh", "fish", "powershell", "elvish", "man"])]
+    reader: String,
 }
 
 /// Writes the completions for a shell, or the man page.
 pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome, Error> {
-    let shell = match arguments.reader {
-        Reader::Bash => Shell::Bash,
-        Reader::Zsh => Shell::Zsh,
-        Reader::Fish => Shell::Fish,
-        Reader::PowerShell => Shell::PowerShell,
-        Reader::Elvish => Shell::Elvish,
-        Reader::Man => {
-            print(&man(program)?)?;
-            return Ok(Outcome::Done);
-        }
+    let Ok(shell) = arguments.reader.parse::<Shell>() else {
+        print(&man(program)?)?;
+        return Ok(Outcome::Done);
     };
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut program, "slider-crank", &mut text);
@@ -46,17 +28,14 @@ pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome
 }
 
 /// Returns the man page of the program, followed by that of each command.
-fn man(mut command: clap::Command) -> Result<String, Error> {
+fn man(mut command: Command) -> Result<String, Error> {
     let failed = |source| Error::Write {
         target: "man page".to_owned(),
         source,
     };
     command.build();
     let mut text = Vec::new();
-    clap_mangen::Man::new(command.clone())
-        .render(&mut text)
-        .map_err(failed)?;
-    for one in command.get_subcommands() {
+    for one in std::iter::once(&command).chain(command.get_subcommands()) {
         let page = clap_mangen::Man::new(one.clone());
         page.render(&mut text).map_err(failed)?;
     }

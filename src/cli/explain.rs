@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, scene};
+use super::streams::{Outcome, Streams, scene};
 use super::values::angle;
-use super::watch::print;
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report;
@@ -30,10 +29,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let scene = scene(arguments.scene.as_ref())?;
     let result = crate::explain::explain(&scene, arguments.method, arguments.at)?;
-    if arguments.json {
-        print(&report::json(&result)?)?;
-    } else {
-        print(&report::explanation(&result))?;
-    }
+    let streams = Streams::new(&[], None, &[], arguments.json)?;
+    streams.show(&result, || report::explanation(&result))?;
     Ok(Outcome::Done)
 }

@@ -47,9 +47,8 @@ pub(super) fn with_groups(program: Command) -> Command {
     program.mut_subcommands(|one| {
         let own = |line: &&&str| line.split(' ').next() == Some(one.get_name());
         let lines = EXAMPLES.iter().filter(own);
-        let lines: String = lines
-            .map(|line| format!("\n  slider-crank {line}"))
-            .collect();
+        let lines = lines.map(|line| format!("\n  slider-crank {line}"));
+        let lines: String = lines.collect();
         let one = one.mut_args(|argument| {
             let long = argument.get_long().unwrap_or_default();
             let has = |(_, names): &&(&str, &str)| names.split(' ').any(|name| name == long);

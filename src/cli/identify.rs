@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::streams::{Outcome, Streams, create, is_standard};
+use super::streams::{Outcome, Streams, check_inputs, create};
 use crate::error::Error;
 use crate::inverse::identify::{FreeKey, identify_keys};
 use crate::report;
@@ -35,12 +35,7 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let (scene, data) = (Some(&arguments.scene), Some(&arguments.data));
     let streams = Streams::new(&[scene, data], arguments.out.as_ref(), &[], arguments.json)?;
-    if is_standard(scene) && is_standard(data) {
-        return Err(Error::refused(
-            "scene and data cannot both come from standard input",
-            "give one of them as a file",
-        ));
-    }
+    check_inputs(scene, data)?;
     let measurement = Measurement::load(&arguments.data, &arguments.reading.reading())?;
     let draft = Draft::load(&arguments.scene)?;
     let written = draft.scene()?;

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::outputs::Outputs;
 use super::reading::ReadingArguments;
-use super::streams::{Outcome, create, is_standard, origin};
+use super::streams::{Outcome, check_inputs, create, origin};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report::{self, InverseReport};
@@ -106,22 +106,13 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
 }
 
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
-    let streams = arguments.outputs.streams(
-        &[arguments.scene.as_ref(), arguments.data.as_ref()],
-        &[arguments.residuals.as_ref(), arguments.mean_cycle.as_ref()],
-    )?;
-    if is_standard(arguments.scene.as_ref()) && is_standard(arguments.data.as_ref()) {
-        return Err(Error::refused(
-            "scene and data cannot both come from standard input",
-            "give one of them as a file",
-        ));
-    }
+    let (file, data) = (arguments.scene.as_ref(), arguments.data.as_ref());
+    let others = [arguments.residuals.as_ref(), arguments.mean_cycle.as_ref()];
+    let streams = arguments.outputs.streams(&[file, data], &others)?;
+    check_inputs(file, data)?;
     // Data first: without data, a data file may stand in the place of the scene.
     let measurement = measurement(arguments)?;
-    let draft = arguments
-        .scene
-        .as_deref()
-        .map_or_else(|| Ok(Draft::duarte()), Draft::load)?;
+    let draft = file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))?;
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
     let options = InverseOptions {
@@ -135,10 +126,8 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         beside_forces: arguments.beside_forces,
         stop: Some(stop.clone()),
     };
-    let printed = arguments
-        .as_printed
-        .then(|| AsPrinted::new(&scene))
-        .transpose()?;
+    let printed = arguments.as_printed.then(|| AsPrinted::new(&scene));
+    let printed = printed.transpose()?;
     let targets = arguments.outputs.open()?;
     let residuals = create(arguments.residuals.as_ref())?;
     let mean = create(arguments.mean_cycle.as_ref())?;
@@ -159,7 +148,6 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         scene: &scene,
         printed: printed.as_ref(),
     };
-    let origin = origin(arguments.scene.as_ref());
-    targets.write(&report, &result.summary, &origin, &streams)?;
+    targets.write(&report, &result.summary, &origin(file), &streams)?;
     Ok(Outcome::Done)
 }

@@ -6,13 +6,11 @@ use clap::Args;
 
 use super::outputs::Outputs;
 use super::streams::{Outcome, origin};
-use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
+use super::values::{angle, any_length, check_rows_of_turn, length, positive_angle};
 use super::watch::say;
 use crate::error::Error;
-use crate::kinematics::Length;
-use crate::kinematics::TurnOptions;
+use crate::kinematics::{Length, TurnOptions, one_turn, size_from_stroke};
 use crate::report::{self, Diagram, TurnReport};
-use crate::scene::unit::Quantity;
 
 /// Arguments of `kinematics`.
 #[derive(Debug, Args)]
@@ -69,12 +67,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     check_rows_of_turn(arguments.every)?;
     let mut scene = streams.scene(read)?;
     if let Some((stroke, ratio)) = arguments.stroke.zip(arguments.rod_ratio) {
-        let (crank, rod) =
-            crate::kinematics::size_from_stroke(stroke, ratio, scene.geometry.offset)?;
+        let (crank, rod) = size_from_stroke(stroke, ratio, scene.geometry.offset)?;
         (scene.geometry.crank, scene.geometry.rod) = (crank, rod);
         say(&report::sized(crank, rod));
     }
-    let result = crate::kinematics::one_turn(&scene, &arguments.options())?;
+    let options = TurnOptions {
+        forces: arguments.forces || arguments.diagram.is_some(),
+        balance: Some(arguments.balance),
+        sensitivity: arguments.sensitivity,
+        change: arguments.change.clone(),
+        offsets: arguments.with_offset.clone(),
+        iterate_from: arguments.newton_guess,
+    };
+    let result = one_turn(&scene, &options)?;
     let report = TurnReport {
         result: &result,
         scene: &scene,
@@ -86,19 +91,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     Ok(Outcome::Done)
 }
 
-impl Arguments {
-    fn options(&self) -> TurnOptions {
-        TurnOptions {
-            forces: self.forces || self.diagram.is_some(),
-            balance: Some(self.balance),
-            sensitivity: self.sensitivity,
-            change: self.change.clone(),
-            offsets: self.with_offset.clone(),
-            iterate_from: self.newton_guess,
-        }
-    }
-}
-
 fn diagram(text: &str) -> Result<Diagram, String> {
     let known = Diagram::ALL.into_iter().find(|known| known.name() == text);
     known.ok_or_else(|| format!("known are {}", Diagram::ALL.map(Diagram::name).join(", ")))
@@ -108,14 +100,8 @@ fn diagram(text: &str) -> Result<Diagram, String> {
 fn change(text: &str) -> Result<(Length, f64), String> {
     let help = "write it like \"crank=150 mm\"; the keys are crank, rod and offset";
     let (key, value) = text.split_once('=').ok_or(help)?;
-    let length = Length::ALL
-        .into_iter()
-        .find(|length| length.name() == key.trim());
-    let value = quantity(value.trim(), Quantity::Length)?;
+    let mut lengths = Length::ALL.into_iter();
+    let length = lengths.find(|length| length.name() == key.trim());
+    let value = any_length(value.trim())?;
     Ok((length.ok_or(help)?, value))
-}
-
-/// Parses an offset of either sign, m.
-fn any_length(text: &str) -> Result<f64, String> {
-    quantity(text, Quantity::Length)
 }

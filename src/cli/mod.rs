@@ -14,7 +14,6 @@ mod outputs;
 mod precision;
 mod reading;
 mod reproduce;
-mod schema;
 mod simulate;
 mod statics;
 mod streams;
@@ -29,8 +28,9 @@ use std::process::ExitCode;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::error::Error;
+use crate::{report, scene};
 use streams::Outcome;
-use watch::{say, say_styled};
+use watch::{print, say, say_styled};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
 #[derive(Debug, Parser)]
@@ -71,7 +71,7 @@ enum Command {
     /// Says all that is wrong with a scene file or a data file
     Check(check::Arguments),
     /// JSON Schema of scene files
-    Schema(schema::Arguments),
+    Schema,
     /// What shells complete, and the man page
     Completions(completions::Arguments),
 }
@@ -101,7 +101,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
-        Command::Schema(arguments) => schema::run(&arguments),
+        Command::Schema => print_schema(),
         Command::Completions(arguments) => completions::run(&arguments, program()),
     };
     watch::clear();
@@ -120,6 +120,12 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.exit_status())
         }
     }
+}
+
+/// Prints the JSON Schema of scene files.
+fn print_schema() -> Result<Outcome, Error> {
+    print(&report::json(&scene::schema())?)?;
+    Ok(Outcome::Done)
 }
 
 fn colour() -> bool {

@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 use super::streams::{Outcome, Streams, create, fill};
 use crate::error::Error;
-use crate::optimise::{Asked, Subject, optimise};
+use crate::optimise::{Constraint, Problem, optimise};
 use crate::plan::Method;
 use crate::report;
 use crate::scene::Varied;
@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     most: Option<Figure>,
     /// A limit that the design has to keep, like "transmission_min >= 40 deg"; given again, all of them
     #[arg(long, value_name = "FIGURE >= VALUE")]
-    subject: Vec<Subject>,
+    subject: Vec<Constraint>,
     /// Seed of the samples
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
@@ -54,49 +54,33 @@ pub(super) struct Arguments {
     max_evaluations: u64,
 }
 
-impl Arguments {
-    fn goal(&self) -> Option<Goal> {
-        let goal = |most| move |figure| Goal { figure, most };
-        let least = self.least.map(goal(false));
-        least.or(self.most.map(goal(true)))
-    }
-
-    fn options(&self, stop: &Stop) -> SweepOptions {
-        let steady = SteadyOptions {
-            fluctuation: self.fluctuation,
-            max_evaluations: self.max_evaluations,
-            stop: Some(stop.of_one()),
-        };
-        SweepOptions {
-            steady: Some(steady),
-            method: self.method,
-            max_evaluations: self.max_evaluations,
-            stop: Some(stop.clone()),
-            ..SweepOptions::default()
-        }
-    }
-}
-
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
-    let (read, out, best) = (&arguments.scene, &arguments.out, &arguments.best);
-    let streams = Streams::new(
-        &[read.as_ref()],
-        out.as_ref(),
-        &[best.as_ref()],
-        arguments.json,
-    )?;
-    let draft = streams.draft(read.as_ref())?;
-    let goal = arguments
-        .goal()
+    let [read, out, best] = [&arguments.scene, &arguments.out, &arguments.best].map(Option::as_ref);
+    let streams = Streams::new(&[read], out, &[best], arguments.json)?;
+    let draft = streams.draft(read)?;
+    let least = arguments.least.map(Goal::least);
+    let goal = least.or(arguments.most.map(Goal::most));
+    let goal = goal
         .ok_or_else(|| Error::refused("there is no goal", "say which, like --least guide_peak"))?;
-    let asked = Asked {
+    let problem = Problem {
         goal,
-        subjects: arguments.subject.clone(),
+        constraints: arguments.subject.clone(),
         seed: arguments.seed,
     };
-    let (out, best) = (create(out.as_ref())?, create(best.as_ref())?);
+    let (out, best) = (create(out)?, create(best)?);
+    let options = SweepOptions {
+        steady: Some(SteadyOptions {
+            fluctuation: arguments.fluctuation,
+            max_evaluations: arguments.max_evaluations,
+            stop: Some(stop.of_one()),
+        }),
+        method: arguments.method,
+        max_evaluations: arguments.max_evaluations,
+        stop: Some(stop.clone()),
+        ..SweepOptions::default()
+    };
     let varied = arguments.vary.clone();
-    let found = optimise(draft.clone(), varied, &asked, arguments.options(stop))?;
+    let found = optimise(draft.clone(), varied, &problem, options)?;
     fill(out, || Ok(report::starts_csv(&found)))?;
     fill(best, || {
         let values = arguments.vary.iter().zip(&found.values);
@@ -107,9 +91,8 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     Ok(if found.interrupted {
         Outcome::Incomplete("interrupted: this is the best design so far".to_owned())
     } else if !found.meets_subjects {
-        Outcome::Incomplete(
-            "no design was found that keeps all limits: this one misses them least".to_owned(),
-        )
+        let why = "no design was found that keeps all limits: this one misses them least";
+        Outcome::Incomplete(why.to_owned())
     } else {
         Outcome::Done
     })

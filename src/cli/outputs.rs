@@ -6,9 +6,9 @@ use clap::Args;
 
 use serde::Serialize;
 
-use super::streams::{Streams, check_ending, create, draw, fill, page};
+use super::streams::{Streams, check_extension, create, draw, fill, page};
 use crate::error::Error;
-use crate::report::{ENDINGS, Origin, Output, Picture, Report, Shape, View};
+use crate::report::{EXTENSIONS, Origin, Output, Picture, Report, Shape, View};
 
 /// Where a picture goes, and how large it is.
 #[derive(Debug, Args)]
@@ -40,7 +40,7 @@ impl Plot {
     /// # Errors
     /// [`Error::Refused`] if the extension is not one of a picture; [`Error::Write`].
     pub fn open(&self) -> Result<Option<Picture>, Error> {
-        check_ending(self.plot.as_ref(), &ENDINGS)?;
+        check_extension(self.plot.as_ref(), &EXTENSIONS)?;
         self.plot.as_deref().map(Picture::create).transpose()
     }
 }

@@ -1,5 +1,6 @@
 //! Command `precision`: compares the methods by time and error.
 
+use std::borrow::Cow;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -97,19 +98,17 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
     let written = [&arguments.out, &arguments.plot.plot, &arguments.report];
-    let written = written.into_iter().flatten();
-    check_files(&read, &written.cloned().collect::<Vec<_>>())?;
+    let written: Vec<PathBuf> = written.into_iter().flatten().cloned().collect();
+    check_files(&read, &written)?;
     let rows = create(arguments.out.as_ref())?;
     let plot = arguments.plot.open()?;
     let page = page(arguments.report.as_ref())?;
     let results = compare(&scenes, &arguments.options(), text_on_stdout)?;
     fill(rows, || Ok(report::precision_csv(&results)))?;
-    draw(plot, || {
-        report::precision_figure(&results, arguments.plot.size)
-    })?;
-    fill(page, || {
-        report::precision_page(&results, &origin(files.first()))
-    })?;
+    let size = arguments.plot.size;
+    draw(plot, || report::precision_figure(&results, size))?;
+    let file = files.first();
+    fill(page, || report::precision_page(&results, &origin(file)))?;
     if arguments.json {
         print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
     }
@@ -192,9 +191,7 @@ fn files_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Loads a scene; the file name replaces a missing title.
 fn titled(file: &PathBuf) -> Result<Scene, Error> {
     let mut scene = scene(Some(file))?;
-    let name = file
-        .file_stem()
-        .map(|name| name.to_string_lossy().into_owned());
-    scene.title = scene.title.or(name);
+    let name = file.file_stem().map(|name| name.to_string_lossy());
+    scene.title = scene.title.or(name.map(Cow::into_owned));
     Ok(scene)
 }

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use crate::scene::unit::{self, Quantity};
+use super::values::any_length;
 use crate::scene::{Measured, Reading};
 
 /// Options of all commands that read measured motion.
@@ -28,7 +28,7 @@ pub(super) struct ReadingArguments {
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..))]
     counts_per_turn: Option<u32>,
     /// What the sensor of x shows where the slider is at the crank pivot, like "12.5 mm"
-    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
     x_zero: Option<f64>,
     /// Lines above the header
     #[arg(long, value_name = "NUMBER", default_value_t = 0)]
@@ -36,10 +36,6 @@ pub(super) struct ReadingArguments {
     /// What numbers have between units and tenths, point or comma; with comma, semicolons or tabs separate the columns
     #[arg(long, value_name = "MARK", default_value = "point", value_parser = ["point", "comma"])]
     decimal: String,
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    unit::parse(text, Quantity::Length).map_err(|error| error.to_string())
 }
 
 impl ReadingArguments {

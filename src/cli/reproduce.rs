@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::streams::Outcome;
-use super::watch::{print, say};
+use super::streams::{Outcome, Streams};
+use super::watch::say;
 use crate::error::Error;
 use crate::report::{self, Output, ReproductionSummary};
-use crate::reproduce::Paper;
+use crate::reproduce::{Paper, Reproduction, reproduce};
 
 /// Arguments of `reproduce`.
 #[derive(Debug, Args)]
@@ -30,28 +30,23 @@ fn paper(name: &str) -> Result<Paper, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let papers = arguments
-        .paper
-        .map_or(Paper::ALL.to_vec(), |paper| vec![paper]);
-    let result = crate::reproduce::reproduce(&papers)?;
+    let all = || Paper::ALL.to_vec();
+    let papers = arguments.paper.map_or_else(all, |paper| vec![paper]);
+    let result = reproduce(&papers)?;
     if let Some(folder) = &arguments.out {
         let files = write_files(folder, &result)?;
         say(&format!("{files} files written to {}", folder.display()));
     }
-    print(&if arguments.json {
-        report::json(&ReproductionSummary::new(&result))?
-    } else {
-        report::reproduction(&result)
-    })?;
-    let unexpected = result.surprises().count();
-    Ok(if unexpected == 0 {
-        Outcome::Done
-    } else {
-        Outcome::Incomplete(format!("{unexpected} verdicts are not the known ones"))
+    let streams = Streams::new(&[], None, &[], arguments.json)?;
+    let summary = ReproductionSummary::new(&result);
+    streams.show(&summary, || report::reproduction(&result))?;
+    Ok(match result.surprises().count() {
+        0 => Outcome::Done,
+        unexpected => Outcome::Incomplete(format!("{unexpected} verdicts are not the known ones")),
     })
 }
 
-fn write_files(folder: &Path, result: &crate::reproduce::Reproduction) -> Result<usize, Error> {
+fn write_files(folder: &Path, result: &Reproduction) -> Result<usize, Error> {
     std::fs::create_dir_all(folder).map_err(|source| Error::Write {
         target: folder.display().to_string(),
         source,

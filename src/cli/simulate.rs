@@ -11,8 +11,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{PlotRows, Preview, RowWriter, RunReport};
 use crate::scene::Scene;
-use crate::simulate::Stop;
-use crate::simulate::{Options, Row, RowSink, SteadyOptions};
+use crate::simulate::{Options, Row, RowSink, SteadyOptions, Stop, simulate_rows, steady_state};
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -117,28 +116,6 @@ impl RowSink for Rows<'_> {
     }
 }
 
-impl Arguments {
-    fn options(&self, stop: &Stop) -> Options {
-        Options {
-            method: self.method,
-            reactions: self.reactions,
-            driving_torque: self.torque,
-            estimate: !self.no_estimate,
-            max_evaluations: self.max_evaluations,
-            events_kept: self.max_events,
-            stop: Some(stop.clone()),
-        }
-    }
-
-    fn steady_options(&self, stop: &Stop) -> SteadyOptions {
-        SteadyOptions {
-            fluctuation: self.fluctuation,
-            max_evaluations: self.max_evaluations,
-            stop: Some(stop.clone()),
-        }
-    }
-}
-
 pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
     let read = arguments.scene.as_ref();
     let streams = arguments.outputs.streams(&[read], &[])?;
@@ -149,10 +126,13 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
         scene.run.tolerance = tolerance;
     }
-    let steady = arguments
-        .steady_state
-        .then(|| crate::simulate::steady_state(&scene, &arguments.steady_options(stop)))
-        .transpose()?;
+    let options = SteadyOptions {
+        fluctuation: arguments.fluctuation,
+        max_evaluations: arguments.max_evaluations,
+        stop: Some(stop.clone()),
+    };
+    let found = || steady_state(&scene, &options);
+    let steady = arguments.steady_state.then(found).transpose()?;
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
     }
@@ -167,7 +147,16 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         preview: streams.text_on_stdout().then(Preview::default),
         loose: scene.clearance.is_some(),
     };
-    let result = crate::simulate::simulate_rows(&scene, &arguments.options(stop), &mut rows);
+    let options = Options {
+        method: arguments.method,
+        reactions: arguments.reactions,
+        driving_torque: arguments.torque,
+        estimate: !arguments.no_estimate,
+        max_evaluations: arguments.max_evaluations,
+        events_kept: arguments.max_events,
+        stop: Some(stop.clone()),
+    };
+    let result = simulate_rows(&scene, &options, &mut rows);
     let keeps = matches!(&result, Ok(_) | Err(Error::Interrupted));
     if let Some(writer) = rows.writer.filter(|_| keeps) {
         writer.finish()?;

@@ -5,13 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::outputs::Outputs;
-use super::streams::{Outcome, origin};
+use super::streams::{Outcome, Streams, origin};
 use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
-use super::watch::print;
 use crate::error::Error;
 use crate::report::{self, StaticsReport};
 use crate::scene::unit::Quantity;
-use crate::statics::StaticsOptions;
+use crate::statics::{StaticsOptions, calibrate, drum_torque, friction_from_tilt, statics};
 
 /// Arguments of `statics`.
 #[derive(Debug, Args)]
@@ -82,33 +81,28 @@ fn tilt(text: &str) -> Result<f64, String> {
 impl Arguments {
     fn options(&self) -> StaticsOptions {
         let hung = self.weight.zip(self.drum_radius);
-        let hung = hung.map(|(weight, radius)| crate::statics::drum_torque(weight, radius));
+        let hung = hung.map(|(weight, radius)| drum_torque(weight, radius));
         let nothing = self.scene.is_none() && self.force.is_none();
         StaticsOptions {
             torque: self.torque.or(hung).or(nothing.then_some(1.0)),
             force: self.force,
-            friction: self
-                .friction
-                .or(self.tilt.map(crate::statics::friction_from_tilt)),
+            friction: self.friction.or(self.tilt.map(friction_from_tilt)),
         }
     }
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(file) = &arguments.calibration {
-        let result = crate::statics::calibrate(file, &arguments.reading)?;
-        print(&if arguments.outputs.json {
-            report::json(&result)?
-        } else {
-            report::calibration(&result)
-        })?;
+        let result = calibrate(file, &arguments.reading)?;
+        let streams = Streams::new(&[], None, &[], arguments.outputs.json)?;
+        streams.show(&result, || report::calibration(&result))?;
         return Ok(Outcome::Done);
     }
     let read = arguments.scene.as_ref();
     let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
     let scene = streams.scene(read)?;
-    let result = crate::statics::statics(&scene, &arguments.options())?;
+    let result = statics(&scene, &arguments.options())?;
     let report = StaticsReport {
         result: &result,
         scene: &scene,

@@ -136,23 +136,20 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
 
 /// Returns the canonical path of a file that may not exist yet.
 fn place(path: &Path) -> PathBuf {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path.parent();
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
     let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
     let new = || Some(folder.ok()?.join(path.file_name()?));
     std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
 }
 
 /// Refuses a path whose extension is not among the formats `written`.
-pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
+pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
         return Ok(());
     };
-    if written
-        .iter()
-        .any(|known| ending.eq_ignore_ascii_case(known))
-    {
+    let is_known = |known: &&str| ending.eq_ignore_ascii_case(known);
+    if written.iter().any(is_known) {
         return Ok(());
     }
     let (shown, format) = (path.display(), written[0]);
@@ -168,6 +165,17 @@ pub(super) fn check_ending(path: Option<&PathBuf>, written: &[&str]) -> Result<(
 /// Whether a path stands for standard input or output.
 pub(super) fn is_standard(path: Option<&PathBuf>) -> bool {
     path.is_some_and(|path| report::is_standard_output(path))
+}
+
+/// Refuses scene and data that are both read from standard input.
+pub(super) fn check_inputs(scene: Option<&PathBuf>, data: Option<&PathBuf>) -> Result<(), Error> {
+    if is_standard(scene) && is_standard(data) {
+        return Err(Error::refused(
+            "scene and data cannot both come from standard input",
+            "give one of them as a file",
+        ));
+    }
+    Ok(())
 }
 
 /// Opens an optional output, `-` for standard output.
@@ -196,7 +204,7 @@ pub(super) fn draw(
 /// # Errors
 /// [`Error::Refused`] if the extension is not one of a page; [`Error::Write`].
 pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
-    check_ending(path, &["html", "htm"])?;
+    check_extension(path, &["html", "htm"])?;
     create(path)
 }
 

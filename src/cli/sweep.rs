@@ -9,10 +9,9 @@ use super::streams::{Outcome, Streams, fill, origin, page};
 use super::watch;
 use crate::error::Error;
 use crate::plan::Method;
-use crate::report::{self, SweepAsked, SweepWriter};
+use crate::report::{self, SweepSummaryOptions, SweepWriter};
 use crate::scene::Varied;
-use crate::simulate::SteadyOptions;
-use crate::simulate::Stop;
+use crate::simulate::{SteadyOptions, Stop};
 use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
@@ -84,29 +83,18 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    fn sample(&self) -> Option<LatinHypercube> {
-        let seed = self.seed;
-        self.sample.map(|count| LatinHypercube { count, seed })
-    }
-
     fn goals(&self) -> Vec<Goal> {
-        let goal = |most| {
-            move |figure: &Figure| Goal {
-                figure: *figure,
-                most,
-            }
-        };
-        let least = self.least.iter().map(goal(false));
-        least.chain(self.most.iter().map(goal(true))).collect()
+        let least = self.least.iter().copied().map(Goal::least);
+        let most = self.most.iter().copied().map(Goal::most);
+        least.chain(most).collect()
     }
 
     /// Returns the named figures and those of the goals; empty without named figures, which selects the default ones.
     fn figures(&self) -> Vec<Figure> {
         let mut figures = self.figures.clone();
         if !figures.is_empty() {
-            let named = |one: &Figure| self.figures.iter().any(|other| other == one);
             let goals = self.goals().into_iter().map(|goal| goal.figure);
-            figures.extend(goals.filter(|figure| !named(figure)));
+            figures.extend(goals.filter(|figure| !self.figures.contains(figure)));
         }
         figures
     }
@@ -130,19 +118,20 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
     let draft = streams.draft(read)?;
+    let steady = SteadyOptions {
+        fluctuation: arguments.fluctuation,
+        max_evaluations: arguments.max_evaluations,
+        stop: Some(stop.of_one()),
+    };
+    let (sample, seed) = (arguments.sample, arguments.seed);
+    let has_steady = arguments.steady_state || arguments.fluctuation.is_some();
     let options = SweepOptions {
         figures: arguments.figures(),
-        sample: arguments.sample(),
+        sample: sample.map(|count| LatinHypercube { count, seed }),
         diagrams: false,
         motion: !arguments.no_motion,
         reactions: arguments.reactions,
-        steady: (arguments.steady_state || arguments.fluctuation.is_some()).then_some(
-            SteadyOptions {
-                fluctuation: arguments.fluctuation,
-                max_evaluations: arguments.max_evaluations,
-                stop: Some(stop.of_one()),
-            },
-        ),
+        steady: has_steady.then_some(steady),
         method: arguments.method,
         estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,
@@ -155,16 +144,12 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let sweep = Sweep::new(draft, varied, options)?;
     let part = arguments.shard.unwrap_or([1, 1]);
     let page = page(arguments.report.as_ref())?;
-    let mut writer = SweepWriter::new(
-        out.map(PathBuf::as_path),
-        &sweep,
-        part,
-        &SweepAsked {
-            goals: arguments.goals(),
-            percentiles: arguments.percentiles,
-            kept: page.is_some().then_some(report::MOST_ON_PAGE),
-        },
-    )?;
+    let asked = SweepSummaryOptions {
+        goals: arguments.goals(),
+        percentiles: arguments.percentiles,
+        kept: page.is_some().then_some(report::MOST_ON_PAGE),
+    };
+    let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, &asked)?;
     let begun = Instant::now();
     let (missing, count) = (writer.missing(), sweep.len());
     let mut next = missing.start;
@@ -188,12 +173,11 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         fill(page, || report::sweep_page(&summary, &table, &origin(read)))?;
     }
     streams.show(&summary, || report::sweep_text(&summary))?;
-    Ok(match summary.done() {
-        0 if summary.part[0] <= summary.part[1] => Outcome::Incomplete(
-            "no design could be computed; the notes of each row say why".to_owned(),
-        ),
-        _ => Outcome::Done,
-    })
+    if summary.done() == 0 && summary.part[0] <= summary.part[1] {
+        let why = "no design could be computed; the notes of each row say why";
+        return Ok(Outcome::Incomplete(why.to_owned()));
+    }
+    Ok(Outcome::Done)
 }
 
 fn merge(arguments: &Arguments) -> Result<Outcome, Error> {

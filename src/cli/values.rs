@@ -11,8 +11,13 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
     quantity(text, Quantity::Angle)
 }
 
+/// Parses a length of either sign, m.
+pub(super) fn any_length(text: &str) -> Result<f64, String> {
+    quantity(text, Quantity::Length)
+}
+
 pub(super) fn length(text: &str) -> Result<f64, String> {
-    match quantity(text, Quantity::Length)? {
+    match any_length(text)? {
         length if length > 0.0 => Ok(length),
         _ => Err("the length must be positive, like \"27 mm\"".to_owned()),
     }

@@ -95,9 +95,8 @@ fn show(stop: &Stop) -> bool {
             None if done > 0.0 => (PARTS, "{bar:30} {percent} %, {elapsed}, {eta} left"),
             None => (PARTS, "{spinner} {elapsed}"),
         };
-        let bar = shown
-            .bar
-            .get_or_insert_with(|| ProgressBar::new(length).with_elapsed(PATIENCE));
+        let new = || ProgressBar::new(length).with_elapsed(PATIENCE);
+        let bar = shown.bar.get_or_insert_with(new);
         if let Ok(style) = ProgressStyle::with_template(style) {
             bar.set_style(style);
         }

@@ -122,12 +122,7 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
         let pair = [locate(e.velocity_min, rate), locate(e.velocity_max, rate)];
         if rate < 0.0 { [pair[1], pair[0]] } else { pair }
     });
-    let accelerations = extremes.map(|e| {
-        [
-            locate(e.acceleration_min, rate * rate),
-            locate(e.acceleration_max, rate * rate),
-        ]
-    });
+    let acceleration = |extreme| locate(extreme, rate * rate);
     let mut warnings = Vec::new();
     if limits.class == Class::ChangePoint {
         warnings.push(
@@ -141,27 +136,24 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
                 .to_owned(),
         );
     }
+    let dead_centres = limits.dead_centres.iter().map(|centre| DeadCentre {
+        theta_rad: centre.theta,
+        x_m: centre.x,
+        kind: if centre.outer { "outer" } else { "inner" },
+    });
     Kinematics {
         scene: scene.title.clone().unwrap_or_default(),
         class: limits.class.name(),
         stroke_m: limits.stroke,
-        dead_centres: limits
-            .dead_centres
-            .iter()
-            .map(|dead_centre| DeadCentre {
-                theta_rad: dead_centre.theta,
-                x_m: dead_centre.x,
-                kind: if dead_centre.outer { "outer" } else { "inner" },
-            })
-            .collect(),
+        dead_centres: dead_centres.collect(),
         advance_rad: limits.advance,
         return_rad: limits.retreat,
         time_ratio: limits.time_ratio(),
         transmission_min_rad: limits.transmission_min,
         velocity_max: velocities.map(|v| v[1]),
         velocity_min: velocities.map(|v| v[0]),
-        acceleration_max: accelerations.map(|a| a[1]),
-        acceleration_min: accelerations.map(|a| a[0]),
+        acceleration_max: extremes.map(|e| acceleration(e.acceleration_max)),
+        acceleration_min: extremes.map(|e| acceleration(e.acceleration_min)),
         speed_rad_per_s: (speed != 0.0).then_some(speed),
         positions: linkage.named_positions(),
         reach_rad: limits.reach,

@@ -94,7 +94,7 @@ impl ForceAnalysis {
     /// Returns the ends of pieces of a smooth torque, rad, from the start of the cycle to its end.
     pub(super) fn pieces(&self) -> Vec<f64> {
         let whole = self.whole();
-        let mut ends = self.loads().corners_between(0.0, whole);
+        let mut ends = self.equation.loads().corners_between(0.0, whole);
         ends.extend((0..=8 * self.cycle_turns).map(|k| f64::from(k) * (PI / 4.0)));
         ends.retain(|end| (0.0..=whole).contains(end));
         ends.sort_by(f64::total_cmp);

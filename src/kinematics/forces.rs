@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Located;
 use crate::error::Error;
 use crate::mechanism::{
-    Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Loads, Reactions, Reactor,
+    Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Reactions, Reactor,
 };
 use crate::numeric::{angle, difference, root};
 use crate::plan::Cycle;
@@ -30,7 +30,7 @@ pub struct ForceAnalysis {
     /// Extremes of the driving torque on the inward strokes of the cycle; none for a crank that cannot turn fully.
     pub inward: Option<StrokeTorque>,
     #[serde(skip)]
-    equation: Equation,
+    pub(super) equation: Equation,
     #[serde(skip)]
     reactor: Reactor,
 }
@@ -97,10 +97,6 @@ pub fn forces(scene: &Scene) -> Result<ForceAnalysis, Error> {
 impl ForceAnalysis {
     pub(super) fn linkage(&self) -> &Linkage {
         self.equation.linkage()
-    }
-
-    pub(super) fn loads(&self) -> &Loads {
-        self.equation.loads()
     }
 
     /// Returns the driving torque at a crank angle (rad), N m; time counts from θ = 0.
@@ -180,31 +176,25 @@ impl ForceAnalysis {
     fn extremes(&self, from: f64, to: f64) -> Vec<Located> {
         // Angle of the rows, which end with the cycle: loads may differ in the next one.
         let whole = self.whole();
-        let place = |theta: f64| {
-            if theta == whole {
-                whole
-            } else {
-                theta.rem_euclid(whole)
-            }
+        let place = |theta: f64| match theta == whole {
+            true => whole,
+            false => theta.rem_euclid(whole),
         };
         let torque = |theta: f64| self.torque(place(theta));
-        let seam = [0.0, whole]
-            .into_iter()
-            .filter(|_| (from..to).contains(&whole));
+        let has_seam = (from..to).contains(&whole);
+        let seam = [0.0, whole].into_iter().filter(|_| has_seam);
         let grid = self.linkage().turn_grid(false);
         let inside = (-1..=i64::from(self.cycle_turns) + 1)
             .flat_map(|turn| grid.iter().map(move |theta| theta + turn as f64 * TAU))
             .filter(|theta| (from..=to).contains(theta));
-        let loads = self.equation.loads();
         let mut angles = vec![from, to];
         angles.extend(inside);
-        let rows = loads.corners_between(from, to);
+        let rows = self.equation.loads().corners_between(from, to);
         angles.extend(&rows);
         angles.sort_by(f64::total_cmp);
         let slope = |theta: f64| difference::slope(torque, theta, 1e-3);
-        let tops = angles
-            .windows(2)
-            .filter_map(|w| root::bracketed(slope, w[0], w[1]));
+        let top = |w: &[f64]| root::bracketed(slope, w[0], w[1]);
+        let tops = angles.windows(2).filter_map(top);
         let located = tops.chain([from, to]).chain(rows).chain(seam);
         located
             .map(|theta| Located {

@@ -55,7 +55,7 @@ pub struct OneTurn {
 }
 
 /// Loop closure by Newton-Raphson from one guess for every degree of a turn.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct LoopCheck {
     /// Guess of the rod's angle as seen from the slider, rad.
     pub guess_rad: f64,
@@ -114,28 +114,25 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
     let mut kinematics = kinematics(scene)?;
     let linkage = Linkage::new(&scene.geometry);
     let speed = scene.motion.speed;
-    let slopes = if options.sensitivity {
+    let slopes = options.sensitivity.then(|| {
         let torque = TorqueSlope::new(scene);
         if let (Err(reason), true) = (&torque, speed != 0.0) {
             kinematics.warnings.push(reason.to_string());
         }
-        Some(Slopes {
+        Slopes {
             linkage,
             speed,
             torque: torque.ok(),
-        })
-    } else {
-        None
-    };
-    if options.forces && scene.friction.is_some() {
-        kinematics
-            .warnings
-            .push("the friction of the scene is not in these forces".to_owned());
-    }
-    if options.forces && scene.clearance.is_some() {
-        kinematics
-            .warnings
-            .push("the clearance of the scene is not in these forces".to_owned());
+        }
+    });
+    for (name, is_given) in [
+        ("friction", scene.friction.is_some()),
+        ("clearance", scene.clearance.is_some()),
+    ] {
+        if options.forces && is_given {
+            let what = format!("the {name} of the scene is not in these forces");
+            kinematics.warnings.push(what);
+        }
     }
     let forces = options.forces.then(|| forces(scene)).transpose()?;
     if let Some(why) = forces.as_ref().and_then(|f| f.not_repeating.as_ref()) {
@@ -183,11 +180,7 @@ fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
     let mut check = LoopCheck {
         guess_rad: guess,
         iterations_min: u32::MAX,
-        iterations_max: 0,
-        on_branch: 0,
-        on_other_branch: 0,
-        failed: 0,
-        worst_x_m: 0.0,
+        ..LoopCheck::default()
     };
     for theta in angle::turn(1f64.to_radians()) {
         // A tolerance of 1e-9 crank lengths equals Gupta's 1e-6 mm for a crank of one metre.

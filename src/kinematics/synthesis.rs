@@ -57,10 +57,9 @@ pub struct Synthesis {
 /// ```
 pub fn synthesis(stroke: f64, time_ratio: f64, choice: Choice) -> Result<Synthesis, Error> {
     let is_slower = time_ratio >= 1.0;
-    let ratio = if is_slower {
-        time_ratio
-    } else {
-        1.0 / time_ratio
+    let ratio = match is_slower {
+        true => time_ratio,
+        false => 1.0 / time_ratio,
     };
     if !(stroke > 0.0 && stroke.is_finite() && ratio < 3.0 && time_ratio > 0.0) {
         return Err(Error::refused(

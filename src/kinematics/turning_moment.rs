@@ -54,11 +54,8 @@ impl ForceAnalysis {
         let work: f64 = pieces.windows(2).map(|w| area(&torque, w[0], w[1])).sum();
         let mean = work / self.whole();
         let above = |theta: f64| torque(theta % self.whole()) - mean;
-        let mut cuts: Vec<_> = self
-            .crossings(&pieces, above)
-            .into_iter()
-            .map(|at| (at, true))
-            .collect();
+        let crossings = self.crossings(&pieces, above).into_iter();
+        let mut cuts: Vec<_> = crossings.map(|at| (at, true)).collect();
         cuts.extend(pieces.iter().skip(1).map(|end| (*end, false)));
         cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
         // Energy above the mean from the start of the cycle to each crossing.
@@ -71,9 +68,8 @@ impl ForceAnalysis {
         }
         let next = crossings.iter().skip(1).copied();
         // The last area ends in the next cycle.
-        let first = crossings
-            .first()
-            .map(|(to, energy)| (to + self.whole(), energy + stored));
+        let first = crossings.first();
+        let first = first.map(|(to, energy)| (to + self.whole(), energy + stored));
         let areas = crossings.iter().zip(next.chain(first));
         let energies = || crossings.iter().map(|(_, energy)| *energy);
         TurningMoment {

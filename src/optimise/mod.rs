@@ -1,10 +1,10 @@
 //! Optimum design: takes bounds of scene keys, a goal figure and limits of others, and returns the best values, by
 //! multi-start COBYLA with Deb's constraint rules.
 
-mod judge;
+mod constraint;
+mod evaluator;
 mod local;
 mod search;
-mod subject;
 
 use std::sync::atomic::Ordering;
 
@@ -14,16 +14,16 @@ use crate::error::Error;
 use crate::scene::{Draft, Varied};
 use crate::sweep::{Design, Goal, LatinHypercube, Sweep, SweepOptions};
 
-use judge::Judge;
-pub use subject::{Limit, Subject};
+pub use constraint::{Constraint, Sense};
+use evaluator::Evaluator;
 
 /// Optimisation problem: goal, limits and seed.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct Problem {
     /// Figure to minimise or maximise.
     pub goal: Goal,
     /// Inequality constraints.
-    pub subjects: Vec<Subject>,
+    pub constraints: Vec<Constraint>,
     /// Seed of the Latin hypercube samples.
     pub seed: u64,
 }
@@ -44,13 +44,13 @@ pub struct Optimum {
     /// Optimum values of the varied keys.
     pub values: Vec<OptimumValue>,
     /// Limits, and the values of their figures at the optimum.
-    pub subjects: Vec<SubjectMet>,
+    pub subjects: Vec<EvaluatedConstraint>,
     /// Whether the design meets all limits; if not, it is the design with the least violation.
     pub meets_subjects: bool,
     /// Local searches.
-    pub starts: Vec<Start>,
+    pub starts: Vec<LocalSearch>,
     /// Sweeps round the optimum, in search of a better design.
-    pub proof: Proof,
+    pub proof: FinalSweeps,
     /// Number of designs computed.
     pub designs: u64,
     /// Whether a request to stop ended the search early.
@@ -80,7 +80,7 @@ pub struct OptimumValue {
 
 /// One limit, evaluated at the optimum.
 #[derive(Clone, Debug, Serialize)]
-pub struct SubjectMet {
+pub struct EvaluatedConstraint {
     /// Limited figure, as its column of a sweep.
     pub figure: String,
     /// `">="` or `"<="`.
@@ -97,7 +97,7 @@ pub struct SubjectMet {
 
 /// Start and end of one local search.
 #[derive(Clone, Debug, Serialize)]
-pub struct Start {
+pub struct LocalSearch {
     /// Values of the varied keys at the start, in SI units and radians.
     pub from: Vec<f64>,
     /// Values of the varied keys at the end, in SI units and radians.
@@ -114,7 +114,7 @@ pub struct Start {
 
 /// Sweeps of nested boxes round the optimum, which found no better design if complete.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Proof {
+pub struct FinalSweeps {
     /// Whether all sweeps ran and none found a better design.
     pub is_complete: bool,
     /// Half-widths of the boxes, in parts of the ranges between the bounds.
@@ -140,18 +140,18 @@ pub const GAIN: f64 = 1e-9;
 /// until none finds a better one.
 ///
 /// ```
-/// use slider_crank::optimise::{Asked, optimise};
+/// use slider_crank::optimise::{Problem, optimise};
 /// use slider_crank::scene::Draft;
 /// use slider_crank::sweep::{Goal, SweepOptions};
 ///
 /// // The longest rod swings least; the stroke is 94 mm with any, as there is no offset.
-/// let asked = Asked {
-///     goal: Goal { figure: "transmission_min".parse().unwrap(), most: true },
-///     subjects: vec!["stroke <= 100 mm".parse().unwrap()],
+/// let problem = Problem {
+///     goal: Goal::most("transmission_min".parse().unwrap()),
+///     constraints: vec!["stroke <= 100 mm".parse().unwrap()],
 ///     seed: 1,
 /// };
 /// let varied = vec!["geometry.rod=100mm:200mm".parse().unwrap()];
-/// let best = optimise(Draft::duarte(), varied, &asked, SweepOptions::default())?;
+/// let best = optimise(Draft::duarte(), varied, &problem, SweepOptions::default())?;
 /// assert_eq!(best.values[0].value, 0.2);
 /// assert_eq!(best.values[0].at_bound, Some("high"));
 /// assert!(best.proof.is_complete);
@@ -163,19 +163,19 @@ pub const GAIN: f64 = 1e-9;
 pub fn optimise(
     draft: Draft,
     varied: Vec<Varied>,
-    asked: &Asked,
+    problem: &Problem,
     options: SweepOptions,
 ) -> Result<Optimum, Error> {
     let bounds = bounds(&varied)?;
-    let mut figures = vec![asked.goal.figure];
-    for one in asked.subjects.iter().map(|subject| subject.figure) {
+    let mut figures = vec![problem.goal.figure];
+    for one in problem.constraints.iter().map(|one| one.figure) {
         if !figures.contains(&one) {
             figures.push(one);
         }
     }
     let sample = LatinHypercube {
         count: search::EXPLORED * varied.len() as u64,
-        seed: asked.seed,
+        seed: problem.seed,
     };
     let options = SweepOptions {
         figures,
@@ -185,9 +185,9 @@ pub fn optimise(
     };
     let stop = options.stop.clone().unwrap_or_default();
     let sweep = Sweep::new(draft, varied, options)?;
-    let mut judge = Judge::new(&sweep, asked, &stop);
-    let found = search::run(&mut judge, asked.seed)?;
-    Ok(report(&judge, &bounds, found))
+    let mut evaluator = Evaluator::new(&sweep, problem, &stop);
+    let found = search::run(&mut evaluator, sample)?;
+    Ok(report(&evaluator, &bounds, found))
 }
 
 fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
@@ -202,12 +202,12 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
 }
 
 /// Converts a search result from the unit box to the units of the keys.
-fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
-    let (asked, varied) = (judge.asked, judge.sweep.varied());
+fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
+    let (problem, varied) = (evaluator.problem, evaluator.sweep.varied());
     let best = &found.best;
     // Computed once more, with error estimates of the motion.
-    let vouched = judge.sweep.with_estimates();
-    let design = vouched.design_of(0, judge.values(&best.at));
+    let vouched = evaluator.sweep.with_estimates();
+    let design = vouched.design_of(0, evaluator.values(&best.at));
     let number = |one: &Varied, at: f64| one.quantile(at).number.unwrap_or(f64::NAN);
     let numbers = |at: &[f64]| {
         let pairs = varied.iter().zip(at);
@@ -227,42 +227,47 @@ fn report(judge: &Judge, bounds: &[[f64; 2]], found: search::SearchResult) -> Op
             _ => None,
         },
     });
-    let starts = found.starts.iter().map(|start| Start {
+    let starts = found.starts.iter().map(|start| LocalSearch {
         from: numbers(&start.from),
         to: numbers(&start.end.at),
-        value: start.end.value(asked.goal),
+        value: start.end.value(problem.goal),
         meets_subjects: start.end.violation == 0.0,
-        agrees: judge.agree(&start.end, best),
+        agrees: evaluator.agree(&start.end, best),
         designs: start.designs,
     });
     Optimum {
-        scene: judge.sweep.title().to_owned(),
-        figure: asked.goal.figure.to_string(),
-        sense: if asked.goal.most { "most" } else { "least" },
-        value: best.value(asked.goal),
+        scene: evaluator.sweep.title().to_owned(),
+        figure: problem.goal.figure.to_string(),
+        sense: if problem.goal.maximise {
+            "most"
+        } else {
+            "least"
+        },
+        value: best.value(problem.goal),
         resolution: found.resolution,
         values: values.collect(),
-        subjects: subjects(judge, &design),
+        subjects: constraints(evaluator, &design),
         meets_subjects: best.violation == 0.0,
         starts: starts.collect(),
         proof: found.proof,
-        designs: judge.computed.load(Ordering::Relaxed),
-        interrupted: judge.stop.is_requested(),
+        designs: evaluator.computed.load(Ordering::Relaxed),
+        interrupted: evaluator.stop.is_requested(),
         notes: design.notes,
     }
 }
 
-fn subjects(judge: &Judge, design: &Design) -> Vec<SubjectMet> {
-    let met = |(i, subject): (usize, &Subject)| {
-        let value = subject.figure.number(design);
-        SubjectMet {
-            figure: subject.figure.to_string(),
-            sense: subject.limit.sign(),
-            limit: subject.value,
+fn constraints(evaluator: &Evaluator, design: &Design) -> Vec<EvaluatedConstraint> {
+    let evaluated = |(i, constraint): (usize, &Constraint)| {
+        let value = constraint.figure.number(design);
+        EvaluatedConstraint {
+            figure: constraint.figure.to_string(),
+            sense: constraint.sense.sign(),
+            limit: constraint.limit,
             value,
-            is_met: value.is_some_and(|value| subject.margin(value) >= 0.0),
-            is_active: value.is_some_and(|value| judge.is_active(i, value)),
+            is_met: value.is_some_and(|value| constraint.margin(value) >= 0.0),
+            is_active: value.is_some_and(|value| evaluator.is_active(i, value)),
         }
     };
-    judge.asked.subjects.iter().enumerate().map(met).collect()
+    let constraints = evaluator.problem.constraints.iter().enumerate();
+    constraints.map(evaluated).collect()
 }

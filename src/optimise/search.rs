@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use statrs::function::gamma::gamma;
 
-use super::Proof;
-use super::judge::{Judge, Judged};
+use super::FinalSweeps;
+use super::evaluator::{Candidate, Evaluator};
 use super::local::{Searched, search};
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -28,9 +28,9 @@ const IMPROVEMENTS: u32 = 30;
 
 /// Result of the global search, in the unit box.
 pub(super) struct SearchResult {
-    pub best: Judged,
+    pub best: Candidate,
     pub starts: Vec<Searched>,
-    pub proof: Proof,
+    pub proof: FinalSweeps,
     /// Least significant difference of the goal.
     pub resolution: f64,
 }
@@ -39,25 +39,29 @@ pub(super) struct SearchResult {
 ///
 /// # Errors
 /// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
-pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<SearchResult, Error> {
-    let sample = explore(judge)?;
-    judge.stop.reach(0.2);
-    let mut sorted = judge.calibrate(sample);
-    sorted.sort_by(Judged::order);
-    let computed = sorted.iter().filter(|one| one.aim.is_some());
-    let worst = computed
-        .map(|one| judge.aim(one, 0.0))
-        .fold(f64::NEG_INFINITY, f64::max);
-    let judge = &*judge;
+pub(super) fn run(
+    evaluator: &mut Evaluator,
+    sample: LatinHypercube,
+) -> Result<SearchResult, Error> {
+    let explored = explore(evaluator, sample)?;
+    evaluator.stop.reach(0.2);
+    let mut sorted = evaluator.calibrate(explored);
+    sorted.sort_by(Candidate::order);
+    let computed = sorted.iter().filter(|one| one.objective.is_some());
+    let scaled = computed.map(|one| evaluator.scaled_objective(one, 0.0));
+    let worst = scaled.fold(f64::NEG_INFINITY, f64::max);
+    let evaluator = &*evaluator;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
-        search(judge, from, FIRST_STEP, worst)
+        search(evaluator, from, FIRST_STEP, worst)
     });
-    judge.stop.reach(0.7);
-    let ends = starts.iter().map(|start| start.end.clone());
-    let best = ends.chain([sorted.swap_remove(0)]).min_by(Judged::order);
-    let mut best = best.ok_or(Error::Interrupted)?;
-    let proof = prove(judge, seed, &mut best, worst);
-    let resolution = judge.resolution(&best);
+    evaluator.stop.reach(0.7);
+    // Of equal designs the end of the first search.
+    let ends = starts.iter().rev().map(|start| start.end.clone());
+    let mut best = ends.fold(sorted.swap_remove(0), |best, end| {
+        if end.order(&best).is_le() { end } else { best }
+    });
+    let proof = final_sweeps(evaluator, sample.seed, &mut best, worst);
+    let resolution = evaluator.resolution(&best);
     Ok(SearchResult {
         best,
         starts,
@@ -66,18 +70,18 @@ pub(super) fn run(judge: &mut Judge, seed: u64) -> Result<SearchResult, Error> {
     })
 }
 
-fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
-    let keys = judge.sweep.varied().len() as u64;
-    let sample = judge.sweep.sample().ok_or(Error::Interrupted)?;
+/// Computes the designs of a sample, at least one of them with all figures.
+fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Candidate>, Error> {
+    let keys = evaluator.sweep.varied().len() as u64;
     let at = |index| (0..keys).map(|key| sample.at(key, index)).collect();
-    let found = parallel::map(0..sample.count, |index| judge.judge(at(index)));
-    if found.iter().any(|one| one.aim.is_some()) {
+    let found = parallel::map(0..sample.count, |index| evaluator.evaluate(at(index)));
+    if found.iter().any(|one| one.objective.is_some()) {
         return Ok(found);
     }
-    if judge.stop.is_requested() {
+    if evaluator.stop.is_requested() {
         return Err(Error::Interrupted);
     }
-    let first = judge.sweep.design_of(0, judge.values(&found[0].at));
+    let first = evaluator.sweep.design_of(0, evaluator.values(&found[0].at));
     let note = first.notes.into_iter().next();
     let why = note.unwrap_or_else(|| "it has no such figure".to_owned());
     Err(Error::refused(
@@ -90,41 +94,39 @@ fn explore(judge: &Judge) -> Result<Vec<Judged>, Error> {
 }
 
 /// Returns the designs of a sorted sample with no better one in the critical distance of multi-level single linkage.
-fn starts(sorted: &[Judged]) -> Vec<Judged> {
-    let Some(keys) = sorted.first().map(|one| one.at.len() as f64) else {
-        return Vec::new();
-    };
+fn starts(sorted: &[Candidate]) -> Vec<Candidate> {
+    let keys = sorted[0].at.len() as f64;
     // sigma = 4 keeps the number of searches finite for any sample size (Rinnooy Kan and Timmer, theorem 8).
     let count = sorted.len() as f64;
     let volume = gamma(1.0 + 0.5 * keys) * 4.0 * count.ln() / count;
     let critical = volume.powf(1.0 / keys) / PI.sqrt();
-    let near = |one: &Judged, other: &Judged| {
+    let near = |one: &Candidate, other: &Candidate| {
         let squares = one.at.iter().zip(&other.at).map(|(a, b)| (a - b).powi(2));
         squares.sum::<f64>() < critical * critical
     };
     let is_start = |i: &usize| {
         let one = &sorted[*i];
-        one.aim.is_some() && !sorted[..*i].iter().any(|better| near(one, better))
+        one.objective.is_some() && !sorted[..*i].iter().any(|better| near(one, better))
     };
     let found = (0..sorted.len()).filter(is_start).take(STARTS);
     found.map(|i| sorted[i].clone()).collect()
 }
 
 /// Sweeps boxes round the best design, widest first; restarts the search from any better design.
-fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
+fn final_sweeps(evaluator: &Evaluator, seed: u64, best: &mut Candidate, worst: f64) -> FinalSweeps {
     let keys = best.at.len() as u64;
-    let mut proof = Proof {
+    let mut sweeps = FinalSweeps {
         half_widths: HALF_WIDTHS.to_vec(),
         designs_each: EXPLORED * keys,
-        ..Proof::default()
+        ..FinalSweeps::default()
     };
-    'rounds: while proof.improvements < IMPROVEMENTS {
-        let resolution = judge.resolution(best);
+    'rounds: while sweeps.improvements < IMPROVEMENTS {
+        let resolution = evaluator.resolution(best);
         for (round, width) in (1u64..).zip(HALF_WIDTHS) {
             let sample = LatinHypercube {
-                count: proof.designs_each,
+                count: sweeps.designs_each,
                 // A new sample in every round.
-                seed: seed ^ (u64::from(proof.improvements) << 32 | round << 16),
+                seed: seed ^ (u64::from(sweeps.improvements) << 32 | round << 16),
             };
             let at = |index| {
                 let middles = (0..).zip(&best.at);
@@ -134,22 +136,21 @@ fn prove(judge: &Judge, seed: u64, best: &mut Judged, worst: f64) -> Proof {
                 });
                 at.collect()
             };
-            let found = parallel::map(0..sample.count, |index| judge.judge(at(index)));
-            if judge.stop.is_requested() {
-                return proof;
+            let found = parallel::map(0..sample.count, |index| evaluator.evaluate(at(index)));
+            if evaluator.stop.is_requested() {
+                return sweeps;
             }
-            let better = found.into_iter().min_by(Judged::order);
-            if let Some(better) = better.filter(|one| judge.improves(one, best, resolution)) {
-                *best = search(judge, better, width, worst).end;
-                proof.improvements += 1;
-                judge
-                    .stop
-                    .reach(0.7 + 0.3 * f64::from(proof.improvements) / f64::from(IMPROVEMENTS));
+            let better = found.into_iter().min_by(Candidate::order);
+            if let Some(better) = better.filter(|one| evaluator.improves(one, best, resolution)) {
+                *best = search(evaluator, better, width, worst).end;
+                sweeps.improvements += 1;
+                let done = f64::from(sweeps.improvements) / f64::from(IMPROVEMENTS);
+                evaluator.stop.reach(0.7 + 0.3 * done);
                 continue 'rounds;
             }
         }
-        proof.is_complete = true;
+        sweeps.is_complete = true;
         break;
     }
-    proof
+    sweeps
 }

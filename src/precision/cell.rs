@@ -8,9 +8,7 @@ use crate::error::Error;
 use crate::numeric::double_double::DoubleDouble;
 use crate::plan::{Engine, Method, Stepper};
 use crate::scene::Scene;
-use crate::simulate::NoRows;
-use crate::simulate::Summary;
-use crate::simulate::{Options, simulate_rows};
+use crate::simulate::{NoRows, Options, Summary, simulate_rows};
 
 /// Tolerance of reference runs, relative.
 const TIGHTEST: f64 = 1e-13;
@@ -80,7 +78,6 @@ pub(super) type Identity = (Engine, Option<Stepper>);
 pub(super) struct MethodRun {
     scene: Scene,
     method: Method,
-    options: PrecisionOptions,
     result: Result<Summary, String>,
     walls: Vec<f64>,
 }
@@ -95,14 +92,10 @@ impl MethodRun {
         let mut scene = scene.clone();
         scene.run.tolerance = tolerance;
         scene.check()?;
-        let result = match run(&scene, method, true, options) {
-            Ok(summary) => Ok(summary),
-            Err(refused) => Err(first_line(&refused)),
-        };
+        let result = run(&scene, method, true, options).map_err(|refused| first_line(&refused));
         Ok(MethodRun {
             scene,
             method,
-            options: options.clone(),
             result,
             walls: Vec::new(),
         })
@@ -114,8 +107,8 @@ impl MethodRun {
         summary.is_some_and(|summary| ends || summary.stopped.is_none())
     }
 
-    fn run_again(&mut self) {
-        if let Ok(summary) = run(&self.scene, self.method, false, &self.options) {
+    fn run_again(&mut self, options: &PrecisionOptions) {
+        if let Ok(summary) = run(&self.scene, self.method, false, options) {
             self.walls.push(black_box(summary).wall_s);
         }
     }
@@ -156,16 +149,10 @@ impl MethodRun {
             let (what, error) = (&reference.what, reference.theta_error);
             row.measured_against = Some(format!("{what}, its error {error:.1e} rad or less"));
         }
-        let (theta, theta_bound) = error(
-            summary.last.theta_rad,
-            reference.theta,
-            reference.theta_error,
-        );
-        let (omega, omega_bound) = error(
-            summary.last.omega_rad_per_s,
-            reference.omega,
-            reference.omega_error,
-        );
+        let last = &summary.last;
+        let (theta, theta_bound) = error(last.theta_rad, reference.theta, reference.theta_error);
+        let (omega, omega_bound) =
+            error(last.omega_rad_per_s, reference.omega, reference.omega_error);
         row.error_theta_rad = Some(theta);
         row.error_omega_rad_per_s = Some(omega);
         row.error_is_bound = theta_bound || omega_bound;
@@ -218,7 +205,7 @@ pub(super) fn time(cells: &mut [MethodRun], ends: bool, options: &PrecisionOptio
             served.reverse();
         }
         for cell in served {
-            cell.run_again();
+            cell.run_again(options);
         }
     }
 }

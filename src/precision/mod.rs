@@ -108,9 +108,8 @@ pub struct Precision {
 impl Precision {
     /// Whether any method reached the end of the run, or of the motion.
     pub fn has_results(&self) -> bool {
-        self.rows
-            .iter()
-            .any(|row| row.error_theta_rad.is_some() || row.failure.is_none())
+        let mut rows = self.rows.iter();
+        rows.any(|row| row.error_theta_rad.is_some() || row.failure.is_none())
     }
 
     /// Returns the comparison of a scene that cannot be computed: one row with the reason.
@@ -251,10 +250,9 @@ fn last_time(scene: &Scene, options: &PrecisionOptions) -> Result<f64, Error> {
         Some(Extent::Duration(duration)) => Ok(duration),
         _ => {
             let run = run(scene, Method::Auto, false, options)?;
-            match run.stopped {
-                None => Ok(run.last.t_s),
-                Some(why) => Err(Error::refused(why.to_string(), "give the run a duration")),
-            }
+            run.stopped.map_or(Ok(run.last.t_s), |why| {
+                Err(Error::refused(why.to_string(), "give the run a duration"))
+            })
         }
     }
 }

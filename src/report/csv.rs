@@ -107,8 +107,8 @@ pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a CsvCell>, text: &mut
 }
 
 /// Returns a CSV text of header and rows.
-pub(super) fn text(header: &[&str], rows: impl IntoIterator<Item = Vec<CsvCell>>) -> String {
-    let mut text = format!("{}\n", header.join(",")).into_bytes();
+pub(super) fn text(header: &str, rows: impl IntoIterator<Item = Vec<CsvCell>>) -> String {
+    let mut text = format!("{header}\n").into_bytes();
     rows.into_iter().for_each(|row| cells(&row, &mut text));
     String::from_utf8(text).unwrap_or_default()
 }
@@ -137,10 +137,8 @@ pub(super) fn write_all<Row: Sync>(
 
 /// Parses a line of CSV into cells.
 pub(super) fn read(line: &str) -> Result<Vec<CsvCell>, Error> {
-    Ok(texts(line)?
-        .iter()
-        .map(|text| CsvCell::read(text))
-        .collect())
+    let texts = texts(line)?;
+    Ok(texts.iter().map(|text| CsvCell::read(text)).collect())
 }
 
 /// Parses a line of CSV into the texts of its cells.
@@ -152,9 +150,6 @@ pub(super) fn texts(line: &str) -> Result<Vec<String>, Error> {
         target: "CSV".to_owned(),
         source: std::io::Error::other(error),
     })?;
-    Ok(record
-        .unwrap_or_default()
-        .iter()
-        .map(str::to_owned)
-        .collect())
+    let record = record.unwrap_or_default();
+    Ok(record.iter().map(str::to_owned).collect())
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::default_view::DefaultView;
 use super::figure::{Axis, Figure, Shape, Sheet};
-use super::look::Look;
 use super::quantity::{Curve, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
@@ -40,12 +40,12 @@ impl View {
     }
 
     /// Returns the chosen columns as SVG, columns of one group and unit in one panel.
-    pub(super) fn svg(&self, table: &Table, look: Look<'_>) -> Result<String, Error> {
+    pub(super) fn svg(&self, table: &Table, default: DefaultView<'_>) -> Result<String, Error> {
         let names: Vec<&str> = table.names().collect();
-        let own = if look.over.is_empty() {
+        let own = if default.over.is_empty() {
             "theta"
         } else {
-            look.over
+            default.over
         };
         let over = base(&names, self.over.as_deref().unwrap_or(own))?;
         let mut chosen = Vec::new();
@@ -54,30 +54,28 @@ impl View {
         }
         if self.show.is_empty() {
             // Default columns may be missing from the rows.
-            let found = look
-                .show
-                .iter()
-                .filter_map(|text| curves(&names, text).ok());
+            let found = default.show.iter();
+            let found = found.filter_map(|text| curves(&names, text).ok());
             chosen.extend(found.flatten());
         }
         let mut panels: Vec<Vec<Curve>> = Vec::new();
         for curve in chosen {
             let key = |curve: &Curve| (curve.quantity.group.clone(), curve.quantity.unit.clone());
-            match panels
-                .iter_mut()
-                .find(|panel| key(&panel[0]) == key(&curve))
-            {
+            let alike = |panel: &&mut Vec<Curve>| key(&panel[0]) == key(&curve);
+            match panels.iter_mut().find(alike) {
                 Some(panel) => panel.push(curve),
                 None => panels.push(vec![curve]),
             }
         }
-        let panels = panels
-            .iter()
-            .map(|curves| panel(table, &over, curves, &look));
-        let mut figures: Vec<Figure> = panels.collect();
-        let columns = if figures.len() > 3 { look.columns } else { 1 };
-        if self.is_default() && !look.beside.is_empty() {
-            figures.extend(look.beside);
+        let drawn = |curves: &Vec<Curve>| panel(table, &over, curves, &default);
+        let mut figures: Vec<Figure> = panels.iter().map(drawn).collect();
+        let columns = if figures.len() > 3 {
+            default.columns
+        } else {
+            1
+        };
+        if self.is_default() && !default.extra_figures.is_empty() {
+            figures.extend(default.extra_figures);
         } else {
             // Panels in a column share their horizontal axis: only the lowest is labelled.
             let above = figures.len().saturating_sub(columns.max(1));
@@ -85,7 +83,7 @@ impl View {
             above.for_each(|figure| figure.x.label.clear());
         }
         let sheet = Sheet {
-            title: look.title,
+            title: default.title,
             columns,
             size: self.size,
         };
@@ -111,7 +109,7 @@ fn labelled(words: &str, unit: &str) -> String {
 }
 
 /// Draws columns of one quantity, with their bands, over the column `over`.
-fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figure {
+fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_>) -> Figure {
     let axis = |label: String, unit: &str| match unit {
         "°" => Axis::degrees(label),
         _ => Axis::linear(label),
@@ -122,7 +120,7 @@ fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figu
     let words = if is_alone { &first.label } else { &first.group };
     let mut label = labelled(words, &first.unit);
     let values = || curves.iter().flat_map(|curve| curve.values(table));
-    let cut = look.has_poles.then(|| bulk(values())).flatten();
+    let cut = default.has_poles.then(|| bulk(values())).flatten();
     if cut.is_some() {
         label.push_str(", peaks cut off");
     }
@@ -136,7 +134,7 @@ fn panel(table: &Table, over: &Curve, curves: &[Curve], look: &Look<'_>) -> Figu
     );
     let mut figure = Figure::new("", across, up);
     for curve in curves {
-        let band = band(table, curve, look.band);
+        let band = band(table, curve, default.band);
         let tells = !is_alone || band.is_some();
         let label = if tells { &curve.quantity.label } else { "" };
         if let Some(band) = band {

@@ -2,7 +2,7 @@
 
 /// One item of each block of `stride` items, with the largest weight; the stride doubles beyond `most` items.
 #[derive(Debug)]
-pub(super) struct Thinned<T> {
+pub(super) struct Decimated<T> {
     most: usize,
     weight: fn(&T) -> f64,
     kept: Vec<T>,
@@ -10,15 +10,15 @@ pub(super) struct Thinned<T> {
     stride: u64,
 }
 
-impl<T> Thinned<T> {
+impl<T> Decimated<T> {
     /// Starts an empty selection of at most `most` items, evenly spread.
-    pub fn new(most: usize) -> Thinned<T> {
-        Thinned::weighted(most, |_| 0.0)
+    pub fn new(most: usize) -> Decimated<T> {
+        Decimated::weighted(most, |_| 0.0)
     }
 
     /// Starts an empty selection of at most `most` items, in each block the first one of the largest weight.
-    pub fn weighted(most: usize, weight: fn(&T) -> f64) -> Thinned<T> {
-        Thinned {
+    pub fn weighted(most: usize, weight: fn(&T) -> f64) -> Decimated<T> {
+        Decimated {
             most,
             weight,
             kept: Vec::new(),

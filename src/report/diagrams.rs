@@ -83,11 +83,8 @@ pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
     let moment = &diagrams.turning_moment;
     let (mean, work) = (six(moment.mean_nm), six(moment.work_j));
     let fluctuation = six(moment.fluctuation_j);
-    fact!(
-        facts,
-        "mean torque",
-        "{mean} N m, {work} J a cycle; energy fluctuates by {fluctuation} J"
-    );
+    let text = format!("{mean} N m, {work} J a cycle; energy fluctuates by {fluctuation} J");
+    facts.add("mean torque", text);
     if let Some(indicated) = &diagrams.indicated {
         let (work, power) = (six(indicated.work_j), six(indicated.power_w));
         let pressure = six(1e-5 * indicated.mean_effective_pressure_pa);
@@ -107,17 +104,10 @@ pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
         "{moment} kg m at {angle} deg from the crank, for {part} of the reciprocating mass"
     );
     let [before, after] = [balance.largest_n, balance.largest_left_n].map(six);
-    let [forward, left, backward] = [
-        balance.forward_n,
-        balance.forward_left_n,
-        balance.backward_n,
-    ]
-    .map(six);
-    fact!(
-        facts,
-        "  shaking force",
-        "at most {before} N, with it {after} N"
-    );
+    let [forward, left] = [balance.forward_n, balance.forward_left_n].map(six);
+    let backward = six(balance.backward_n);
+    let text = format!("at most {before} N, with it {after} N");
+    facts.add("  shaking force", text);
     fact!(
         facts,
         "  first order",
@@ -129,22 +119,19 @@ fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
     let moment = &diagrams.turning_moment;
     let mean = moment.mean_nm;
     let torque = |row: &TurnRow| row.forces.map_or(f64::NAN, |forces| forces.torque);
-    let points = rows.iter();
-    let points = points.map(|row| (row.kinematics.theta.to_degrees(), mean, torque(row)));
-    let points: Vec<_> = points.collect();
+    let angle = |row: &TurnRow| row.kinematics.theta.to_degrees();
+    let area = rows.iter().map(|row| (angle(row), mean, torque(row)));
     let above = format!("energy; it fluctuates by {} J", six(moment.fluctuation_j));
-    let line = |of: fn(&(f64, f64, f64)) -> (f64, f64)| points.iter().map(of).collect();
+    let line =
+        |of: &dyn Fn(&TurnRow) -> f64| rows.iter().map(|row| (angle(row), of(row))).collect();
     Figure::new(
         "turning moment",
         Axis::degrees("crank angle θ [°]"),
         Axis::linear("driving torque [N m]"),
     )
-    .line("driving torque", line(|point| (point.0, point.2)))
-    .line(
-        format!("mean {} N m", six(mean)),
-        line(|point| (point.0, point.1)),
-    )
-    .band(above, points.clone())
+    .line("driving torque", line(&torque))
+    .line(format!("mean {} N m", six(mean)), line(&|_| mean))
+    .band(above, area.collect())
 }
 
 /// Returns one indicator diagram per gas load of the scene.
@@ -183,10 +170,9 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
         };
         let points = rows.iter().filter_map(|row| {
             let force = of(&row.forces?.reactions);
-            Some(if turns {
-                turned(row, force)
-            } else {
-                force.into()
+            Some(match turns {
+                true => turned(row, force),
+                false => force.into(),
             })
         });
         Figure::new(title, Axis::linear(along), Axis::linear(across))
@@ -219,10 +205,8 @@ pub(super) fn stems(label: &str, ends: impl Iterator<Item = (f64, f64)>) -> Figu
 
 fn orders(orders: &[Order]) -> Vec<Figure> {
     let of = |label: &str, value: fn(&Order) -> f64| {
-        stems(
-            label,
-            orders.iter().map(|order| (order.order, value(order))),
-        )
+        let ends = orders.iter().map(|order| (order.order, value(order)));
+        stems(label, ends)
     };
     vec![
         of("shaking force, along x [N]", |order| order.shaking_x_n),
@@ -238,9 +222,8 @@ fn balance(diagrams: &Diagrams, result: &OneTurn, rows: &[TurnRow]) -> Figure {
     let speed = forces.map_or(0.0, |forces| forces.speed_rad_per_s);
     let size = balance.counterweight_kg_m * speed * speed;
     let force = |row: &TurnRow, part: f64| {
-        let [x, y] = row
-            .forces
-            .map_or([f64::NAN; 2], |forces| forces.reactions.shaking);
+        let shaking = row.forces.map(|forces| forces.reactions.shaking);
+        let [x, y] = shaking.unwrap_or([f64::NAN; 2]);
         let (sin, cos) = (row.kinematics.theta + balance.angle_rad).sin_cos();
         (x + part * size * cos, y + part * size * sin)
     };

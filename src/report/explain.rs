@@ -64,11 +64,8 @@ fn computation(result: &Explanation) -> Facts {
         }
     }
     let evaluation = result.evaluation_ns;
-    fact!(
-        facts,
-        "  one evaluation",
-        "{evaluation:.0} ns (measured now)"
-    );
+    let text = format!("{evaluation:.0} ns (measured now)");
+    facts.add("  one evaluation", text);
     facts
 }
 
@@ -99,11 +96,8 @@ fn terms_at(at: &TermsAt) -> String {
     facts.add("  theta..", alpha);
     let without = at.friction.map_or("", |_| ", without friction");
     let torque = six(at.holding_torque_nm);
-    fact!(
-        facts,
-        "  holding torque",
-        "{torque} N m (torque that keeps this speed{without})"
-    );
+    let torque = format!("{torque} N m (torque that keeps this speed{without})");
+    facts.add("  holding torque", torque);
     if let Some(friction) = &at.friction {
         facts.add("  with friction", holding(friction));
     }

@@ -79,17 +79,12 @@ pub(super) fn given(value: f64) -> String {
 /// Formats a number with at most `digits` significant digits, without trailing zeros.
 pub(super) fn rounded(value: f64, digits: usize) -> String {
     let short = format!("{value:.*e}", digits - 1);
-    plain(short.parse().unwrap_or(value))
-}
-
-fn plain(value: f64) -> String {
-    let size = value.abs();
     // Minus zero is zero.
-    let value = value + 0.0;
-    if size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
+    let value = short.parse().unwrap_or(value) + 0.0;
+    let size = value.abs();
+    match size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
+        true => format!("{value}"),
+        false => format!("{value:e}"),
     }
 }
 

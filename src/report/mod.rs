@@ -6,6 +6,7 @@ mod compare;
 mod csv;
 mod curves;
 mod decimate;
+mod default_view;
 mod diagrams;
 mod drawing;
 mod explain;
@@ -13,7 +14,6 @@ mod figure;
 mod identify;
 mod inverse;
 mod key_values;
-mod look;
 mod motion;
 mod one_turn;
 mod optimise;
@@ -34,28 +34,29 @@ mod text;
 
 pub use compare::{Comparison, Motion};
 pub use curves::View;
+pub use default_view::DefaultView;
 pub use diagrams::Diagram;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, Shape, Sheet};
 pub use identify::{identification, identification_csv};
 pub use inverse::{InverseReport, inverse_table, mean_cycle, residual_table, residuals};
 pub use key_values::Facts;
-pub use look::Look;
 pub use motion::{PlotRows, RunReport};
 pub use one_turn::{TurnReport, sized};
 pub use optimise::{optimum, starts_csv};
 pub use output::{Output, is_standard_output};
 pub use page::Origin;
-pub use picture::{ENDINGS, Picture};
+pub use picture::{EXTENSIONS, Picture};
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use presentation::{Report, json};
-pub use reproduce::{ReproductionSummary, file_name, reproduction, reproduction_csv};
-pub use reproduce::{drawing_csv, drawing_svg};
+pub use reproduce::{
+    ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
+};
 pub use rows::{Preview, RowColumns, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
 pub use statics::{StaticsReport, calibration};
 pub use sweep::{
-    FrontDesign, MOST_ON_PAGE, Spread, SweepAsked, SweepExtreme, SweepRange, SweepSummary,
+    FrontDesign, MOST_ON_PAGE, Spread, SweepExtreme, SweepRange, SweepSummary, SweepSummaryOptions,
     SweepWriter, VariedKey, merge, sweep_page, sweep_text,
 };
 pub use table::{Cells, Table};

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use super::curves::View;
-use super::decimate::Thinned;
+use super::decimate::Decimated;
 use super::figure::{Axis, Figure};
 use super::key_values::Facts;
 use super::rows::{ROWS_KEPT, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
-use super::{Look, Origin, Report, page};
+use super::{DefaultView, Origin, Report, page};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
@@ -18,7 +18,7 @@ use crate::simulate::{Energies, Row, Summary};
 #[derive(Debug)]
 pub struct PlotRows {
     view: View,
-    rows: Thinned<Row>,
+    rows: Decimated<Row>,
 }
 
 impl PlotRows {
@@ -27,7 +27,7 @@ impl PlotRows {
         let force = |row: &Row| row.clearance.map_or(0.0, |joint| joint.force);
         PlotRows {
             view,
-            rows: Thinned::weighted(ROWS_KEPT, force),
+            rows: Decimated::weighted(ROWS_KEPT, force),
         }
     }
 
@@ -102,9 +102,8 @@ impl Report for RunReport<'_> {
         let mut table = Table::new(&rows.first().map_or(String::new(), columns));
         table.stride = self.plot.rows.stride();
         for row in &rows {
-            let [kinetic, potential] = energies
-                .as_ref()
-                .map_or([f64::NAN; 2], |energies| energies.at(row));
+            let energies = energies.as_ref().map(|energies| energies.at(row));
+            let [kinetic, potential] = energies.unwrap_or([f64::NAN; 2]);
             let mut cells = cells(row);
             cells.extend([kinetic, potential, kinetic + potential]);
             cells.extend(row.clearance.map(|joint| row.x - joint.ideal[0]));
@@ -115,21 +114,21 @@ impl Report for RunReport<'_> {
 
     /// Returns the plot of the slider motion and crank speed over time; for a loose joint, of the slider motion beside
     /// that of ideal joints, the contact force and the journal path.
-    fn look(&self) -> Look<'_> {
+    fn default_view(&self) -> DefaultView<'_> {
         let short = self.rows().last().is_some_and(|row| row.t < 0.5);
-        let look = Look {
+        let default = DefaultView {
             title: &self.summary.scene,
             show: &["x", "v", "a", "omega"],
             over: if short { "t:ms" } else { "t" },
             columns: 2,
             scene: Some(self.scene),
             run: Some(self.summary),
-            ..Look::default()
+            ..DefaultView::default()
         };
         let Some(joint) = &self.summary.clearance else {
-            return look;
+            return default;
         };
-        Look {
+        DefaultView {
             show: &[
                 "x",
                 "x_ideal",
@@ -140,17 +139,17 @@ impl Report for RunReport<'_> {
                 "contact_force",
                 "slider_deviation",
             ],
-            beside: vec![self.orbit(1e3 * joint.radial_m)],
-            ..look
+            extra_figures: vec![self.orbit(1e3 * joint.radial_m)],
+            ..default
         }
     }
 
     fn page(&self, origin: &Origin) -> Result<String, Error> {
-        let mut look = self.look();
+        let mut default = self.default_view();
         if let Some(steady) = &self.summary.steady_state {
-            look.figures.push(speed_figure(steady)?);
+            default.figures.push(speed_figure(steady)?);
         }
-        page::html(origin, &self.facts(), &self.table(), &look)
+        page::html(origin, &self.facts(), &self.table(), &default)
     }
 }
 

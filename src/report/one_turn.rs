@@ -7,7 +7,7 @@ use super::diagrams::{self, Diagram};
 use super::key_values::{Facts, degrees, fact, given, six};
 use super::rows::{REACTIONS, reactions};
 use super::text::{NAMES, extreme, kinematics};
-use super::{Look, Report, Table, View};
+use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::kinematics::{Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
 use crate::scene::Scene;
@@ -113,7 +113,7 @@ impl Report for TurnReport<'_> {
     /// Returns the rows; for changed lengths with their change of the motion and the changed motion (not in CSV).
     fn table(&self) -> Table {
         let mut table = Table::new(&self.columns());
-        table.beside = if self.result.changed.is_some() { 3 } else { 0 };
+        table.plot_only_columns = if self.result.changed.is_some() { 3 } else { 0 };
         for row in self.result.rows(self.every) {
             table.push(values(&row));
         }
@@ -121,7 +121,7 @@ impl Report for TurnReport<'_> {
     }
 
     /// Returns the plot of slider motion, also with changed lengths, and driving torque, exact and first-order.
-    fn look(&self) -> Look<'_> {
+    fn default_view(&self) -> DefaultView<'_> {
         let show: &[&str] = match self.moves() {
             true => &[
                 "x",
@@ -135,18 +135,18 @@ impl Report for TurnReport<'_> {
             ],
             false => &["x", "x_changed", "dx", "dx_changed", "d2x", "d2x_changed"],
         };
-        Look {
+        DefaultView {
             title: &self.result.kinematics.scene,
             show,
             scene: Some(self.scene),
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 
     fn figure(&self, view: &View) -> Result<String, Error> {
         let Some(diagram) = self.diagram else {
             let every = SPACING;
-            return view.svg(&TurnReport { every, ..*self }.table(), self.look());
+            return view.svg(&TurnReport { every, ..*self }.table(), self.default_view());
         };
         let svg = diagram.svg(self.result, self.scene, view.size)?;
         svg.ok_or_else(|| {
@@ -159,12 +159,12 @@ impl Report for TurnReport<'_> {
     }
 
     fn page(&self, origin: &super::Origin) -> Result<String, Error> {
-        let mut look = self.look();
+        let mut default = self.default_view();
         for diagram in Diagram::ALL {
             let svg = diagram.svg(self.result, self.scene, None)?;
-            look.figures.extend(svg);
+            default.figures.extend(svg);
         }
-        super::page::html(origin, &self.facts(), &self.table(), &look)
+        super::page::html(origin, &self.facts(), &self.table(), &default)
     }
 }
 
@@ -218,18 +218,12 @@ fn forces(facts: &mut Facts, result: &OneTurn) {
     let masses = &analysis.masses;
     let [rotating, reciprocating] = [masses.rotating_kg, masses.reciprocating_kg].map(six);
     fact!(facts, "rotating mass", "{rotating} kg at the crank pin");
-    fact!(
-        facts,
-        "reciprocating mass",
-        "{reciprocating} kg at the wrist pin"
-    );
+    let text = format!("{reciprocating} kg at the wrist pin");
+    facts.add("reciprocating mass", text);
     let turns = analysis.cycle_turns;
     if turns > 1 {
-        fact!(
-            facts,
-            "forces",
-            "over {turns} turns, the cycle of the loads"
-        );
+        let text = format!("over {turns} turns, the cycle of the loads");
+        facts.add("forces", text);
     }
     for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
         if let Some(StrokeTorque { max, min }) = stroke {

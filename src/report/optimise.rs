@@ -3,13 +3,12 @@
 use super::csv::{self, CsvCell};
 use super::key_values::{Facts, fact, rounded, six};
 use super::quantity::Quantity;
-use crate::optimise::{AGREEMENT, Optimum, OptimumValue, Proof, SubjectMet};
+use crate::optimise::{AGREEMENT, EvaluatedConstraint, Optimum, OptimumValue};
 
 /// Returns the best design, its limits, agreement of the searches and final sweeps, as text.
 pub fn optimum(found: &Optimum) -> String {
     let mut facts = Facts::of(&found.scene);
-    let value = shown(&found.figure, found.value);
-    fact!(facts, found.sense, "{value}");
+    facts.add(found.sense, shown(&found.figure, found.value));
     for one in &found.values {
         facts.add(&one.key, varied(one));
     }
@@ -52,7 +51,7 @@ fn varied(one: &OptimumValue) -> String {
     }
 }
 
-fn subject(one: &SubjectMet) -> String {
+fn subject(one: &EvaluatedConstraint) -> String {
     let of = Quantity::of(&one.figure);
     let limit = format!("{} {} {}", one.sense, six(one.limit * of.factor), of.unit);
     let how = match (one.is_met, one.is_active) {
@@ -60,57 +59,45 @@ fn subject(one: &SubjectMet) -> String {
         (true, true) => ", reached",
         (true, false) => "",
     };
-    format!(
-        "{} {}{how}",
-        shown(&one.figure, one.value),
-        limit.trim_end()
-    )
+    let figure = shown(&one.figure, one.value);
+    format!("{figure} {}{how}", limit.trim_end())
 }
 
 fn proof(found: &Optimum) -> String {
-    let Proof {
-        is_complete,
-        half_widths,
-        designs_each,
-        improvements,
-    } = &found.proof;
     if found.interrupted {
         return "none: the search was interrupted".to_owned();
     }
-    let widths = half_widths.iter().map(|width| six(width * 100.0));
+    let (sweeps, of) = (&found.proof, Quantity::of(&found.figure));
+    let widths = sweeps.half_widths.iter().map(|width| six(width * 100.0));
     let widths = widths.collect::<Vec<_>>().join(", ");
-    let sweeps = format!("of {designs_each} designs each within {widths} % of the ranges");
-    let resolution = Quantity::of(&found.figure);
-    let resolution = format!(
-        "{:.1e} {}",
-        found.resolution * resolution.factor,
-        resolution.unit
-    );
-    match is_complete {
-        true => format!("{sweeps} none is better by {}", resolution.trim_end()),
-        false => format!("none: {sweeps} some are still better after {improvements} improvements"),
+    let (each, improvements) = (sweeps.designs_each, sweeps.improvements);
+    let boxes = format!("of {each} designs each within {widths} % of the ranges");
+    let resolution = format!("{:.1e} {}", found.resolution * of.factor, of.unit);
+    match sweeps.is_complete {
+        true => format!("{boxes} none is better by {}", resolution.trim_end()),
+        false => format!("none: {boxes} some are still better after {improvements} improvements"),
     }
 }
 
 /// Returns one CSV row per local search.
 pub fn starts_csv(found: &Optimum) -> String {
-    let of = |prefix: &'static str| {
+    let columns = |prefix: &str| -> String {
         let values = found.values.iter();
-        values.map(move |one| format!("{prefix}{}", one.column))
+        values
+            .map(|one| format!("{prefix}{},", one.column))
+            .collect()
     };
-    let last = [&found.figure, "meets_subjects", "agrees", "designs"].map(str::to_owned);
-    let header = ["search".to_owned()].into_iter().chain(of("start_"));
-    let header: Vec<String> = header.chain(of("")).chain(last).collect();
+    let (starts, ends, figure) = (columns("start_"), columns(""), &found.figure);
+    let header = format!("search,{starts}{ends}{figure},meets_subjects,agrees,designs");
     let rows = found.starts.iter().zip(1u32..).map(|(start, number)| {
-        let [meets, agrees] = [start.meets_subjects, start.agrees].map(u8::from);
-        let values = start.from.iter().chain(&start.to);
-        let mut cells = vec![CsvCell::from(f64::from(number))];
-        cells.extend(values.map(|value| CsvCell::from(*value)));
+        let [meets, agrees] =
+            [start.meets_subjects, start.agrees].map(|is| f64::from(u8::from(is)));
+        let values = start.from.iter().chain(&start.to).copied();
+        let values = [f64::from(number)].into_iter().chain(values);
+        let mut cells: Vec<CsvCell> = values.map(CsvCell::from).collect();
         cells.push(start.value.into());
-        cells.extend([meets, agrees].map(|flag| CsvCell::from(f64::from(flag))));
-        cells.push(CsvCell::from(start.designs as f64));
+        cells.extend([meets, agrees, start.designs as f64].map(CsvCell::from));
         cells
     });
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     csv::text(&header, rows)
 }

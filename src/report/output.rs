@@ -131,10 +131,8 @@ impl Output {
     /// Flushes the output and gives a file its name.
     pub fn finish(self) -> Result<(), Error> {
         let (target, path) = (self.target, self.path);
-        let stream = self
-            .writer
-            .into_inner()
-            .map_err(io::IntoInnerError::into_error);
+        let stream = self.writer.into_inner();
+        let stream = stream.map_err(io::IntoInnerError::into_error);
         let finished = stream.and_then(|mut stream| {
             stream.flush()?;
             path.map_or(Ok(()), |path| named(stream, &path))

@@ -7,16 +7,14 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
 
 use super::Output;
+use super::figure::PIXELS_PER_INCH;
 use crate::error::Error;
 
 /// Extensions of picture files.
-pub const ENDINGS: [&str; 3] = ["svg", "png", "pdf"];
+pub const EXTENSIONS: [&str; 3] = ["svg", "png", "pdf"];
 
 /// Pixels of a PNG per pixel of the figure: sharp in print and on high-resolution screens.
 const SCALE: f32 = 2.0;
-
-/// Pixels of a figure per inch.
-const DPI: f32 = 96.0;
 
 /// File to which a figure is drawn.
 #[derive(Debug)]
@@ -46,7 +44,9 @@ impl Picture {
         let bytes = match self.ending.as_str() {
             "png" => pixels(svg, SCALE)?.encode_png().map_err(failed)?,
             "pdf" => {
-                let page = svg2pdf::PageOptions { dpi: DPI };
+                let page = svg2pdf::PageOptions {
+                    dpi: PIXELS_PER_INCH as f32,
+                };
                 let options = svg2pdf::ConversionOptions::default();
                 svg2pdf::to_pdf(&tree(svg)?, options, page).map_err(failed)?
             }

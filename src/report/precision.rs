@@ -1,31 +1,21 @@
 //! Reports of the work-precision comparison of methods: CSV, text, page and figure.
 
 use super::csv::{self, CsvCell};
+use super::default_view::{DefaultView, Scatter};
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, aligned, fact, six};
-use super::look::{Look, Scatter};
 use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionRow};
 use crate::scene::printable;
 
-const COLUMNS: [&str; 9] = [
-    "scene",
-    "method",
-    "tolerance",
-    "error_theta_rad",
-    "error_omega_rad_per_s",
-    "estimate_theta_rad",
-    "wall_s",
-    "evaluations",
-    "steps",
-];
+const COLUMNS: &str = "scene,method,tolerance,error_theta_rad,error_omega_rad_per_s,estimate_theta_rad,wall_s,evaluations,steps";
 
 /// Returns the comparison of several scenes as CSV: one row per method and tolerance, with the shortest wall time;
 /// missing values are empty cells.
 pub fn precision_csv(scenes: &[Precision]) -> String {
-    csv::text(&COLUMNS, cells(scenes))
+    csv::text(COLUMNS, cells(scenes))
 }
 
 fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<CsvCell>> {
@@ -66,21 +56,23 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
             facts.add("  note", note);
         }
     }
-    let table = Table::of_rows(&COLUMNS, &cells(scenes).collect::<Vec<_>>());
-    let scatter = Scatter {
-        x: "wall_s".to_owned(),
-        y: "error_theta_rad".to_owned(),
-        colour: String::new(),
-        log: true,
-        lines: true,
-        kind: "method",
-        within: "scene",
+    let table = Table::of_rows(
+        &COLUMNS.split(',').collect::<Vec<_>>(),
+        &cells(scenes).collect::<Vec<_>>(),
+    );
+    let default = DefaultView {
+        scatter: Some(Scatter {
+            x: "wall_s".to_owned(),
+            y: "error_theta_rad".to_owned(),
+            log: true,
+            lines: true,
+            kind: "method",
+            within: "scene",
+            ..Scatter::default()
+        }),
+        ..DefaultView::default()
     };
-    let look = Look {
-        scatter: Some(scatter),
-        ..Look::default()
-    };
-    page::html(origin, &facts, &table, &look)
+    page::html(origin, &facts, &table, &default)
 }
 
 /// Widths of the columns of the table, characters; negative for left-aligned.
@@ -95,26 +87,11 @@ pub fn precision(scene: &Precision) -> String {
         scene.reference_error_theta_rad,
         scene.reference_error_omega_rad_per_s,
     ) {
-        fact!(
-            facts,
-            "its error",
-            "{theta:.1e} rad, {omega:.1e} rad/s or less"
-        );
+        let text = format!("{theta:.1e} rad, {omega:.1e} rad/s or less");
+        facts.add("its error", text);
     }
-    let [error, speed, stated] = ["error [rad]", "error [rad/s]", "stated [rad]"];
-    let [least, evaluations] = ["least [us]", "evaluations"];
-    let header = [
-        "method",
-        "tolerance",
-        error,
-        speed,
-        stated,
-        least,
-        "median",
-        evaluations,
-        "steps",
-    ];
-    let mut text = facts.lines(10) + "\n" + &aligned(&WIDTHS, header);
+    let header = "method,tolerance,error [rad],error [rad/s],stated [rad],least [us],median,evaluations,steps";
+    let mut text = facts.lines(10) + "\n" + &aligned(&WIDTHS, header.split(','));
     for row in &scene.rows {
         text += &line(row);
     }
@@ -161,19 +138,15 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
         // Numbers that differ from row to row would prevent merging; the JSON object has them.
         let reason = |why: &String| {
             let why = why.split(": stopped at").next().unwrap_or(why);
-            why.split(", as the coefficient")
-                .next()
-                .unwrap_or(why)
-                .to_owned()
+            let why = why.split(", as the coefficient").next();
+            why.unwrap_or_default().to_owned()
         };
         let word = match row.error_theta_rad {
             None => "failed",
             Some(_) => "measured where the motion ends",
         };
-        let failure = row
-            .failure
-            .iter()
-            .map(|why| format!("{word}: {}", reason(why)));
+        let failure = row.failure.iter();
+        let failure = failure.map(|why| format!("{word}: {}", reason(why)));
         let against = row.measured_against.iter();
         let against = against.map(|what| format!("measured against {what}"));
         for what in failure.chain(against) {

@@ -1,8 +1,8 @@
 //! Common interface of reports: from one result to text, CSV, picture and page.
 
 use super::curves::View;
+use super::default_view::DefaultView;
 use super::key_values::Facts;
-use super::look::Look;
 use super::output::Output;
 use super::page::{self, Origin};
 use super::table::Table;
@@ -20,7 +20,7 @@ pub trait Report {
     fn table(&self) -> Table;
 
     /// Returns the default content of picture and page.
-    fn look(&self) -> Look<'_>;
+    fn default_view(&self) -> DefaultView<'_>;
 
     /// Writes the rows as CSV.
     ///
@@ -35,7 +35,7 @@ pub trait Report {
     /// # Errors
     /// [`Error::Refused`] if a column is missing, or the picture is too small.
     fn figure(&self, view: &View) -> Result<String, Error> {
-        view.svg(&self.table(), self.look())
+        view.svg(&self.table(), self.default_view())
     }
 
     /// Returns the result as one HTML page.
@@ -43,7 +43,7 @@ pub trait Report {
     /// # Errors
     /// [`Error::Write`].
     fn page(&self, origin: &Origin) -> Result<String, Error> {
-        page::html(origin, &self.facts(), &self.table(), &self.look())
+        page::html(origin, &self.facts(), &self.table(), &self.default_view())
     }
 }
 

@@ -94,18 +94,7 @@ pub fn reproduction(result: &Reproduction) -> String {
 
 /// Returns all entries as CSV.
 pub fn reproduction_csv(result: &Reproduction) -> String {
-    let header = [
-        "paper",
-        "place",
-        "what",
-        "unit",
-        "printed",
-        "ours",
-        "conditional",
-        "condition",
-        "verdict",
-        "expected",
-    ];
+    let header = "paper,place,what,unit,printed,ours,conditional,condition,verdict,expected";
     let row = |entry: &Entry| {
         vec![
             entry.paper.into(),
@@ -120,7 +109,7 @@ pub fn reproduction_csv(result: &Reproduction) -> String {
             entry.expected.name().into(),
         ]
     };
-    csv::text(&header, result.entries.iter().map(row))
+    csv::text(header, result.entries.iter().map(row))
 }
 
 /// Returns the data of a figure as CSV, one row per point.
@@ -129,17 +118,12 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
     let series = series.flat_map(|plot| plot.series.iter().map(move |series| (plot, series)));
     let rows = series.flat_map(|(plot, series)| {
         let names = [&*plot.x, &*plot.y, &*series.label];
-        let points = series.points.iter();
-        points.map(move |(x, y)| {
-            let numbers = [*x, *y].map(CsvCell::from);
-            names
-                .map(CsvCell::from)
-                .into_iter()
-                .chain(numbers)
-                .collect()
+        series.points.iter().map(move |(x, y)| {
+            let cells = names.map(CsvCell::from).into_iter();
+            cells.chain([*x, *y].map(CsvCell::from)).collect()
         })
     });
-    csv::text(&["x_axis", "y_axis", "series", "x", "y"], rows)
+    csv::text("x_axis,y_axis,series,x,y", rows)
 }
 
 /// Returns a figure as SVG.

@@ -2,7 +2,7 @@
 
 use super::Output;
 use super::csv::line;
-use super::decimate::Thinned;
+use super::decimate::Decimated;
 use super::table::Table;
 use crate::error::Error;
 use crate::simulate::{Reactions, Row, RowSink};
@@ -21,11 +21,8 @@ pub(super) const ROWS_KEPT: usize = 100_000;
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
     let joints = [forces.crank_bearing, forces.crank_pin, forces.wrist_pin];
     let rest = [forces.guide].into_iter().chain(forces.shaking);
-    joints
-        .into_iter()
-        .flatten()
-        .chain(rest)
-        .chain([forces.shaking_moment])
+    let joints = joints.into_iter().flatten();
+    joints.chain(rest).chain([forces.shaking_moment])
 }
 
 /// Writer of the rows of `simulate` as CSV.
@@ -112,7 +109,7 @@ impl RowSink for RowColumns {
 /// Few rows, evenly spread over a run of unknown length, for a table on the terminal.
 #[derive(Debug)]
 pub struct Preview {
-    few: Thinned<Row>,
+    few: Decimated<Row>,
     last: Option<Row>,
 }
 
@@ -122,7 +119,7 @@ const PREVIEW_ROWS: usize = 24;
 impl Default for Preview {
     fn default() -> Preview {
         Preview {
-            few: Thinned::new(PREVIEW_ROWS),
+            few: Decimated::new(PREVIEW_ROWS),
             last: None,
         }
     }

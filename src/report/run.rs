@@ -1,7 +1,6 @@
 //! Facts of a run: final state, cost, events, loose joint and periodic steady state.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use super::diagrams::stems;
 use super::key_values::{Facts, aligned, fact, given, in_turn, six, with_error};
@@ -18,8 +17,8 @@ pub(super) fn run(summary: &Summary) -> Facts {
     end(&mut facts, summary);
     if let Some(torque) = &summary.driving_torque {
         let [least, most, mean] = [torque.min_nm, torque.max_nm, torque.mean_nm].map(six);
-        let range = format!("{least} to {most} N m, mean {mean} N m");
-        facts.add("driving torque", range);
+        let text = format!("{least} to {most} N m, mean {mean} N m");
+        facts.add("driving torque", text);
     }
     for (name, peak) in summary.peaks.iter().flat_map(|peaks| peaks.named()) {
         let (value, t, angle) = (six(peak.value_n), six(peak.t_s), in_turn(peak.theta_rad));
@@ -30,18 +29,13 @@ pub(super) fn run(summary: &Summary) -> Facts {
         let text = format!("{relative:.1e} of the largest energy ({residual:.1e} J)");
         facts.add("energy residual", text);
     }
-    let cost = (summary.evaluations, summary.steps, seconds(summary.wall_s));
-    fact!(
-        facts,
-        "cost",
-        "{} evaluations, {} steps, {}",
-        cost.0,
-        cost.1,
-        cost.2
-    );
+    let (evaluations, steps) = (summary.evaluations, summary.steps);
+    let time = seconds(summary.wall_s);
+    let text = format!("{evaluations} evaluations, {steps} steps, {time}");
+    facts.add("cost", text);
     if let Some(cost) = &summary.estimate_cost {
-        let text = format!("{} evaluations, {}", cost.evaluations, seconds(cost.wall_s));
-        facts.add("  of the estimate", text);
+        let (count, time) = (cost.evaluations, seconds(cost.wall_s));
+        fact!(facts, "  of the estimate", "{count} evaluations, {time}");
     }
     facts.add("events", events(summary));
     if let Some(joint) = &summary.clearance {
@@ -120,8 +114,8 @@ fn seconds(value: f64) -> String {
 /// Returns rows as a table with aligned columns.
 pub(super) fn table(rows: &[Row]) -> String {
     const WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
-    let [theta, omega, x, v] = ["theta [deg]", "omega [rad/s]", "x [mm]", "v [m/s]"];
-    let mut text = aligned(&WIDTHS, ["t [s]", "turns", theta, omega, x, v]);
+    let header = "t [s],turns,theta [deg],omega [rad/s],x [mm],v [m/s]";
+    let mut text = aligned(&WIDTHS, header.split(','));
     for row in rows {
         let turns = (row.theta / TAU).floor();
         let cells = [
@@ -145,16 +139,13 @@ fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     facts.add("loose joint", text);
     let share = 100.0 * joint.contact_share;
     let [peak, mean] = [joint.force_peak_n, joint.force_mean_n].map(six);
-    let mut text = format!("{} impacts, {share:.2} % of the time, ", joint.impacts);
-    let _ = write!(text, "peak {peak} N, mean {mean} N");
+    let contact = format!("{} impacts, {share:.2} % of the time", joint.impacts);
+    let text = format!("{contact}, peak {peak} N, mean {mean} N");
     facts.add("  contact", text);
     let [lost, work] = [joint.dissipated_j, joint.work_j.abs()].map(six);
     let way = if joint.work_j < 0.0 { "out of" } else { "into" };
-    let mut text = format!("{lost} J in contact and guide; ");
-    let _ = write!(
-        text,
-        "the loads and the drive bring {work} J {way} the mechanism"
-    );
+    let brought = format!("the loads and the drive bring {work} J {way} the mechanism");
+    let text = format!("{lost} J in contact and guide; {brought}");
     facts.add("  energy lost", text);
     let last = &joint.last;
     let slider = shown(last.x_m, last.error_x_m, "m", "stated");
@@ -196,10 +187,8 @@ fn steady_state(facts: &mut Facts, steady: &SteadyState) {
     };
     let period = estimated(steady.period_s, "s");
     fact!(facts, "steady state", "period {period}{of_turns}");
-    facts.add(
-        "  mean speed",
-        estimated(steady.omega_mean_rad_per_s, "rad/s"),
-    );
+    let mean = estimated(steady.omega_mean_rad_per_s, "rad/s");
+    facts.add("  mean speed", mean);
     facts.add("  slowest", extreme(&steady.slowest));
     facts.add("  fastest", extreme(&steady.fastest));
     facts.add("  fluctuation", estimated(steady.fluctuation, ""));

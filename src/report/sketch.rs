@@ -148,11 +148,9 @@ impl Sketch {
         parts.extend([pivot, pin, wrist].map(|at| (JOINT, Part::Circle(at, 0.35 * size))));
         let along = [(wrist[0] - pin[0]) / rod, (wrist[1] - pin[1]) / rod];
         let (crank_cg, rod_cg) = (self.drawing.crank_cg, self.drawing.rod_cg);
-        let marks = [
-            crank_cg.map(|cg| placed(pivot, [cos, sin], cg)),
-            rod_cg.map(|cg| placed(pin, along, cg)),
-        ];
-        let marks = marks.into_iter().flatten();
+        let crank_cg = crank_cg.map(|cg| placed(pivot, [cos, sin], cg));
+        let rod_cg = rod_cg.map(|cg| placed(pin, along, cg));
+        let marks = crank_cg.into_iter().chain(rod_cg);
         parts.extend(marks.map(|at| (CENTRE_OF_GRAVITY, Part::Circle(at, 0.25 * size))));
         parts
     }

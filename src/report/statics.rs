@@ -3,7 +3,7 @@
 use super::curves::SPACING;
 use super::key_values::{Facts, aligned, fact, given, six, with_error};
 use super::text::{NAMES, extreme, place};
-use super::{Look, Report, Table, View};
+use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::statics::{Calibration, StaticAnalysis, StaticsRow};
@@ -22,19 +22,11 @@ pub struct StaticsReport<'a> {
 }
 
 impl StaticsReport<'_> {
-    /// Returns the name of the unknown load, its unit, and its columns.
-    fn sought(&self) -> (&'static str, &'static str, &'static str) {
+    /// Returns name and unit of the unknown load.
+    fn sought(&self) -> (&'static str, &'static str) {
         match self.result.sought {
-            "crank-torque" => (
-                "crank torque",
-                "N m",
-                "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
-            ),
-            _ => (
-                "slider force",
-                "N",
-                "slider_force_n,slider_force_min_n,slider_force_max_n",
-            ),
+            "crank-torque" => ("crank torque", "N m"),
+            _ => ("slider force", "N"),
         }
     }
 }
@@ -42,7 +34,7 @@ impl StaticsReport<'_> {
 impl Report for StaticsReport<'_> {
     fn facts(&self) -> Facts {
         let result = self.result;
-        let (what, unit, _) = self.sought();
+        let (what, unit) = self.sought();
         let mut facts = Facts::of(&result.scene);
         facts.add("class", result.class);
         fact!(facts, "sought", "{what} beside the other loads");
@@ -63,7 +55,7 @@ impl Report for StaticsReport<'_> {
     /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
         const WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
-        let (what, unit, _) = self.sought();
+        let (what, unit) = self.sought();
         let sought = format!("{what} [{unit}]");
         let [thrust, transmission] = ["side thrust [N]", "transmission [deg]"];
         let header = ["theta [deg]", &sought, "from", "to", thrust, transmission];
@@ -82,30 +74,36 @@ impl Report for StaticsReport<'_> {
     }
 
     fn table(&self) -> Table {
-        let (.., sought) = self.sought();
+        let sought = match self.result.sought {
+            "crank-torque" => "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
+            _ => "slider_force_n,slider_force_min_n,slider_force_max_n",
+        };
         let mut table = Table::new(&format!(
             "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
         ));
-        table.beside = if self.details { 0 } else { 2 };
+        table.plot_only_columns = if self.details { 0 } else { 2 };
         let rows = self.result.rows(self.every);
         rows.for_each(|row| table.push(cells(&row)));
         table
     }
 
     /// Returns the plot of the unknown load with its friction band, and the side thrust.
-    fn look(&self) -> Look<'_> {
-        Look {
+    fn default_view(&self) -> DefaultView<'_> {
+        DefaultView {
             title: &self.result.scene,
             show: &["slider_force", "crank_torque", "side_thrust"],
             has_poles: true,
             scene: Some(self.scene),
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 
     fn figure(&self, view: &View) -> Result<String, Error> {
         let every = SPACING;
-        view.svg(&StaticsReport { every, ..*self }.table(), self.look())
+        view.svg(
+            &StaticsReport { every, ..*self }.table(),
+            self.default_view(),
+        )
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Table {
     /// Sampling interval: the table holds every `stride`-th row of the result.
     pub(super) stride: u64,
     /// Number of columns at the end that only pictures and pages use.
-    pub(super) beside: usize,
+    pub(super) plot_only_columns: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -44,10 +44,14 @@ impl Table {
             name: name.to_owned(),
             cells: Cells::Numbers(Vec::new(), None),
         };
+        Table::of_columns(header.split(',').map(column).collect())
+    }
+
+    fn of_columns(columns: Vec<Column>) -> Table {
         Table {
-            columns: header.split(',').map(column).collect(),
+            columns,
             stride: 1,
-            beside: 0,
+            plot_only_columns: 0,
         }
     }
 
@@ -73,11 +77,7 @@ impl Table {
             name: name.as_ref().to_owned(),
             cells: Cells::of(rows.iter().map(|row| row.get(i).unwrap_or(&NONE))),
         };
-        Table {
-            columns: header.par_iter().enumerate().map(column).collect(),
-            stride: 1,
-            beside: 0,
-        }
+        Table::of_columns(header.par_iter().enumerate().map(column).collect())
     }
 
     /// Returns the numbers of a column, in SI units or the unit of its texts; none for texts or an unknown column.
@@ -91,9 +91,9 @@ impl Table {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
-    /// Writes the columns of numbers as CSV, without the last `beside` columns.
+    /// Writes the columns of numbers as CSV, without the last `plot_only_columns` columns.
     pub(super) fn csv(&self, output: Output) -> Result<(), Error> {
-        let columns = &self.columns[..self.columns.len() - self.beside];
+        let columns = &self.columns[..self.columns.len() - self.plot_only_columns];
         let header: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let columns = columns.iter().filter_map(|column| column.cells.numbers());
         let columns: Vec<&[f64]> = columns.collect();

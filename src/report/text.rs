@@ -16,11 +16,8 @@ pub(super) fn place(position: &NamedPosition) -> String {
 
 /// Returns value and crank angle of an extreme.
 pub(super) fn extreme(found: &Located, unit: &str) -> String {
-    format!(
-        "{} {unit} at {} deg",
-        six(found.value),
-        degrees(found.theta_rad)
-    )
+    let (value, angle) = (six(found.value), degrees(found.theta_rad));
+    format!("{value} {unit} at {angle} deg")
 }
 
 /// Returns the facts of one turn in closed form.
@@ -30,10 +27,8 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     fact!(facts, "stroke", "{} m", six(result.stroke_m));
     for dead_centre in &result.dead_centres {
         let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
-        facts.add(
-            format_args!("{} dead centre", dead_centre.kind),
-            format_args!("{angle} deg, x = {x} m"),
-        );
+        let name = format_args!("{} dead centre", dead_centre.kind);
+        fact!(facts, name, "{angle} deg, x = {x} m");
     }
     if let (Some(advance), Some(back), Some(ratio)) =
         (result.advance_rad, result.return_rad, result.time_ratio)

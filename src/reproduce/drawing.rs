@@ -56,21 +56,3 @@ impl Drawing {
         }
     }
 }
-
-impl Plot {
-    pub(super) fn new(x: &str, y: &str) -> Plot {
-        Plot {
-            x: x.to_owned(),
-            y: y.to_owned(),
-            series: Vec::new(),
-        }
-    }
-
-    pub(super) fn add(&mut self, label: &str, style: Style, points: Vec<(f64, f64)>) {
-        self.series.push(Series {
-            label: label.to_owned(),
-            style,
-            points,
-        });
-    }
-}

@@ -1,7 +1,7 @@
 //! Duarte, Valencia and Obregon 2018: Lagrange equation of a Diesel engine, equations (1)-(11).
 
-use super::book::{Book, Files};
-use super::quantities::{self, Ours};
+use super::formulas::{Files, PaperFormulas};
+use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::scene::{Gravity, Scene};
 
@@ -12,13 +12,13 @@ const FILES: Files = Files {
 };
 
 /// Returns the paper with the complete equation of the engine: rod inertia about the crank pin, balanced crank.
-pub(super) fn book() -> Result<Book, Error> {
-    let symbols = Book::new(FILES)?;
+pub(super) fn formulas() -> Result<PaperFormulas, Error> {
+    let symbols = PaperFormulas::new(FILES)?;
     let [acceleration] = symbols.numbers(["g"])?;
     let gravity = Gravity {
         acceleration,
         ..Gravity::standard()
     };
-    let engine = Ours::new(Scene::duarte().gravity(gravity));
+    let engine = MechanismQuantities::new(Scene::duarte().gravity(gravity));
     Ok(symbols.with(quantities::of(vec![("engine", engine)], |_, _| None)))
 }

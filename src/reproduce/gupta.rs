@@ -3,8 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::book::{Book, Files};
-use super::quantities::{self, Ours};
+use super::formulas::{Files, PaperFormulas};
+use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::{Linkage, Shape};
 use crate::scene::Scene;
@@ -108,14 +108,14 @@ fn plate(name: &str) -> Option<f64> {
     }
 }
 
-pub(super) fn book() -> Result<Book, Error> {
-    let symbols = Book::new(FILES)?;
+pub(super) fn formulas() -> Result<PaperFormulas, Error> {
+    let symbols = PaperFormulas::new(FILES)?;
     let [r, l, e, speed] = symbols.numbers(["r2", "r3", "e", "w"])?;
     let scene = |crank: f64, rod: f64| Scene::new(crank, rod).offset(e);
     let mechanisms = vec![
-        ("original", Ours::new(scene(r, l))),
-        ("longcrank", Ours::new(scene(0.15, l))),
-        ("longrod", Ours::new(scene(r, 0.32))),
+        ("original", MechanismQuantities::new(scene(r, l))),
+        ("longcrank", MechanismQuantities::new(scene(0.15, l))),
+        ("longrod", MechanismQuantities::new(scene(r, 0.32))),
     ];
     let linkage = Linkage::new(&scene(r, l).geometry);
     let script = Script { linkage, speed };

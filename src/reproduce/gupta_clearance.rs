@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use super::drawing::{Drawing, Plot, Style};
+use super::drawing::{Drawing, Plot, Series, Style};
 use super::entry::{Entry, Printed};
 use crate::error::Error;
 use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
@@ -55,8 +55,13 @@ fn turns() -> Result<Vec<Vec<Row>>, Error> {
     SPEEDS.iter().map(turn).collect()
 }
 
-pub(super) fn entries() -> Result<Vec<Entry>, Error> {
+/// Simulates the turns; returns their comparisons with the paper, and its figures.
+pub(super) fn results() -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
     let turns = turns()?;
+    Ok((entries(&turns), drawings(&turns)))
+}
+
+fn entries(turns: &[Vec<Row>]) -> Vec<Entry> {
     let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[0]);
     let all = || turns[0].iter().map(ideal);
     let stroke = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
@@ -75,7 +80,7 @@ pub(super) fn entries() -> Result<Vec<Entry>, Error> {
         }
     };
     let mut entries = Vec::new();
-    for (speed, turn) in SPEEDS.iter().zip(&turns) {
+    for (speed, turn) in SPEEDS.iter().zip(turns) {
         let what = format!("effect of the clearance on the position, {speed} rpm");
         let mut offs = turn.iter().map(|row| row.x - ideal(row));
         entries.push(little(what, "very little", &mut offs));
@@ -85,11 +90,10 @@ pub(super) fn entries() -> Result<Vec<Entry>, Error> {
         let mut offs = turns[0].iter().zip(turn).map(|(high, low)| high.x - low.x);
         entries.push(little(what, "remains the same", &mut offs));
     }
-    Ok(entries)
+    entries
 }
 
-pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
-    let turns = turns()?;
+fn drawings(turns: &[Vec<Row>]) -> Vec<Drawing> {
     let names = ["Displacement", "Velocity", "Acceleration"];
     let axes = [
         "slider position [m]",
@@ -97,18 +101,26 @@ pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
         "slider acceleration [m/s2]",
     ];
     let figure = |(i, name): (usize, &str)| {
-        let over_angle = |rows: &[Row], value: &dyn Fn(&Row) -> f64| {
-            let angle = |row: &Row| (row.theta - BEFORE * TAU).to_degrees();
-            rows.iter().map(|row| (angle(row), value(row))).collect()
-        };
-        let plots = SPEEDS.iter().zip(&turns).map(|(speed, rows)| {
+        let plots = SPEEDS.iter().zip(turns).map(|(speed, rows)| {
+            let series = |label: String, style: Style, value: &dyn Fn(&Row) -> f64| {
+                let angle = |row: &Row| (row.theta - BEFORE * TAU).to_degrees();
+                let points = rows.iter().map(|row| (angle(row), value(row))).collect();
+                Series {
+                    label,
+                    style,
+                    points,
+                }
+            };
             let moved = |row: &Row| [row.x, row.v, row.a][i];
             let ideal = |row: &Row| row.clearance.map_or(f64::NAN, |joint| joint.ideal[i]);
-            let mut plot = Plot::new("crank angle [deg]", axes[i]);
-            let label = format!("1 mm, {speed} rpm");
-            plot.add(&label, Style::Line, over_angle(rows, &moved));
-            plot.add("without clearance", Style::Dashed, over_angle(rows, &ideal));
-            plot
+            Plot {
+                x: "crank angle [deg]".to_owned(),
+                y: axes[i].to_owned(),
+                series: vec![
+                    series(format!("1 mm, {speed} rpm"), Style::Line, &moved),
+                    series("without clearance".to_owned(), Style::Dashed, &ideal),
+                ],
+            }
         });
         Drawing::new(
             &format!("figure-{}", 14 + i),
@@ -116,5 +128,5 @@ pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
             plots.collect(),
         )
     };
-    Ok(names.into_iter().enumerate().map(figure).collect())
+    names.into_iter().enumerate().map(figure).collect()
 }

@@ -1,9 +1,9 @@
 //! Reproduction of four papers: recomputes every printed number and figure, and returns verdicts and data of figures.
 
-mod book;
 mod drawing;
 mod duarte;
 mod entry;
+mod formulas;
 mod gupta;
 mod gupta_clearance;
 mod ng;
@@ -11,9 +11,9 @@ mod obaseki_alfred;
 mod quantities;
 
 use crate::error::Error;
-use book::Book;
 pub use drawing::{Drawing, Plot, Series, Style};
 pub use entry::{Entry, Verdict};
+use formulas::PaperFormulas;
 
 /// Paper on the slider-crank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,39 +94,33 @@ pub fn reproduce(papers: &[Paper]) -> Result<Reproduction, Error> {
     };
     for paper in papers {
         let (entries, drawings) = match paper {
-            Paper::ObasekiAlfred => both(obaseki_alfred::book()?)?,
+            Paper::ObasekiAlfred => both(&obaseki_alfred::formulas()?)?,
             Paper::Gupta => {
-                let (entries, drawings) = both(gupta::book()?)?;
-                (
-                    [entries, gupta_clearance::entries()?].concat(),
-                    [drawings, gupta_clearance::drawings()?].concat(),
-                )
+                let (entries, drawings) = both(&gupta::formulas()?)?;
+                let (simulated, drawn) = gupta_clearance::results()?;
+                ([entries, simulated].concat(), [drawings, drawn].concat())
             }
-            Paper::Ng => (ng::book()?.entries()?, ng::drawings()?),
-            Paper::Duarte => both(duarte::book()?)?,
+            Paper::Ng => {
+                let formulas = ng::formulas()?;
+                (formulas.entries()?, ng::drawings(&formulas)?)
+            }
+            Paper::Duarte => both(&duarte::formulas()?)?,
         };
-        let name = paper.name();
-        let named = |entry: Entry| Entry {
-            paper: name,
-            ..entry
-        };
-        result.entries.extend(entries.into_iter().map(named));
-        result
-            .drawings
-            .extend(drawings.into_iter().map(|drawing| Drawing {
-                paper: name,
-                title: format!(
-                    "{}, {}: {}",
-                    paper.authors(),
-                    drawing.name.replace("figure-0", "figure ").replace('-', " "),
-                    drawing.title
-                ),
-                ..drawing
-            }));
+        for mut entry in entries {
+            entry.paper = paper.name();
+            result.entries.push(entry);
+        }
+        for mut drawing in drawings {
+            drawing.paper = paper.name();
+            let name = drawing.name.replace("figure-0", "figure ");
+            let (authors, name) = (paper.authors(), name.replace('-', " "));
+            drawing.title = format!("{authors}, {name}: {}", drawing.title);
+            result.drawings.push(drawing);
+        }
     }
     Ok(result)
 }
 
-fn both(book: Book) -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
-    Ok((book.entries()?, book.drawings()?))
+fn both(formulas: &PaperFormulas) -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
+    Ok((formulas.entries()?, formulas.drawings()?))
 }

@@ -1,9 +1,9 @@
 //! Ng: static forces with friction, equations (1)-(11), (A1)-(A3), tables 1 and 2. This module computes the values
 //! without formula: the calibration line, and the points of the tables in the figures.
 
-use super::book::{Book, Files};
 use super::drawing::{Drawing, Style};
-use super::quantities::{self, Ours};
+use super::formulas::{Files, PaperFormulas};
+use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::friction_from_tilt;
 use crate::numeric::line_fit::LineFit;
@@ -26,17 +26,20 @@ const CALIBRATION: [(f64, f64); 6] = [
     (14.72, 290.0),
 ];
 
-pub(super) fn book() -> Result<Book, Error> {
-    let symbols = Book::new(FILES)?;
+pub(super) fn formulas() -> Result<PaperFormulas, Error> {
+    let symbols = PaperFormulas::new(FILES)?;
     let [k, c, torque] = symbols.numbers(["k", "c", "torque"])?;
     let friction = friction_from_tilt(std::f64::consts::FRAC_PI_4);
-    let held = |torque: f64| -> Result<Ours, Error> {
+    let held = |torque: f64| -> Result<MechanismQuantities, Error> {
         let scene = Scene::new(k, c).torque(Load::Constant(torque));
         let options = StaticsOptions {
             friction: Some(friction),
             ..StaticsOptions::default()
         };
-        Ok(Ours::held(scene.clone(), statics(&scene, &options)?))
+        Ok(MechanismQuantities::held(
+            scene.clone(),
+            statics(&scene, &options)?,
+        ))
     };
     let mechanisms = vec![
         ("described", held(torque)?),
@@ -55,10 +58,9 @@ pub(super) fn book() -> Result<Book, Error> {
 }
 
 /// Returns the figures, with the points of the tables.
-pub(super) fn drawings() -> Result<Vec<Drawing>, Error> {
-    let book = book()?;
-    let mut drawings = book.drawings()?;
-    let printed = |what: &str| book.column("table 2", what);
+pub(super) fn drawings(formulas: &PaperFormulas) -> Result<Vec<Drawing>, Error> {
+    let mut drawings = formulas.drawings()?;
+    let printed = |what: &str| formulas.column("table 2", what);
     let (forces, found) = (printed("F at")?, printed("F' by experiment")?);
     let at = |angle: f64| found.iter().find(|point| point.0 == angle);
     let measured = |&(angle, _): &(f64, f64)| (angle, at(angle).map_or(f64::NAN, |point| point.1));

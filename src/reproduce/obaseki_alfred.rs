@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use super::book::{Book, Files};
-use super::quantities::{self, Ours};
+use super::formulas::{Files, PaperFormulas};
+use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::{Linkage, size_from_stroke};
 use crate::scene::{Crank, Rod, RodModel, Scene, Slider};
@@ -19,7 +19,7 @@ const FILES: Files = Files {
 const TURN: u32 = 36_000;
 
 /// Returns the engine of table 1 with another offset, m, uniform crank and rod, and the rod as two masses, (31)-(33).
-fn engine(symbols: &Book, offset: f64) -> Result<Scene, Error> {
+fn engine(symbols: &PaperFormulas, offset: f64) -> Result<Scene, Error> {
     let names = ["k", "c", "m_crank", "m_rod", "m_slider", "w"];
     let [k, c, crank, rod, slider, speed] = symbols.numbers(names)?;
     Ok(Scene::new(k, c)
@@ -41,8 +41,8 @@ fn engine(symbols: &Book, offset: f64) -> Result<Scene, Error> {
         .constant_speed(0.0, speed))
 }
 
-pub(super) fn book() -> Result<Book, Error> {
-    let symbols = Book::new(FILES)?;
+pub(super) fn formulas() -> Result<PaperFormulas, Error> {
+    let symbols = PaperFormulas::new(FILES)?;
     let [k2, c2] = symbols.numbers(["k2", "c2"])?;
     let two_mass = engine(&symbols, 0.02)?;
     let mut rigid = two_mass.clone();
@@ -51,11 +51,11 @@ pub(super) fn book() -> Result<Book, Error> {
         ..rod
     });
     let mechanisms = vec![
-        ("engine", Ours::new(two_mass)),
-        ("rigid", Ours::new(rigid)),
-        ("e10", Ours::new(engine(&symbols, 0.01)?)),
-        ("e0", Ours::new(engine(&symbols, 0.0)?)),
-        ("tested", Ours::new(Scene::new(k2, c2))),
+        ("engine", MechanismQuantities::new(two_mass)),
+        ("rigid", MechanismQuantities::new(rigid)),
+        ("e10", MechanismQuantities::new(engine(&symbols, 0.01)?)),
+        ("e0", MechanismQuantities::new(engine(&symbols, 0.0)?)),
+        ("tested", MechanismQuantities::new(Scene::new(k2, c2))),
     ];
     let (first, last) = sign_changes(&symbols)?;
     let (crank, rod) = size_from_stroke(0.08, 1.6, 0.0)?;
@@ -78,7 +78,7 @@ pub(super) fn book() -> Result<Book, Error> {
 }
 
 /// Returns the last samples, ms, before the first two sign changes of the slider velocity (13), e = 0, 1 ms grid.
-fn sign_changes(symbols: &Book) -> Result<(f64, f64), Error> {
+fn sign_changes(symbols: &PaperFormulas) -> Result<(f64, f64), Error> {
     let [speed] = symbols.numbers(["w"])?;
     let mut last = Vec::new();
     let mut before = f64::NAN;
@@ -97,7 +97,7 @@ fn sign_changes(symbols: &Book) -> Result<(f64, f64), Error> {
 
 /// Returns the largest k F_i sin theta (N m) of the inward and outward stroke by the sentence above (48), with exact
 /// accelerations and the centre of gravity of the rod at a third of its length from the crank pin.
-fn perpendicular(symbols: &Book, offset: f64) -> Result<[f64; 2], Error> {
+fn perpendicular(symbols: &PaperFormulas, offset: f64) -> Result<[f64; 2], Error> {
     let names = ["k", "w", "m_crank", "m_rod", "m_slider"];
     let [k, w, crank, rod, slider] = symbols.numbers(names)?;
     let (m2, m3) = (2.0 / 3.0 * rod + 0.5 * crank, rod / 3.0 + slider);

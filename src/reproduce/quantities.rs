@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::statics::StaticAnalysis;
 
 /// Mechanism of a paper, with its analyses.
-pub(super) struct Ours {
+pub(super) struct MechanismQuantities {
     scene: Scene,
     linkage: Linkage,
     limits: Limits,
@@ -16,10 +16,10 @@ pub(super) struct Ours {
     statics: Option<StaticAnalysis>,
 }
 
-impl Ours {
-    pub fn new(scene: Scene) -> Ours {
+impl MechanismQuantities {
+    pub fn new(scene: Scene) -> MechanismQuantities {
         let linkage = Linkage::new(&scene.geometry);
-        Ours {
+        MechanismQuantities {
             limits: Limits::new(&linkage, 1.0),
             linkage,
             scene,
@@ -28,10 +28,10 @@ impl Ours {
         }
     }
 
-    pub fn held(scene: Scene, statics: StaticAnalysis) -> Ours {
-        Ours {
+    pub fn held(scene: Scene, statics: StaticAnalysis) -> MechanismQuantities {
+        MechanismQuantities {
             statics: Some(statics),
-            ..Ours::new(scene)
+            ..MechanismQuantities::new(scene)
         }
     }
 
@@ -106,9 +106,9 @@ impl Ours {
 
 /// Returns the quantities of mechanisms, by the names MECHANISM_QUANTITY, and those of `other`.
 pub(super) fn of(
-    mechanisms: Vec<(&'static str, Ours)>,
+    mechanisms: Vec<(&'static str, MechanismQuantities)>,
     other: impl Fn(&str, f64) -> Option<f64> + 'static,
-) -> super::book::Quantities {
+) -> super::formulas::Quantities {
     Box::new(move |name, theta| {
         let ours = name.split_once('_').and_then(|(mechanism, quantity)| {
             let (_, ours) = mechanisms.iter().find(|(name, _)| *name == mechanism)?;

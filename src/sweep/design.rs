@@ -1,7 +1,5 @@
 //! One design of a sweep: computes its closed-form turn, diagrams, steady state and motion, as the options ask.
 
-use serde::Serialize;
-
 use super::SweepOptions;
 use crate::error::Error;
 use crate::kinematics::{self, Diagrams, Kinematics, forces};
@@ -10,8 +8,7 @@ use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
 
 /// Extent to which a design could be computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// All results were computed.
     Done,

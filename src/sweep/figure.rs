@@ -8,6 +8,7 @@ use crate::kinematics::{Diagrams, Kinematics, Located};
 use crate::scene::nearest;
 use crate::scene::unit::Quantity;
 use crate::simulate::{Peaks, SteadyState, Summary};
+use FigureValue::{Empty, Number, Word};
 
 /// Key figure of a design, parsed from its name with or without the unit.
 ///
@@ -27,17 +28,17 @@ pub struct Figure {
 /// Function that reads a figure, by the result it needs.
 #[derive(Clone, Copy)]
 enum Of {
-    Turn(fn(&Kinematics) -> Cell<'_>),
-    Diagrams(fn(&Diagrams) -> Cell<'_>),
-    Motion(fn(&Summary) -> Cell<'_>),
-    Peaks(fn(&Peaks) -> Cell<'_>),
-    Steady(fn(&SteadyState) -> Cell<'_>),
-    Flywheel(fn(&SteadyState) -> Cell<'_>),
+    Turn(fn(&Kinematics) -> FigureValue<'_>),
+    Diagrams(fn(&Diagrams) -> FigureValue<'_>),
+    Motion(fn(&Summary) -> FigureValue<'_>),
+    Peaks(fn(&Peaks) -> FigureValue<'_>),
+    Steady(fn(&SteadyState) -> FigureValue<'_>),
+    Flywheel(fn(&SteadyState) -> FigureValue<'_>),
 }
 
 /// Value of a figure for one design.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell<'a> {
+pub enum FigureValue<'a> {
     /// Number in SI units and radians.
     Number(f64),
     /// Word, for a class or an engine.
@@ -63,155 +64,90 @@ pub enum Source {
     Flywheel,
 }
 
-const fn turn(name: &'static str, quantity: Quantity, of: fn(&Kinematics) -> Cell<'_>) -> Figure {
-    let of = Of::Turn(of);
-    Figure { name, quantity, of }
+/// Table of figures: name, quantity and value, grouped by the result from which they are read.
+macro_rules! figures {
+    ($($source:ident: |$result:ident| { $($name:literal: $quantity:ident = $value:expr;)* })*) => {
+        &[$($(Figure {
+            name: $name,
+            quantity: Quantity::$quantity,
+            of: Of::$source(|$result| $value),
+        },)*)*]
+    };
 }
 
-const fn diagram(name: &'static str, quantity: Quantity, of: fn(&Diagrams) -> Cell<'_>) -> Figure {
-    let of = Of::Diagrams(of);
-    Figure { name, quantity, of }
-}
-
-const fn motion(name: &'static str, quantity: Quantity, of: fn(&Summary) -> Cell<'_>) -> Figure {
-    let of = Of::Motion(of);
-    Figure { name, quantity, of }
-}
-
-const fn peak(name: &'static str, of: fn(&Peaks) -> Cell<'_>) -> Figure {
-    Figure {
-        name,
-        quantity: Quantity::Force,
-        of: Of::Peaks(of),
-    }
-}
-
-const fn steady(
-    name: &'static str,
-    quantity: Quantity,
-    of: fn(&SteadyState) -> Cell<'_>,
-) -> Figure {
-    let of = Of::Steady(of);
-    Figure { name, quantity, of }
-}
-
-fn some(value: Option<f64>) -> Cell<'static> {
-    value.map_or(Cell::Empty, Cell::Number)
+fn some(value: Option<f64>) -> FigureValue<'static> {
+    value.map_or(Empty, Number)
 }
 
 /// Velocity or acceleration of the slider; empty if the scene has no speed to scale it.
-fn at_speed(turn: &Kinematics, located: Option<Located>) -> Cell<'static> {
+fn at_speed(turn: &Kinematics, located: Option<Located>) -> FigureValue<'static> {
     let moves = turn.speed_rad_per_s.is_some();
     some(located.filter(|_| moves).map(|located| located.value))
 }
 
 impl Figure {
     /// All figures, in the order of the columns.
-    pub const ALL: &[Figure] = {
-        use Cell::{Number, Word};
-        use Quantity::{
-            Acceleration, Angle, AngularSpeed, Energy, Inertia, Length, Power, Pressure, Time,
-            Torque, Velocity,
-        };
-        const NONE: Quantity = Quantity::Number;
-        &[
-            turn("class", NONE, |turn| Word(turn.class)),
-            turn("stroke", Length, |turn| Number(turn.stroke_m)),
-            turn("advance", Angle, |turn| some(turn.advance_rad)),
-            turn("return", Angle, |turn| some(turn.return_rad)),
-            turn("time_ratio", NONE, |turn| some(turn.time_ratio)),
-            turn("transmission_min", Angle, |turn| {
-                Number(turn.transmission_min_rad)
-            }),
-            turn("velocity_max", Velocity, |turn| {
-                at_speed(turn, turn.velocity_max)
-            }),
-            turn("velocity_min", Velocity, |turn| {
-                at_speed(turn, turn.velocity_min)
-            }),
-            turn("acceleration_max", Acceleration, |turn| {
-                at_speed(turn, turn.acceleration_max)
-            }),
-            turn("acceleration_min", Acceleration, |turn| {
-                at_speed(turn, turn.acceleration_min)
-            }),
-            diagram("indicated_work", Energy, |cycle| {
-                some(cycle.indicated.as_ref().map(|gas| gas.work_j))
-            }),
-            diagram("mean_effective_pressure", Pressure, |cycle| {
+    pub const ALL: &[Figure] = figures! {
+        Turn: |turn| {
+            "class": Number = Word(turn.class);
+            "stroke": Length = Number(turn.stroke_m);
+            "advance": Angle = some(turn.advance_rad);
+            "return": Angle = some(turn.return_rad);
+            "time_ratio": Number = some(turn.time_ratio);
+            "transmission_min": Angle = Number(turn.transmission_min_rad);
+            "velocity_max": Velocity = at_speed(turn, turn.velocity_max);
+            "velocity_min": Velocity = at_speed(turn, turn.velocity_min);
+            "acceleration_max": Acceleration = at_speed(turn, turn.acceleration_max);
+            "acceleration_min": Acceleration = at_speed(turn, turn.acceleration_min);
+        }
+        Diagrams: |cycle| {
+            "indicated_work": Energy = some(cycle.indicated.as_ref().map(|gas| gas.work_j));
+            "mean_effective_pressure": Pressure = {
                 let gas = cycle.indicated.as_ref();
                 some(gas.map(|gas| gas.mean_effective_pressure_pa))
-            }),
-            diagram("turning_moment_mean", Torque, |cycle| {
-                Number(cycle.turning_moment.mean_nm)
-            }),
-            diagram("turning_moment_fluctuation", Energy, |cycle| {
-                Number(cycle.turning_moment.fluctuation_j)
-            }),
-            motion("engine", NONE, |run| Word(&run.engine)),
-            motion("t", Time, |run| Number(run.last.t_s)),
-            motion("theta", Angle, |run| Number(run.last.theta_rad)),
-            motion("omega", AngularSpeed, |run| {
-                Number(run.last.omega_rad_per_s)
-            }),
-            motion("error_theta", Angle, |run| {
-                some(run.error_estimate.map(|error| error.theta_rad))
-            }),
-            motion("error_omega", AngularSpeed, |run| {
-                some(run.error_estimate.map(|error| error.omega_rad_per_s))
-            }),
-            motion("revolutions", NONE, |run| Number(run.revolutions)),
-            motion("omega_min", AngularSpeed, |run| Number(run.omega_min)),
-            motion("omega_max", AngularSpeed, |run| Number(run.omega_max)),
-            motion("driving_torque_min", Torque, |run| {
-                some(run.driving_torque.map(|torque| torque.min_nm))
-            }),
-            motion("driving_torque_max", Torque, |run| {
-                some(run.driving_torque.map(|torque| torque.max_nm))
-            }),
-            motion("driving_torque_mean", Torque, |run| {
-                some(run.driving_torque.map(|torque| torque.mean_nm))
-            }),
-            motion("energy_residual", NONE, |run| Number(run.energy_residual)),
-            motion("evaluations", NONE, |run| Number(run.evaluations as f64)),
-            motion("events", NONE, |run| Number(run.events_total as f64)),
-            peak("crank_bearing_peak", |peaks| {
-                Number(peaks.crank_bearing.value_n)
-            }),
-            peak("crank_pin_peak", |peaks| Number(peaks.crank_pin.value_n)),
-            peak("wrist_pin_peak", |peaks| Number(peaks.wrist_pin.value_n)),
-            peak("guide_peak", |peaks| Number(peaks.guide.value_n)),
-            peak("shaking_peak", |peaks| Number(peaks.shaking.value_n)),
-            steady("cycle_turns", NONE, |steady| {
-                Number(f64::from(steady.cycle_turns))
-            }),
-            steady("steady_omega_mean", AngularSpeed, |steady| {
-                Number(steady.omega_mean_rad_per_s.value)
-            }),
-            steady("steady_omega_min", AngularSpeed, |steady| {
-                Number(steady.slowest.omega_rad_per_s.value)
-            }),
-            steady("steady_omega_max", AngularSpeed, |steady| {
-                Number(steady.fastest.omega_rad_per_s.value)
-            }),
-            steady("fluctuation", NONE, |steady| {
-                Number(steady.fluctuation.value)
-            }),
-            steady("error_fluctuation", NONE, |steady| {
-                Number(steady.fluctuation.error)
-            }),
-            steady("steady_power_in", Power, |steady| {
-                Number(steady.power_in_w.value)
-            }),
-            Figure {
-                name: "flywheel_added_inertia",
-                quantity: Inertia,
-                of: Of::Flywheel(|steady| {
-                    let wheel = steady.flywheel.as_ref();
-                    some(wheel.map(|wheel| wheel.added_inertia_kg_m2.value))
-                }),
-            },
-        ]
+            };
+            "turning_moment_mean": Torque = Number(cycle.turning_moment.mean_nm);
+            "turning_moment_fluctuation": Energy = Number(cycle.turning_moment.fluctuation_j);
+        }
+        Motion: |run| {
+            "engine": Number = Word(&run.engine);
+            "t": Time = Number(run.last.t_s);
+            "theta": Angle = Number(run.last.theta_rad);
+            "omega": AngularSpeed = Number(run.last.omega_rad_per_s);
+            "error_theta": Angle = some(run.error_estimate.map(|error| error.theta_rad));
+            "error_omega": AngularSpeed = some(run.error_estimate.map(|error| error.omega_rad_per_s));
+            "revolutions": Number = Number(run.revolutions);
+            "omega_min": AngularSpeed = Number(run.omega_min);
+            "omega_max": AngularSpeed = Number(run.omega_max);
+            "driving_torque_min": Torque = some(run.driving_torque.map(|torque| torque.min_nm));
+            "driving_torque_max": Torque = some(run.driving_torque.map(|torque| torque.max_nm));
+            "driving_torque_mean": Torque = some(run.driving_torque.map(|torque| torque.mean_nm));
+            "energy_residual": Number = Number(run.energy_residual);
+            "evaluations": Number = Number(run.evaluations as f64);
+            "events": Number = Number(run.events_total as f64);
+        }
+        Peaks: |peaks| {
+            "crank_bearing_peak": Force = Number(peaks.crank_bearing.value_n);
+            "crank_pin_peak": Force = Number(peaks.crank_pin.value_n);
+            "wrist_pin_peak": Force = Number(peaks.wrist_pin.value_n);
+            "guide_peak": Force = Number(peaks.guide.value_n);
+            "shaking_peak": Force = Number(peaks.shaking.value_n);
+        }
+        Steady: |steady| {
+            "cycle_turns": Number = Number(f64::from(steady.cycle_turns));
+            "steady_omega_mean": AngularSpeed = Number(steady.omega_mean_rad_per_s.value);
+            "steady_omega_min": AngularSpeed = Number(steady.slowest.omega_rad_per_s.value);
+            "steady_omega_max": AngularSpeed = Number(steady.fastest.omega_rad_per_s.value);
+            "fluctuation": Number = Number(steady.fluctuation.value);
+            "error_fluctuation": Number = Number(steady.fluctuation.error);
+            "steady_power_in": Power = Number(steady.power_in_w.value);
+        }
+        Flywheel: |steady| {
+            "flywheel_added_inertia": Inertia = {
+                let wheel = steady.flywheel.as_ref();
+                some(wheel.map(|wheel| wheel.added_inertia_kg_m2.value))
+            };
+        }
     };
 
     /// Returns the physical quantity.
@@ -232,23 +168,23 @@ impl Figure {
     }
 
     /// Returns the value for a design.
-    pub fn cell<'a>(&self, design: &'a Design) -> Cell<'a> {
+    pub fn value<'a>(&self, design: &'a Design) -> FigureValue<'a> {
         let motion = design.motion.as_ref();
-        let cell = match self.of {
-            Of::Turn(cell) => design.kinematics.as_ref().map(cell),
-            Of::Diagrams(cell) => design.diagrams.as_ref().map(cell),
-            Of::Motion(cell) => motion.map(cell),
-            Of::Peaks(cell) => motion.and_then(|run| run.peaks.as_ref()).map(cell),
-            Of::Steady(cell) | Of::Flywheel(cell) => design.steady.as_ref().map(cell),
+        let value = match self.of {
+            Of::Turn(read) => design.kinematics.as_ref().map(read),
+            Of::Diagrams(read) => design.diagrams.as_ref().map(read),
+            Of::Motion(read) => motion.map(read),
+            Of::Peaks(read) => motion.and_then(|run| run.peaks.as_ref()).map(read),
+            Of::Steady(read) | Of::Flywheel(read) => design.steady.as_ref().map(read),
         };
-        cell.unwrap_or(Cell::Empty)
+        value.unwrap_or(Empty)
     }
 
     /// Returns the number for a design, in SI units and radians; none for a word or an absent value.
     pub fn number(&self, design: &Design) -> Option<f64> {
-        match self.cell(design) {
-            Cell::Number(number) => Some(number),
-            Cell::Word(_) | Cell::Empty => None,
+        match self.value(design) {
+            Number(number) => Some(number),
+            Word(_) | Empty => None,
         }
     }
 }

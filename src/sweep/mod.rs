@@ -5,7 +5,6 @@ mod figure;
 mod options;
 mod pareto;
 
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -14,10 +13,9 @@ pub use crate::numeric::latin_hypercube::LatinHypercube;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::scene::{Draft, Scene, Varied, VariedValue};
-use crate::simulate::SteadyOptions;
 
 pub use design::{Design, Outcome};
-pub use figure::{Cell, Figure, Source};
+pub use figure::{Figure, FigureValue, Source};
 pub use options::SweepOptions;
 pub use pareto::{Goal, Member, ParetoFront};
 
@@ -49,10 +47,10 @@ fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), 
     match designs {
         _ if varied.is_empty() => refused("no key is varied".to_owned(), EXAMPLE),
         Some(designs) if designs <= Sweep::MOST => Ok(()),
-        _ => refused(
-            format!("the sweep has more than {} designs", Sweep::MOST),
-            EXAMPLE,
-        ),
+        _ => {
+            let what = format!("the sweep has more than {} designs", Sweep::MOST);
+            refused(what, EXAMPLE)
+        }
     }
 }
 
@@ -101,14 +99,11 @@ impl Sweep {
             title: String::new(),
         };
         // Errors of the file are reported here once, not in every design.
-        sweep
-            .varied
-            .iter()
-            .try_for_each(|one| sweep.draft.takes(one))?;
-        let scene = sweep
-            .draft
-            .scene()
-            .or_else(|_| sweep.scene(&sweep.values(0)))?;
+        for one in &sweep.varied {
+            sweep.draft.takes(one)?;
+        }
+        let first = || sweep.scene(&sweep.values(0));
+        let scene = sweep.draft.scene().or_else(|_| first())?;
         let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&&*one.key());
         let has_run = scene.run.extent.is_some() || sweep.varied.iter().any(runs);
         sweep.options.settle(has_run)?;
@@ -167,25 +162,22 @@ impl Sweep {
         Ok(edge(part - 1)..edge(part))
     }
 
-    /// Returns a hash of program version, scene file, varied values and options, without requests to stop.
+    /// Returns a hash (64-bit FNV-1a) of program version, scene file, varied values and options, without requests to
+    /// stop; one sweep has the same hash on all systems.
     pub fn identity(&self) -> u64 {
-        let mut hasher = DefaultHasher::new();
-        let version = env!("CARGO_PKG_VERSION");
-        (version, self.draft.text()).hash(&mut hasher);
-        let steady = self.options.steady.clone();
-        let options = SweepOptions {
-            stop: None,
-            steady: steady.map(|steady| SteadyOptions {
-                stop: None,
-                ..steady
-            }),
-            ..self.options.clone()
-        };
-        format!("{options:?}").hash(&mut hasher);
-        for one in &self.varied {
-            (one.key(), one.to_string()).hash(&mut hasher);
+        let mut options = self.options.clone();
+        options.stop = None;
+        if let Some(steady) = &mut options.steady {
+            steady.stop = None;
         }
-        hasher.finish()
+        let (version, scene) = (env!("CARGO_PKG_VERSION"), self.draft.text());
+        let mut text = format!("{version}\0{scene}\0{options:?}");
+        for one in &self.varied {
+            text += &format!("\0{}\0{one}", one.key());
+        }
+        text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        })
     }
 
     /// Returns the value of each varied key in a design.

@@ -8,7 +8,21 @@ pub struct Goal {
     /// Goal figure.
     pub figure: Figure,
     /// True to maximise, false to minimise.
-    pub most: bool,
+    pub maximise: bool,
+}
+
+impl Goal {
+    /// Returns the goal to minimise a figure.
+    pub fn least(figure: Figure) -> Goal {
+        let maximise = false;
+        Goal { figure, maximise }
+    }
+
+    /// Returns the goal to maximise a figure.
+    pub fn most(figure: Figure) -> Goal {
+        let maximise = true;
+        Goal { figure, maximise }
+    }
 }
 
 /// Non-dominated design.
@@ -24,15 +38,15 @@ pub struct Member {
 #[derive(Clone, Debug)]
 pub struct ParetoFront {
     /// Sense of each goal: true to maximise.
-    most: Vec<bool>,
+    maximise: Vec<bool>,
     members: Vec<Member>,
 }
 
 impl ParetoFront {
-    /// Starts an empty front; `most`, one per goal, is true to maximise.
-    pub fn new(most: Vec<bool>) -> ParetoFront {
+    /// Starts an empty front; `maximise` has one element per goal.
+    pub fn new(maximise: Vec<bool>) -> ParetoFront {
         ParetoFront {
-            most,
+            maximise,
             members: Vec::new(),
         }
     }
@@ -40,10 +54,8 @@ impl ParetoFront {
     /// Inserts a design unless dominated and removes those it dominates; of equal designs the first stays.
     pub fn take(&mut self, design: usize, figures: &[f64]) {
         let no_worse = |one: &[f64], other: &[f64]| {
-            let pairs = one.iter().zip(other).zip(&self.most);
-            pairs
-                .into_iter()
-                .all(|((one, other), most)| if *most { one >= other } else { one <= other })
+            let mut pairs = one.iter().zip(other).zip(&self.maximise);
+            pairs.all(|((a, b), maximise)| if *maximise { a >= b } else { a <= b })
         };
         let beaten = |member: &Member| no_worse(&member.figures, figures);
         if self.members.iter().any(beaten) {

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::key_values::{Facts, fact, six};
 use super::quantity::{Quantity, split};
 use super::table::Table;
-use super::{Look, Report};
+use super::{DefaultView, Report};
 use crate::error::Error;
 pub use motion::Motion;
 use motion::TIME;
@@ -61,12 +61,9 @@ impl Comparison {
             ));
         };
         let times = first.times();
-        let shared = |name: &&str| {
-            *name != TIME
-                && others
-                    .iter()
-                    .all(|other| other.table.numbers(name).is_some())
-        };
+        let has = |other: &Motion, name: &str| other.table.numbers(name).is_some();
+        let all_have = |name: &str| others.iter().all(|other| has(other, name));
+        let shared = |name: &&str| *name != TIME && all_have(name);
         let columns: Vec<&str> = first.table.names().filter(shared).collect();
         let mut names = TIME.to_owned();
         let mut values = vec![times.to_vec()];
@@ -82,10 +79,9 @@ impl Comparison {
                 let mut off: Vec<f64> = theirs.iter().zip(own).map(|(b, a)| b - a).collect();
                 if unit == "_rad" {
                     let turns = whole_turns(&off);
-                    theirs
-                        .iter_mut()
-                        .chain(&mut off)
-                        .for_each(|value| *value -= turns);
+                    for value in theirs.iter_mut().chain(&mut off) {
+                        *value -= turns;
+                    }
                 }
                 let _ = write!(
                     names,
@@ -140,11 +136,8 @@ impl Report for Comparison {
                 2 => quantity.label.clone(),
                 _ => format!("{} {}", found.motion, quantity.label),
             };
-            fact!(
-                facts,
-                name,
-                "differs by at most {largest} {unit} at {at} s, rms {rms}, at last {last}"
-            );
+            let most = format!("differs by at most {largest} {unit} at {at} s");
+            fact!(facts, name, "{most}, rms {rms}, at last {last}");
         }
         facts.warnings(&self.warnings);
         facts
@@ -159,8 +152,8 @@ impl Report for Comparison {
     }
 
     /// Returns the plot of position and speed of crank and slider.
-    fn look(&self) -> Look<'_> {
-        Look {
+    fn default_view(&self) -> DefaultView<'_> {
+        DefaultView {
             title: &self.title,
             show: &[
                 "theta_of",
@@ -174,7 +167,7 @@ impl Report for Comparison {
             ],
             over: "t",
             columns: 2,
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 }

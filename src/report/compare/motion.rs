@@ -84,10 +84,9 @@ pub(super) const TIME: &str = "t_s";
 fn own_rows(file: &Path) -> Option<Table> {
     let mut reader = ::csv::Reader::from_path(file).ok()?;
     let names: Vec<String> = reader.headers().ok()?.iter().map(str::to_owned).collect();
-    let known = names
-        .iter()
-        .all(|name| !split(name).1.is_empty() || name.starts_with("near_"));
-    if names.first().is_none_or(|first| first != TIME) || names.len() < 2 || !known {
+    let known = |name: &String| !split(name).1.is_empty() || name.starts_with("near_");
+    let starts = names.first().is_some_and(|first| first == TIME);
+    if !starts || names.len() < 2 || !names.iter().all(known) {
         return None;
     }
     let rows: Result<Vec<Vec<CsvCell>>, _> = reader
@@ -95,10 +94,8 @@ fn own_rows(file: &Path) -> Option<Table> {
         .map(|row| row.map(|row| row.iter().map(CsvCell::read).collect()))
         .collect();
     let table = Table::of_rows(&names, &rows.ok()?);
-    names
-        .iter()
-        .all(|name| table.numbers(name).is_some())
-        .then_some(table)
+    let is_whole = names.iter().all(|name| table.numbers(name).is_some());
+    is_whole.then_some(table)
 }
 
 /// Evaluates at `t` the Lagrange cubic through the four rows about it; `after` is the first row not before `t`.

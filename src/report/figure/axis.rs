@@ -1,5 +1,6 @@
 //! Axis of a figure: label, range, mapping of values to positions, and ticks.
 
+use super::clip::inside;
 use super::words::{TEXT, fitted, width};
 
 /// Fraction of the range of the values left free at each end of an axis.
@@ -182,9 +183,8 @@ impl Scale {
             return self.even(10f64.powf(self.low), 10f64.powf(self.high), most);
         }
         let span = (self.high.floor() - self.low.ceil()) as i32;
-        let step = [1, 2, 3, 5, 10, 20, 50, 100]
-            .into_iter()
-            .find(|step| span / step < most as i32);
+        let mut steps = [1, 2, 3, 5, 10, 20, 50, 100].into_iter();
+        let step = steps.find(|step| span / step < most as i32);
         self.decades(step.unwrap_or(200), &[1])
     }
 
@@ -235,8 +235,8 @@ impl Scale {
             at: self.position(value),
             label,
         };
-        let inside = |tick: &Tick| (-1e-9..=1.0 + 1e-9).contains(&tick.at);
-        ticks.map(tick).filter(inside).collect()
+        let is_inside = |tick: &Tick| inside((tick.at, 0.0));
+        ticks.map(tick).filter(is_inside).collect()
     }
 }
 

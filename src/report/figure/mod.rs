@@ -11,6 +11,9 @@ use crate::error::Error;
 pub use axis::Axis;
 pub(super) use words::escaped;
 
+/// Pixels of a figure per inch.
+pub(super) const PIXELS_PER_INCH: f64 = 96.0;
+
 /// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SeriesStyle {
@@ -26,7 +29,7 @@ enum SeriesStyle {
 #[derive(Clone, Debug, PartialEq)]
 struct Series {
     label: String,
-    look: SeriesStyle,
+    style: SeriesStyle,
     points: Vec<(f64, f64, f64)>,
     /// Index of colour and marker, one per label.
     colour: usize,
@@ -106,9 +109,9 @@ impl Figure {
         self.with(label, SeriesStyle::VerticalMark, vec![(x, f64::NAN)])
     }
 
-    fn with(self, label: impl Into<String>, look: SeriesStyle, points: Vec<(f64, f64)>) -> Figure {
+    fn with(self, label: impl Into<String>, style: SeriesStyle, points: Vec<(f64, f64)>) -> Figure {
         let points = points.into_iter().map(|(x, y)| (x, y, y));
-        self.push(label.into(), look, points.collect())
+        self.push(label.into(), style, points.collect())
     }
 
     /// Adds the area between `low` and `high` of points (x, low, high).
@@ -116,21 +119,18 @@ impl Figure {
         self.push(label.into(), SeriesStyle::Band, points)
     }
 
-    fn push(mut self, label: String, look: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
+    fn push(mut self, label: String, style: SeriesStyle, points: Vec<(f64, f64, f64)>) -> Figure {
         let next = |numbers: &mut dyn Iterator<Item = usize>| numbers.max().map_or(0, |n| n + 1);
-        let coloured = || {
-            self.series
-                .iter()
-                .filter(|s| s.look != SeriesStyle::VerticalMark)
-        };
+        let is_coloured = |s: &&Series| s.style != SeriesStyle::VerticalMark;
+        let coloured = || self.series.iter().filter(is_coloured);
         let known = coloured().find(|s| !label.is_empty() && s.label == label);
         let colour = known.map_or_else(|| next(&mut coloured().map(|s| s.colour)), |s| s.colour);
-        let alike = || self.series.iter().filter(|s| s.look == look);
+        let alike = || self.series.iter().filter(|s| s.style == style);
         let known = alike().find(|s| s.colour == colour);
         let stroke = known.map_or_else(|| next(&mut alike().map(|s| s.stroke)), |s| s.stroke);
         self.series.push(Series {
             label,
-            look,
+            style,
             points,
             colour,
             stroke,
@@ -150,7 +150,7 @@ impl Figure {
     fn values(&self, of: impl Fn((f64, f64, f64)) -> [f64; 2]) -> impl Iterator<Item = f64> {
         let seen = |series: &Series, (x, low, high): (f64, f64, f64)| {
             let shown = self.y.shows(low) || self.y.shows(high);
-            self.x.shows(x) && (shown || series.look == SeriesStyle::VerticalMark)
+            self.x.shows(x) && (shown || series.style == SeriesStyle::VerticalMark)
         };
         let all = self.series.iter();
         let points = all.flat_map(move |series| {

@@ -184,13 +184,12 @@ fn draw(
 ) {
     let points = series.points.iter();
     let positions = points.map(|&(a, b, _)| (x.position(a), y.position(b)));
-    match (layer, series.look) {
+    match (layer, series.style) {
         (0, SeriesStyle::Band) => {
-            let edges: Vec<_> = series
-                .points
-                .iter()
-                .map(|&(a, low, high)| (x.position(a), y.clamped(low), y.clamped(high)))
-                .collect();
+            let points = series.points.iter();
+            let edges =
+                points.map(|&(a, low, high)| (x.position(a), y.clamped(low), y.clamped(high)));
+            let edges: Vec<_> = edges.collect();
             let seen =
                 |&(x, low, high): &(f64, f64, f64)| inside((x, 0.0)) && (low + high).is_finite();
             for run in edges.split(|edge| !seen(edge)).filter(|run| run.len() > 1) {

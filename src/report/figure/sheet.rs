@@ -3,7 +3,7 @@
 use super::panel;
 use super::svg::Svg;
 use super::words::{TITLE, escaped, line_height, wrapped};
-use super::{Figure, Sheet};
+use super::{Figure, PIXELS_PER_INCH, Sheet};
 use crate::error::Error;
 
 /// Default width and height of a panel, pixels, without title and legend.
@@ -12,8 +12,8 @@ const PANEL: (f64, f64) = (680.0, 420.0);
 /// Minimum width and height of a panel, pixels, without title and legend.
 const LEAST_PANEL: (f64, f64) = (150.0, 100.0);
 
-/// Pixels per millimetre: 96 per inch.
-const PER_MM: f64 = 96.0 / 25.4;
+/// Pixels per millimetre.
+const PER_MM: f64 = PIXELS_PER_INCH / 25.4;
 
 impl Sheet<'_> {
     /// Returns the figures as SVG; equal figures give equal texts.

@@ -88,7 +88,7 @@ impl Svg {
     }
 
     pub fn curve(&mut self, places: impl IntoIterator<Item = Place>, series: &Series) {
-        let dashes = match series.look {
+        let dashes = match series.style {
             SeriesStyle::Dashed => STROKES[STROKES.len() - 1 - series.stroke % (STROKES.len() - 1)],
             SeriesStyle::VerticalMark => STROKES[STROKES.len() - 1],
             SeriesStyle::Line => STROKES[series.stroke % STROKES.len()],
@@ -121,7 +121,7 @@ impl Svg {
     /// Draws the sample of a series in the legend.
     pub fn sample(&mut self, (x, y): Place, series: &Series) {
         let end = x + SAMPLE;
-        match series.look {
+        match series.style {
             SeriesStyle::Band => {
                 let (low, high) = (y + 5.0, y - 5.0);
                 let corners = vec![(x, high), (end, high), (end, low), (x, low)];
@@ -140,7 +140,7 @@ impl Svg {
 
 impl Series {
     pub(super) fn colour(&self) -> &'static str {
-        match self.look {
+        match self.style {
             SeriesStyle::VerticalMark => GREY,
             _ => COLOURS[self.colour % COLOURS.len()],
         }

@@ -47,8 +47,6 @@ pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
 
 /// Returns the part of a label that fits into one line of width `room`, pixels.
 pub(super) fn fitted(label: &str, room: f64) -> String {
-    wrapped(label, TEXT, room)
-        .into_iter()
-        .next()
-        .unwrap_or_default()
+    let mut lines = wrapped(label, TEXT, room).into_iter();
+    lines.next().unwrap_or_default()
 }

@@ -121,9 +121,8 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
     let with_arm = |row: &&InverseRow| Some((row.slider_force?, result.lever_arm(row)));
     let values: Vec<_> = rows.iter().flatten().filter_map(with_arm).collect();
     let (axis, cut) = without_peaks("slider force [N]", &values);
-    let median = summary
-        .slider_force
-        .map_or(f64::NAN, |force| force.median_se);
+    let force = summary.slider_force.as_ref();
+    let median = force.map_or(f64::NAN, |force| force.median_se);
     let label = band_label("slider force", median * summary.band_factor, "N");
     let title = match cut {
         true => "slider force with 95 % band; peaks at dead centres are cut off",
@@ -217,12 +216,9 @@ fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     };
     let beyond = (PEAKS_SHARE * last as f64) as usize;
     let (low, high) = (sorted[beyond], sorted[last - beyond]);
-    let longest = forces
-        .iter()
-        .fold(0.0, |most: f64, (_, arm)| most.max(arm.abs()));
-    let long = forces
-        .iter()
-        .filter(|(_, arm)| arm.abs() > LONG_ARM * longest);
+    let longest = forces.iter().map(|(_, arm)| arm.abs()).fold(0.0, f64::max);
+    let is_long = |(_, arm): &&(f64, f64)| arm.abs() > LONG_ARM * longest;
+    let long = forces.iter().filter(is_long);
     let (low, high) = long.fold(
         (2.0 * low - high, 2.0 * high - low),
         |(low, high), (force, _)| (low.min(*force), high.max(*force)),

@@ -6,7 +6,7 @@ use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
 use crate::report::csv::{line, write_all};
 use crate::report::curves::View;
 use crate::report::rows::{REACTIONS, ROWS_KEPT, reactions};
-use crate::report::{Facts, Look, Output, Report, Table};
+use crate::report::{DefaultView, Facts, Output, Report, Table};
 use crate::scene::Scene;
 
 const COLUMNS: &str = "t_s,theta_rad,omega_rad_per_s,alpha_rad_per_s2,slider_force_n,slider_force_se_n,crank_torque_nm,near_dead_centre,crank_torque_se_nm";
@@ -43,24 +43,21 @@ impl Report for InverseReport<'_> {
         table.stride = result.rows.len().div_ceil(ROWS_KEPT).max(1) as u64;
         let rows = result.rows.iter().zip(&result.residuals);
         for (row, sample) in rows.step_by(table.stride as usize) {
-            table.push(
-                values(row)
-                    .into_iter()
-                    .chain([sample.measured, sample.residual]),
-            );
+            let measured = [sample.measured, sample.residual];
+            table.push(values(row).into_iter().chain(measured));
         }
         table
     }
 
-    fn look(&self) -> Look<'_> {
-        Look {
+    fn default_view(&self) -> DefaultView<'_> {
+        DefaultView {
             title: &self.result.summary.scene,
             show: &["slider_force", "crank_torque"],
             over: "t",
             band: self.result.summary.band_factor,
             has_poles: true,
             scene: Some(self.scene),
-            ..Look::default()
+            ..DefaultView::default()
         }
     }
 
@@ -78,7 +75,7 @@ impl Report for InverseReport<'_> {
         if view.is_default() {
             return plot::figure(self.result, self.printed, view.size);
         }
-        view.svg(&self.table(), self.look())
+        view.svg(&self.table(), self.default_view())
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::super::key_values::{Facts, fact, six};
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
+use crate::report::key_values::{Facts, fact, six};
 
 /// Number of lines of the whole text, to fit a screen.
 const TEXT_LINES: usize = 40;
@@ -44,12 +44,8 @@ pub(super) fn facts(result: &Inverse) -> Facts {
         None => facts.add("slider force", "not determined at any sample"),
     }
     facts.add("crank torque", range(&summary.crank_torque, "N m"));
-    fact!(
-        facts,
-        "95 % band",
-        "+- {:.4} standard errors",
-        summary.band_factor
-    );
+    let factor = summary.band_factor;
+    fact!(facts, "95 % band", "+- {factor:.4} standard errors");
     let budget = summary.error_budget.iter().map(|part| {
         let percent = 100.0 * part.share;
         format!("{} {:.2e} N ({percent:.0} %)", part.source, part.force_se_n)
@@ -59,9 +55,8 @@ pub(super) fn facts(result: &Inverse) -> Facts {
         facts.add("error of force", budget.join(", "));
     }
     without_force(&mut facts, &summary.dead_centre_bands, data.rows);
-    let (shown, more) = summary
-        .warnings
-        .split_at(summary.warnings.len().min(MOST_WARNINGS));
+    let listed = summary.warnings.len().min(MOST_WARNINGS);
+    let (shown, more) = summary.warnings.split_at(listed);
     facts.warnings(shown);
     if !more.is_empty() {
         fact!(facts, "warning", "{} more: --json has all", more.len());
@@ -181,8 +176,10 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>, rows:
     }
     text.push('\n');
     let stride = result.rows.len().div_ceil(rows);
-    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.5}"));
-    let error = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |v| format!("{v:.2e}"));
+    let none = || "-".to_owned();
+    let cell = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.5}"));
+    let torque = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.6}"));
+    let error = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.2e}"));
     for row in result.rows.iter().step_by(stride) {
         let _ = write!(
             text,
@@ -193,8 +190,7 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>, rows:
             row.alpha,
             cell(row.slider_force),
             error(row.slider_force_se),
-            row.crank_torque
-                .map_or_else(|| "-".to_owned(), |torque| format!("{torque:.6}")),
+            torque(row.crank_torque),
             error(row.crank_torque_se)
         );
         if let Some(printed) = printed {

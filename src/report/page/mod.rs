@@ -3,9 +3,9 @@
 use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
+use super::default_view::{DefaultView, Scatter};
 use super::drawing::Drawing;
 use super::key_values::Facts;
-use super::look::{Look, Scatter};
 use super::table::{Shown, Table};
 use crate::error::Error;
 use crate::simulate::Event;
@@ -60,17 +60,6 @@ struct Mark {
     omega: Option<f64>,
 }
 
-impl Mark {
-    fn of(event: &Event) -> Mark {
-        Mark {
-            kind: event.kind,
-            t: event.t_s,
-            theta: event.theta_rad,
-            omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
-        }
-    }
-}
-
 /// Returns the cells of an event in the list.
 fn listed(event: &Event) -> [String; 4] {
     let shown = |value: f64| match value.is_finite() {
@@ -89,7 +78,7 @@ pub(super) fn html(
     origin: &Origin,
     facts: &Facts,
     table: &Table,
-    look: &Look<'_>,
+    default: &DefaultView<'_>,
 ) -> Result<String, Error> {
     let (titles, facts): (Vec<_>, Vec<_>) = facts.iter().partition(|(name, _)| *name == "scene");
     let mut notes = Vec::new();
@@ -98,16 +87,13 @@ pub(super) fn html(
     }
     let mut terms: Vec<[String; 3]> = Vec::new();
     let mut events: &[Event] = &[];
-    if let Some(run) = look.run {
+    if let Some(run) = default.run {
         let plan = &run.plan;
         for (what, of) in [("kept", &plan.kept), ("left out", &plan.left_out)] {
-            terms.extend(of.iter().map(|term| {
-                [
-                    term.name.to_string(),
-                    what.to_owned(),
-                    term.reason.to_string(),
-                ]
-            }));
+            for term in of {
+                let (name, reason) = (term.name.to_string(), term.reason.to_string());
+                terms.push([name, what.to_owned(), reason]);
+            }
         }
         events = &run.events;
         let (listed, total) = (events.len(), run.events_total);
@@ -115,18 +101,23 @@ pub(super) fn html(
             notes.push(format!("The first {listed} of {total} events are listed."));
         }
     }
+    let mark = |event: &Event| Mark {
+        kind: event.kind,
+        t: event.t_s,
+        theta: event.theta_rad,
+        omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
+    };
     let data = Data {
         columns: table.shown(),
-        drawing: look.scene.map(Drawing::of),
-        events: events.iter().map(Mark::of).collect(),
-        band: look.band,
-        poles: look.has_poles,
-        scatter: &look.scatter,
+        drawing: default.scene.map(Drawing::of),
+        events: events.iter().map(mark).collect(),
+        band: default.band,
+        poles: default.has_poles,
+        scatter: &default.scatter,
     };
     // Only the end tag has a meaning inside a script element; JSON can escape it.
-    let data = serde_json::to_string(&data)
-        .map_err(|error| failed(error.into()))?
-        .replace('<', "\\u003c");
+    let data = serde_json::to_string(&data).map_err(|error| failed(error.into()))?;
+    let data = data.replace('<', "\\u003c");
     let listed: Vec<_> = events.iter().take(LISTED).map(listed).collect();
     let [plot_style, plot_script] = PLOTS.map(|text| Value::from_safe_string(text.to_owned()));
     let page = context! {
@@ -139,9 +130,9 @@ pub(super) fn html(
         command => &origin.command,
         events => Value::from_serialize(&listed),
         events_left => events.len().saturating_sub(LISTED),
-        figures => Value::from_serialize(&look.figures),
-        has_scatter => look.scatter.is_some(),
-        has_motion => look.scene.is_some(),
+        figures => Value::from_serialize(&default.figures),
+        has_scatter => default.scatter.is_some(),
+        has_motion => default.scene.is_some(),
         style => Value::from_safe_string(STYLE.to_owned()),
         scripts => Value::from_safe_string(SCRIPTS.join("\n")),
         plot_style,
@@ -150,9 +141,8 @@ pub(super) fn html(
     };
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment
-        .render_str(TEMPLATE, page)
-        .map_err(|error| failed(error.into()))
+    let page = environment.render_str(TEMPLATE, page);
+    page.map_err(|error| failed(error.into()))
 }
 
 fn failed(source: Box<dyn std::error::Error + Send + Sync>) -> Error {

@@ -4,11 +4,11 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use super::super::csv;
-use super::super::output::Output;
 use super::ranges::SweepSummary;
 use super::tally::Tally;
 use crate::error::Error;
+use crate::report::csv;
+use crate::report::output::Output;
 use crate::sweep::Goal;
 
 /// Rows of a part as lines, with the number of its first design, from 1.

@@ -12,7 +12,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::csv::{self, CsvCell};
-use super::decimate::Thinned;
+use super::decimate::Decimated;
 use super::output::{Output, is_standard_output, is_stream};
 use super::table::Table;
 use crate::error::Error;
@@ -22,7 +22,7 @@ pub use merge::merge;
 pub use ranges::{
     FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey, sweep_page, sweep_text,
 };
-use resumable_file::Growing;
+use resumable_file::ResumableFile;
 use tally::Tally;
 
 /// Writer of the rows of `sweep`, in the order of the designs.
@@ -39,12 +39,12 @@ pub struct SweepWriter<'a> {
     /// Number of rows found in the file of an interrupted sweep.
     kept: usize,
     /// Rows kept in memory for a table.
-    shown: Option<Thinned<Vec<CsvCell>>>,
+    shown: Option<Decimated<Vec<CsvCell>>>,
 }
 
 /// Options of the summary of a sweep.
 #[derive(Clone, Debug, Default)]
-pub struct SweepAsked {
+pub struct SweepSummaryOptions {
     /// Goals of the Pareto front; none for no front.
     pub goals: Vec<Goal>,
     /// Whether to compute percentiles, which a sample always has.
@@ -60,7 +60,7 @@ pub const MOST_ON_PAGE: usize = 50_000;
 enum Target {
     Nothing,
     Stream(Output),
-    File(Growing),
+    File(ResumableFile),
 }
 
 impl<'a> SweepWriter<'a> {
@@ -74,15 +74,12 @@ impl<'a> SweepWriter<'a> {
         path: Option<&Path>,
         sweep: &'a Sweep,
         [part, parts]: [usize; 2],
-        asked: &SweepAsked,
+        asked: &SweepSummaryOptions,
     ) -> Result<SweepWriter<'a>, Error> {
-        let mut shown = asked.kept.map(Thinned::new);
+        let mut shown = asked.kept.map(Decimated::new);
         let header = header(sweep);
-        let mut tally = Tally::new(
-            &header,
-            asked.percentiles || sweep.sample().is_some(),
-            &asked.goals,
-        )?;
+        let percentiles = asked.percentiles || sweep.sample().is_some();
+        let mut tally = Tally::new(&header, percentiles, &asked.goals)?;
         let names: Vec<CsvCell> = header.iter().map(|name| CsvCell::from(&**name)).collect();
         let header = if part == 1 { line(&names) } else { Vec::new() };
         let range = sweep.part(part, parts)?;
@@ -95,14 +92,10 @@ impl<'a> SweepWriter<'a> {
                 Target::Stream(output)
             }
             Some(path) => {
-                let mark = format!(
-                    "sweep {:016x} {}..{}",
-                    sweep.identity(),
-                    range.start,
-                    range.end
-                );
+                let (identity, Range { start, end }) = (sweep.identity(), &range);
+                let mark = format!("sweep {identity:016x} {start}..{end}");
                 let mut last = String::new();
-                let file = Growing::open(path, &mark, &header, |row| {
+                let file = ResumableFile::open(path, &mark, &header, |row| {
                     let found = csv::read(row)?;
                     tally.take(&found);
                     if let Some(shown) = &mut shown {
@@ -175,9 +168,8 @@ impl<'a> SweepWriter<'a> {
             Target::Stream(output) => output.finish()?,
             Target::File(file) => file.finish()?,
         }
-        Ok(self
-            .tally
-            .summary(self.sweep, &self.range, self.kept, wall_s))
+        let (sweep, kept) = (self.sweep, self.kept);
+        Ok(self.tally.summary(sweep, &self.range, kept, wall_s))
     }
 }
 
@@ -197,10 +189,10 @@ fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
     }
     cells.push(design.outcome.name().into());
     let figures = sweep.figures().iter();
-    cells.extend(figures.map(|figure| match figure.cell(design) {
-        sweep::Cell::Number(number) => number.into(),
-        sweep::Cell::Word(word) => word.into(),
-        sweep::Cell::Empty => CsvCell::EMPTY,
+    cells.extend(figures.map(|figure| match figure.value(design) {
+        sweep::FigureValue::Number(number) => number.into(),
+        sweep::FigureValue::Word(word) => word.into(),
+        sweep::FigureValue::Empty => CsvCell::EMPTY,
     }));
     // One row is one line.
     let notes = design.notes.join("; ").replace(['\n', '\r'], " ");

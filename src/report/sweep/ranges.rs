@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::super::key_values::{Facts, aligned, fact, six};
-use super::super::look::{Look, Scatter};
-use super::super::page::{self, Origin};
-use super::super::table::Table;
 use crate::error::Error;
+use crate::report::default_view::{DefaultView, Scatter};
+use crate::report::key_values::{Facts, aligned, fact, six};
+use crate::report::page::{self, Origin};
+use crate::report::table::Table;
 
 /// Summary of a sweep.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -131,18 +131,10 @@ impl SweepSummary {
 /// [`Error::Write`].
 pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Result<String, Error> {
     let mut facts = facts(summary);
-    for SweepRange {
-        column, min, max, ..
-    } in &summary.figures
-    {
-        let (low, high) = (six(min.value), six(max.value));
-        fact!(
-            facts,
-            column,
-            "{low} (design {}) to {high} (design {})",
-            min.design,
-            max.design
-        );
+    for range in &summary.figures {
+        let of = |end: &SweepExtreme| format!("{} (design {})", six(end.value), end.design);
+        let (low, high) = (of(&range.min), of(&range.max));
+        fact!(facts, &range.column, "{low} to {high}");
     }
     let keys = summary.varied.len();
     let column = |place: usize| table.names().nth(place).unwrap_or_default().to_owned();
@@ -156,33 +148,26 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
         2 => (column(2), first),
         _ => (first, String::new()),
     };
-    let scatter = Scatter {
-        x: column(1),
-        y,
-        colour,
-        kind: "status",
-        ..Scatter::default()
+    let default = DefaultView {
+        scatter: Some(Scatter {
+            x: column(1),
+            y,
+            colour,
+            kind: "status",
+            ..Scatter::default()
+        }),
+        ..DefaultView::default()
     };
-    let look = Look {
-        scatter: Some(scatter),
-        ..Look::default()
-    };
-    page::html(origin, &facts, table, &look)
+    page::html(origin, &facts, table, &default)
 }
 
 fn facts(summary: &SweepSummary) -> Facts {
     let mut facts = Facts::of(&summary.scene);
-    for VariedKey {
-        key,
-        values,
-        count,
-        first,
-        last,
-    } in &summary.varied
-    {
-        match count {
-            1 => fact!(facts, "varied", "{key}: {values}"),
-            _ => fact!(facts, "varied", "{key}: {first} to {last}, {count} values"),
+    for varied in &summary.varied {
+        let (key, first, last) = (&varied.key, &varied.first, &varied.last);
+        match varied.count {
+            1 => fact!(facts, "varied", "{key}: {}", varied.values),
+            count => fact!(facts, "varied", "{key}: {first} to {last}, {count} values"),
         }
     }
     let [from, to] = summary.part;
@@ -207,13 +192,10 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
     const RANGES: [isize; 5] = [-26, 12, 10, 12, 10];
     let header = ["", "least", "in design", "largest", "in design"];
     let mut text = facts(summary).lines(17) + "\n" + &aligned(&RANGES, header);
-    for SweepRange {
-        column, min, max, ..
-    } in &summary.figures
-    {
+    for range in &summary.figures {
         let of = |end: &SweepExtreme| [six(end.value), end.design.to_string()];
-        let cells = [column.clone()].into_iter().chain(of(min)).chain(of(max));
-        text += &aligned(&RANGES, cells);
+        let ends = of(&range.min).into_iter().chain(of(&range.max));
+        text += &aligned(&RANGES, [range.column.clone()].into_iter().chain(ends));
     }
     const SPREADS: [isize; 6] = [-26, 12, 12, 12, 12, 12];
     let spreads = summary.figures.iter();
@@ -224,13 +206,9 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
             text += &("\n".to_owned() + &aligned(&SPREADS, header));
         }
         let Spread {
-            mean,
-            standard_deviation,
-            p2_5,
-            p50,
-            p97_5,
+            p2_5, p50, p97_5, ..
         } = spread;
-        let values = [mean, standard_deviation, p2_5, p50, p97_5].map(six);
+        let values = [spread.mean, spread.standard_deviation, p2_5, p50, p97_5].map(six);
         text += &aligned(&SPREADS, [column.clone()].into_iter().chain(values));
     }
     text + &front(&summary.pareto_front)
@@ -246,14 +224,10 @@ fn front(front: &[FrontDesign]) -> String {
         1 => "best design",
         _ => "Pareto front",
     };
-    let widths: Vec<isize> = [-15]
-        .into_iter()
-        .chain(first.figures.iter().map(|_| 26))
-        .collect();
-    let header = [title]
-        .into_iter()
-        .chain(first.figures.keys().map(String::as_str));
-    let mut text = "\n".to_owned() + &aligned(&widths, header);
+    let mut widths = vec![26; 1 + first.figures.len()];
+    widths[0] = -15;
+    let names = first.figures.keys().map(String::as_str);
+    let mut text = "\n".to_owned() + &aligned(&widths, [title].into_iter().chain(names));
     for one in front.iter().take(DESIGNS_SHOWN) {
         let name = format!("  design {}", one.design);
         let values = one.figures.values().map(|value| six(*value));

@@ -4,14 +4,14 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::super::Output;
 use super::file_lock;
 use crate::error::Error;
+use crate::report::Output;
 
 /// File `<target>.part` of rows, copied to the target when complete. The first line is a mark that identifies the
 /// sweep.
 #[derive(Debug)]
-pub(super) struct Growing {
+pub(super) struct ResumableFile {
     target: PathBuf,
     part: PathBuf,
     file: File,
@@ -19,7 +19,7 @@ pub(super) struct Growing {
     mark: u64,
 }
 
-impl Growing {
+impl ResumableFile {
     /// Opens the file of an interrupted run and passes its complete rows to `row`, or starts a new one with `header`.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl Growing {
         mark: &str,
         header: &[u8],
         row: impl FnMut(&str) -> Result<(), Error>,
-    ) -> Result<Growing, Error> {
+    ) -> Result<ResumableFile, Error> {
         // A target that cannot be written fails here, before the computation.
         drop(Output::create(target)?);
         let mut part = target.as_os_str().to_owned();
@@ -44,17 +44,17 @@ impl Growing {
             ));
         };
         let mark = format!("# slider-crank {mark}\n");
-        let mut growing = Growing {
+        let mut file_of_rows = ResumableFile {
             target: target.to_owned(),
             part,
             file,
             mark: mark.len() as u64,
         };
-        growing.take_up(&[mark.as_bytes(), header].concat(), row)?;
-        Ok(growing)
+        file_of_rows.resume(&[mark.as_bytes(), header].concat(), row)?;
+        Ok(file_of_rows)
     }
 
-    fn take_up(
+    fn resume(
         &mut self,
         head: &[u8],
         mut row: impl FnMut(&str) -> Result<(), Error>,

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::csv::CsvCell;
 use super::ranges::{FrontDesign, Spread, SweepExtreme, SweepRange, SweepSummary, VariedKey};
 use crate::error::Error;
+use crate::report::csv::CsvCell;
 use crate::sweep::{Goal, Member, ParetoFront, Sweep};
 
 /// Accumulator of the rows of a sweep.
@@ -61,7 +61,7 @@ impl Tally {
             before,
             status: BTreeMap::new(),
             goals: goals.iter().map(column).collect::<Result<_, _>>()?,
-            front: ParetoFront::new(goals.iter().map(|goal| goal.most).collect()),
+            front: ParetoFront::new(goals.iter().map(|goal| goal.maximise).collect()),
             rows: 0,
         })
     }
@@ -75,10 +75,7 @@ impl Tally {
         };
         let design = design as usize;
         self.rows += 1;
-        match self.status.get_mut(status.as_ref()) {
-            Some(count) => *count += 1,
-            None => drop(self.status.insert(status.clone().into_owned(), 1)),
-        }
+        *self.status.entry(status.to_string()).or_default() += 1;
         let figures = cells.iter().zip(&mut self.columns).skip(self.before);
         for (cell, column) in figures {
             if let Some(value) = cell.number() {

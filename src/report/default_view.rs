@@ -8,7 +8,7 @@ use crate::simulate::Summary;
 
 /// Default content of the picture and page of a result, where the user chooses none.
 #[derive(Default)]
-pub struct Look<'a> {
+pub struct DefaultView<'a> {
     /// Title above a picture.
     pub(super) title: &'a str,
     /// Columns drawn in a picture.
@@ -22,7 +22,7 @@ pub struct Look<'a> {
     /// Whether curves have poles at dead centres, which are cut off.
     pub(super) has_poles: bool,
     /// Figures of a picture after the columns, unless the user chooses columns.
-    pub(super) beside: Vec<Figure>,
+    pub(super) extra_figures: Vec<Figure>,
     /// Scene of the mechanism that a page animates.
     pub(super) scene: Option<&'a Scene>,
     /// Run whose terms and events a page lists.

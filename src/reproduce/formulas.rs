@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::drawing::{Drawing, Plot, Style};
+use super::drawing::{Drawing, Plot, Series, Style};
 use super::entry::{Entry, Printed, Verdict};
 use crate::error::Error;
 use crate::numeric::difference;
@@ -16,7 +16,6 @@ pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
 const DERIVATIVE_STEP: f64 = 1e-3;
 
 /// CSV texts of a paper, by column:
-#[derive(Clone, Copy)]
 pub(super) struct Files {
     /// Symbols: symbol,formula,source; a formula uses symbols above it and the variables theta and t.
     pub symbols: &'static str,
@@ -27,9 +26,10 @@ pub(super) struct Files {
 }
 
 /// Paper whose formulas can be evaluated.
-pub(super) struct Book {
-    files: Files,
+pub(super) struct PaperFormulas {
     symbols: BTreeMap<String, Expression>,
+    claims: Vec<[String; 10]>,
+    figures: Vec<[String; 11]>,
     quantities: Quantities,
 }
 
@@ -54,27 +54,28 @@ fn wrong(found: &str, wanted: &str) -> Error {
     )
 }
 
-impl Book {
-    /// Reads the symbols of a paper.
+impl PaperFormulas {
+    /// Reads the tables of a paper and the formulas of its symbols.
     ///
     /// # Errors
-    /// [`Error::Refused`] for a formula that cannot be read.
-    pub fn new(files: Files) -> Result<Book, Error> {
-        let mut book = Book {
-            files,
+    /// [`Error::Refused`] for data that cannot be read.
+    pub fn new(files: Files) -> Result<PaperFormulas, Error> {
+        let mut formulas = PaperFormulas {
             symbols: BTreeMap::new(),
+            claims: records(files.claims)?,
+            figures: records(files.figures)?,
             quantities: Box::new(|_, _| None),
         };
         for [symbol, formula, _] in records(files.symbols)? {
-            let expression = book.read(&formula, 0.0)?;
-            book.symbols.insert(symbol, expression);
+            let expression = formulas.read(&formula, 0.0)?;
+            formulas.symbols.insert(symbol, expression);
         }
-        Ok(book)
+        Ok(formulas)
     }
 
     /// Sets the quantities of the mechanism.
-    pub fn with(self, quantities: Quantities) -> Book {
-        Book { quantities, ..self }
+    pub fn with(self, quantities: Quantities) -> PaperFormulas {
+        PaperFormulas { quantities, ..self }
     }
 
     fn read(&self, formula: &str, theta: f64) -> Result<Expression, Error> {
@@ -118,11 +119,10 @@ impl Book {
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
     pub fn entries(&self) -> Result<Vec<Entry>, Error> {
-        let records = records(self.files.claims)?.into_iter();
-        records.map(|record| self.entry(record)).collect()
+        self.claims.iter().map(|claim| self.entry(claim)).collect()
     }
 
-    fn entry(&self, record: [String; 10]) -> Result<Entry, Error> {
+    fn entry(&self, claim: &[String; 10]) -> Result<Entry, Error> {
         let [
             place,
             what,
@@ -134,8 +134,8 @@ impl Book {
             verdict,
             condition,
             conditional,
-        ] = record;
-        let t = self.value(if at.is_empty() { "0" } else { &at }, 0.0)?;
+        ] = claim;
+        let t = self.value(if at.is_empty() { "0" } else { at }, 0.0)?;
         // A symbol `angle` converts to radians, for papers in degrees.
         let angle = self.symbols.get("angle");
         let at = now(t, angle.map_or(t, |angle| angle.value(&now(t, t))));
@@ -146,12 +146,10 @@ impl Book {
         };
         let printed = match (printed.strip_prefix('='), range.split_once("..")) {
             (Some(formula), _) => Printed::Formula(value(formula)?),
-            (None, Some((least, most))) => {
-                Printed::between(&printed, [value(least)?, value(most)?])
-            }
+            (None, Some((least, most))) => Printed::between(printed, [value(least)?, value(most)?]),
             (None, None) => {
-                let number = printed.parse().map_err(|_| wrong(&printed, "a number"))?;
-                Printed::number(&printed, number)
+                let number = printed.parse().map_err(|_| wrong(printed, "a number"))?;
+                Printed::number(printed, number)
             }
         };
         let (expected, cut) = match verdict.as_str() {
@@ -161,14 +159,14 @@ impl Book {
             "cannot" => (Verdict::Cannot, false),
             other => return Err(wrong(other, "a verdict")),
         };
-        let entry = Entry::judged(printed, optional(&ours)?, optional(&conditional)?, cut);
+        let entry = Entry::judged(printed, optional(ours)?, optional(conditional)?, cut);
         Ok(Entry {
-            place,
-            what,
-            unit,
+            place: place.clone(),
+            what: what.clone(),
+            unit: unit.clone(),
             condition: match entry.verdict {
                 Verdict::Reproduces => String::new(),
-                _ => condition,
+                _ => condition.clone(),
             },
             expected,
             ..entry
@@ -180,11 +178,9 @@ impl Book {
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
     pub fn column(&self, table: &str, column: &str) -> Result<Vec<(f64, f64)>, Error> {
-        let records: Vec<[String; 10]> = records(self.files.claims)?;
-        let of = records
-            .iter()
-            .filter(|[place, what, ..]| place == table && what.starts_with(column));
-        of.map(|[_, _, _, at, printed, ..]| Ok((self.value(at, 0.0)?, self.value(printed, 0.0)?)))
+        let wanted = |[place, what, ..]: &&[String; 10]| place == table && what.starts_with(column);
+        let rows = self.claims.iter().filter(wanted);
+        rows.map(|[_, _, _, at, printed, ..]| Ok((self.value(at, 0.0)?, self.value(printed, 0.0)?)))
             .collect()
     }
 
@@ -193,49 +189,46 @@ impl Book {
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
     pub fn drawings(&self) -> Result<Vec<Drawing>, Error> {
-        let mut found: Vec<Drawing> = Vec::new();
-        for record in records(self.files.figures)? {
-            let [
-                name,
-                title,
-                x,
-                y,
-                from,
-                to,
-                steps,
-                theta,
-                style,
-                label,
-                formula,
-            ] = record;
-            if found.last().is_none_or(|last| last.name != name) {
-                found.push(Drawing::new(&name, &title, Vec::new()));
-            }
-            let Some(drawing) = found.last_mut() else {
-                continue;
-            };
-            let like = |plot: &Plot| plot.x == x && plot.y == y;
-            if !drawing.plots.last().is_some_and(like) {
-                drawing.plots.push(Plot::new(&x, &y));
-            }
-            let [from, to, steps] = self.numbers([&from, &to, &steps])?;
-            let style = match style.as_str() {
+        let figures = self.figures.chunk_by(|one, next| one[0] == next[0]);
+        figures.map(|curves| self.drawing(curves)).collect()
+    }
+
+    /// Returns the figure of some curves; neighbours with equal axes share a plot.
+    fn drawing(&self, curves: &[[String; 11]]) -> Result<Drawing, Error> {
+        let plots = curves.chunk_by(|one, next| one[2..4] == next[2..4]);
+        let plots = plots.map(|curves| {
+            let series = curves.iter().map(|curve| self.series(curve));
+            Ok(Plot {
+                x: curves[0][2].clone(),
+                y: curves[0][3].clone(),
+                series: series.collect::<Result<_, Error>>()?,
+            })
+        });
+        let plots = plots.collect::<Result<_, Error>>()?;
+        let [name, title, ..] = &curves[0];
+        Ok(Drawing::new(name, title, plots))
+    }
+
+    fn series(&self, curve: &[String; 11]) -> Result<Series, Error> {
+        let [.., from, to, steps, theta, style, label, formula] = curve;
+        let [from, to, steps] = self.numbers([from, to, steps])?;
+        let theta = self.read(theta, 0.0)?;
+        let point = |i: u32| {
+            let t = from + (to - from) * f64::from(i) / steps;
+            let at = now(t, theta.value(&now(t, t)));
+            Ok((t, self.value_at(formula, &at)?))
+        };
+        Ok(Series {
+            label: label.clone(),
+            style: match style.as_str() {
                 "line" => Style::Line,
                 "dashed" => Style::Dashed,
                 _ => Style::Points,
-            };
-            let theta = self.read(&theta, 0.0)?;
-            let mut points = Vec::new();
-            for i in 0..=steps as u32 {
-                let t = from + (to - from) * f64::from(i) / steps;
-                let at = now(t, theta.value(&now(t, t)));
-                points.push((t, self.value_at(&formula, &at)?));
-            }
-            if let Some(plot) = drawing.plots.last_mut() {
-                plot.add(&label, style, points);
-            }
-        }
-        Ok(found)
+            },
+            points: (0..=steps as u32)
+                .map(point)
+                .collect::<Result<_, Error>>()?,
+        })
     }
 }
 

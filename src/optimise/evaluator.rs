@@ -4,15 +4,15 @@ use std::cmp::Ordering;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicU64, Ordering as Memory};
 
-use super::{AGREEMENT, Asked, GAIN};
+use super::{AGREEMENT, GAIN, Problem};
 use crate::numeric::stop::Stop;
 use crate::scene::VariedValue;
 use crate::sweep::{Goal, Outcome, Source, Sweep};
 
 /// Objective and constraints over the unit box: coordinate 0 is the lower bound of a key, 1 the upper one.
-pub(super) struct Judge<'a> {
+pub(super) struct Evaluator<'a> {
     pub sweep: &'a Sweep,
-    pub asked: &'a Asked,
+    pub problem: &'a Problem,
     pub stop: &'a Stop,
     /// Number of designs computed.
     pub computed: AtomicU64,
@@ -24,40 +24,41 @@ pub(super) struct Judge<'a> {
 
 /// A design with its goal and its violation of the limits.
 #[derive(Clone, Debug)]
-pub(super) struct Judged {
+pub(super) struct Candidate {
     /// Point of the unit box, one coordinate per key.
     pub at: Vec<f64>,
     /// Goal, to be minimised (sign reversed for a maximum); none if the design or a figure could not be computed.
-    pub aim: Option<f64>,
+    pub objective: Option<f64>,
     /// Margin to each limit, positive if met, in the unit of the figure; empty without goal and limited figures.
     pub margins: Vec<f64>,
     /// Largest scaled violation of a limit, 0 if all are met; infinite for a design without goal.
     pub violation: f64,
 }
 
-impl Judged {
+impl Candidate {
     /// Returns the goal figure with its own sign.
     pub fn value(&self, goal: Goal) -> Option<f64> {
-        self.aim.map(|aim| if goal.most { -aim } else { aim })
+        self.objective
+            .map(|value| if goal.maximise { -value } else { value })
     }
 
     /// Orders by Deb's rules, better designs first: by violation, then by goal.
-    pub fn order(&self, other: &Judged) -> Ordering {
-        let aim = |one: &Judged| one.aim.unwrap_or(f64::INFINITY);
+    pub fn order(&self, other: &Candidate) -> Ordering {
+        let objective = |one: &Candidate| one.objective.unwrap_or(f64::INFINITY);
         let violation = self.violation.total_cmp(&other.violation);
-        violation.then(aim(self).total_cmp(&aim(other)))
+        violation.then(objective(self).total_cmp(&objective(other)))
     }
 }
 
-impl<'a> Judge<'a> {
-    pub fn new(sweep: &'a Sweep, asked: &'a Asked, stop: &'a Stop) -> Judge<'a> {
-        Judge {
+impl<'a> Evaluator<'a> {
+    pub fn new(sweep: &'a Sweep, problem: &'a Problem, stop: &'a Stop) -> Evaluator<'a> {
+        Evaluator {
             sweep,
-            asked,
+            problem,
             stop,
             computed: AtomicU64::new(0),
             goal_scale: 1.0,
-            scales: vec![1.0; asked.subjects.len()],
+            scales: vec![1.0; problem.constraints.len()],
         }
     }
 
@@ -67,86 +68,86 @@ impl<'a> Judge<'a> {
     }
 
     /// Computes and ranks a design; returns one without figures after a request to stop.
-    pub fn judge(&self, at: Vec<f64>) -> Judged {
+    pub fn evaluate(&self, at: Vec<f64>) -> Candidate {
         if self.stop.is_requested() {
-            return self.verdict(at, None, Vec::new());
+            return self.candidate(at, None, Vec::new());
         }
         self.computed.fetch_add(1, Memory::Relaxed);
         let design = self.sweep.design_of(0, self.values(&at));
-        let Asked { goal, subjects, .. } = self.asked;
-        let margins = subjects.iter().map(|subject| {
-            let value = subject.figure.number(&design)?;
-            Some(subject.margin(value)).filter(|margin| margin.is_finite())
+        let Problem {
+            goal, constraints, ..
+        } = self.problem;
+        let margins = constraints.iter().map(|constraint| {
+            let value = constraint.figure.number(&design)?;
+            Some(constraint.margin(value)).filter(|margin| margin.is_finite())
         });
-        let aim = goal.figure.number(&design);
-        let aim = aim.filter(|aim| aim.is_finite() && design.outcome == Outcome::Done);
-        let aim = aim.map(|aim| if goal.most { -aim } else { aim });
-        match margins.collect::<Option<Vec<f64>>>() {
-            Some(margins) => self.verdict(at, aim, margins),
-            None => self.verdict(at, None, Vec::new()),
-        }
+        let margins: Option<Vec<f64>> = margins.collect();
+        let is_whole = margins.is_some() && design.outcome == Outcome::Done;
+        let value = goal.figure.number(&design);
+        let value = value.filter(|value| value.is_finite() && is_whole);
+        let objective = value.map(|value| if goal.maximise { -value } else { value });
+        self.candidate(at, objective, margins.unwrap_or_default())
     }
 
-    fn verdict(&self, at: Vec<f64>, aim: Option<f64>, margins: Vec<f64>) -> Judged {
-        let missed = margins.iter().zip(&self.scales);
-        let missed = missed.map(|(margin, scale)| -margin / scale);
-        let violation = match aim {
+    fn candidate(&self, at: Vec<f64>, objective: Option<f64>, margins: Vec<f64>) -> Candidate {
+        let scaled = margins.iter().zip(&self.scales);
+        let missed = scaled.map(|(margin, scale)| -margin / scale);
+        let violation = match objective {
             Some(_) => missed.fold(0.0, f64::max),
             None => f64::INFINITY,
         };
-        Judged {
+        Candidate {
             at,
-            aim,
+            objective,
             margins,
             violation,
         }
     }
 
     /// Sets the scales from a sample and ranks the sample again with them.
-    pub fn calibrate(&mut self, sample: Vec<Judged>) -> Vec<Judged> {
-        let of = |value: &dyn Fn(&Judged) -> f64| {
-            let computed = sample.iter().filter(|one| one.aim.is_some());
+    pub fn calibrate(&mut self, sample: Vec<Candidate>) -> Vec<Candidate> {
+        let of = |value: &dyn Fn(&Candidate) -> f64| {
+            let computed = sample.iter().filter(|one| one.objective.is_some());
             middle_half(computed.map(value).collect())
         };
-        let subjects = 0..self.asked.subjects.len();
-        self.scales = subjects.map(|i| of(&|one| one.margins[i])).collect();
-        self.goal_scale = of(&|one| one.aim.unwrap_or_default());
-        let again = sample
-            .into_iter()
-            .map(|one| self.verdict(one.at, one.aim, one.margins));
-        again.collect()
+        let constraints = 0..self.problem.constraints.len();
+        self.scales = constraints.map(|i| of(&|one| one.margins[i])).collect();
+        self.goal_scale = of(&|one| one.objective.unwrap_or_default());
+        let sample = sample.into_iter();
+        let ranked = sample.map(|one| self.candidate(one.at, one.objective, one.margins));
+        ranked.collect()
     }
 
     /// Returns the scaled goal, `worst` for a design without goal.
-    pub fn aim(&self, one: &Judged, worst: f64) -> f64 {
-        one.aim.map_or(worst, |aim| aim / self.goal_scale)
+    pub fn scaled_objective(&self, one: &Candidate, worst: f64) -> f64 {
+        one.objective.map_or(worst, |value| value / self.goal_scale)
     }
 
     /// Returns the scaled margin to a limit, positive if met; -1, a violation by one scale, without figures.
-    pub fn margin(&self, one: &Judged, subject: usize) -> f64 {
-        let margin = one.margins.get(subject).copied();
-        margin.map_or(-1.0, |margin| margin / self.scales[subject])
+    pub fn scaled_margin(&self, one: &Candidate, constraint: usize) -> f64 {
+        let margin = one.margins.get(constraint).copied();
+        margin.map_or(-1.0, |margin| margin / self.scales[constraint])
     }
 
     /// Whether a figure equals its limit to [`AGREEMENT`] of its scale.
-    pub fn is_active(&self, subject: usize, value: f64) -> bool {
-        let margin = self.asked.subjects[subject].margin(value);
-        margin.abs() <= AGREEMENT * self.scales[subject]
+    pub fn is_active(&self, constraint: usize, value: f64) -> bool {
+        let margin = self.problem.constraints[constraint].margin(value);
+        margin.abs() <= AGREEMENT * self.scales[constraint]
     }
 
     /// Whether goals (scaled) and violations of two designs agree to [`AGREEMENT`].
-    pub fn agree(&self, one: &Judged, other: &Judged) -> bool {
-        let aims = one.aim.zip(other.aim);
-        let near = aims.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.goal_scale);
+    pub fn agree(&self, one: &Candidate, other: &Candidate) -> bool {
+        let objectives = one.objective.zip(other.objective);
+        let near = objectives.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.goal_scale);
         near && (one.violation - other.violation).abs() <= AGREEMENT
     }
 
     /// Returns the least significant difference of the goal: |goal| times the relative error of the motion (speed error
     /// to fastest speed, angle error to angle travelled) or of the steady fluctuation; at least [`GAIN`] of the scale.
-    pub fn resolution(&self, one: &Judged) -> f64 {
-        let aim = one.aim.map_or(0.0, f64::abs);
+    pub fn resolution(&self, one: &Candidate) -> f64 {
+        let objective = one.objective.map_or(0.0, f64::abs);
         let least = GAIN * self.goal_scale;
-        if self.asked.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
+        if self.problem.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
             return least;
         }
         let vouched = self.sweep.with_estimates();
@@ -160,36 +161,32 @@ impl<'a> Judge<'a> {
         let steady = design.steady.as_ref();
         let steady = steady.map(|cycle| cycle.fluctuation.error / cycle.fluctuation.value);
         let errors = motion.into_iter().chain(steady);
-        let errors = errors
-            .map(|error| error * aim)
-            .filter(|error| error.is_finite());
-        errors.fold(least, f64::max)
+        let errors = errors.map(|error| error * objective);
+        errors
+            .filter(|error| error.is_finite())
+            .fold(least, f64::max)
     }
 
     /// Whether `one` beats `other`: by more than `resolution` in goal at equal violation, else [`GAIN`] in violation.
-    pub fn improves(&self, one: &Judged, other: &Judged, resolution: f64) -> bool {
+    pub fn improves(&self, one: &Candidate, other: &Candidate, resolution: f64) -> bool {
         if one.order(other) != Ordering::Less {
             return false;
         }
-        match (one.aim, other.aim) {
+        match (one.objective, other.objective) {
             (Some(a), Some(b)) if one.violation == other.violation => b - a > resolution,
             _ => other.violation - one.violation > GAIN,
         }
     }
 }
 
-/// Returns the interquartile range; the full range if that is zero, 1 if both are zero or not finite.
+/// Returns the interquartile range of at least one value; the full range if that is zero, 1 if both are zero or not finite.
 fn middle_half(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
-    let Some(last) = values.len().checked_sub(1) else {
-        return 1.0;
-    };
+    let last = values.len() - 1;
     let spreads = [
         values[last - last / 4] - values[last / 4],
         values[last] - values[0],
     ];
-    let found = spreads
-        .into_iter()
-        .find(|spread| *spread > 0.0 && spread.is_finite());
-    found.unwrap_or(1.0)
+    let is_scale = |spread: &f64| *spread > 0.0 && spread.is_finite();
+    spreads.into_iter().find(is_scale).unwrap_or(1.0)
 }
