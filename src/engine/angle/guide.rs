@@ -41,15 +41,19 @@ impl<'a> Guide<'a> {
         let mut done = 0;
         while done < count {
             let panel = self.panel(turns, angles[done])?;
-            let local = angles.map(|angle| Self::local(panel, turns, angle));
-            let slopes = panel.slowness(&local);
-            let on_it = |angle: &&f64| Self::is_on(panel, **angle);
-            let until = done + local[done..count].iter().take_while(on_it).count();
-            for j in done..until {
-                let speed = 1.0 / slopes[j];
-                kinetic[j] = 0.5 * station.table.inertia[j] * speed * speed;
+            let from = done;
+            let next = |angle: &f64| Self::local(panel, turns, *angle);
+            let on_it = angles[from..count].iter().map(next);
+            for local in on_it.take_while(|local| Self::is_on(panel, *local)) {
+                kinetic[done] = local;
+                done += 1;
             }
-            done = until;
+            let points = &mut kinetic[from..done];
+            panel.slowness(points);
+            for (point, inertia) in points.iter_mut().zip(&station.table.inertia[from..]) {
+                let speed = 1.0 / *point;
+                *point = 0.5 * inertia * speed * speed;
+            }
         }
         let moved = start - kinetic[0];
         kinetic[..count].iter_mut().for_each(|one| *one += moved);

@@ -11,7 +11,9 @@ use nalgebra::{DMatrix, DVectorViewMut};
 const MOST_SWEEPS: u32 = 40;
 /// Sweeps end where what they leave is this part of the tail: it adds up over the turns.
 pub(super) const SETTLED: f64 = 1e-3;
-/// Least factor that a sweep is taken to leave.
+/// A kinetic energy is rounded by this part of it, as a sum and as the work in it.
+const ROUNDED: f64 = 2.0 * f64::EPSILON;
+/// Least factor that the first sweep over a panel is taken to leave: it falls from sweep to sweep.
 const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
 const REMAINDER: f64 = 0.25;
@@ -77,17 +79,18 @@ pub(super) fn sweep<D: Driven>(
         let factor = if linear && !newton && !is_driven {
             largest
         } else if before.is_finite() {
-            (largest / before).max(LEAST_FACTOR)
+            largest / before
         } else {
             panel.factor
         };
-        let at_rounding = largest < SUM_ROUNDING && largest >= SLOW_FACTOR * before;
+        let gains = before.is_finite() && largest < SLOW_FACTOR * before;
+        let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
                 swept.evaluate(driven, panel, start)?;
                 return swept.finish(panel, start, tails.series);
             }
-        } else if largest * factor <= settled * tails.sweeps || at_rounding {
+        } else if largest * factor <= (settled * tails.sweeps).max(ROUNDED) || at_rounding {
             if is_driven {
                 swept.forces.take_speeds(panel, start, &swept.kinetic);
             } else {
