@@ -13,7 +13,7 @@ const MOST_SWEEPS: u32 = 40;
 pub(super) const SETTLED: f64 = 1e-3;
 /// A kinetic energy is rounded by this part of it, as a sum and as the work in it.
 const ROUNDED: f64 = 2.0 * f64::EPSILON;
-/// Least factor that the first sweep over a panel is taken to leave: it falls from sweep to sweep.
+/// Least factor that a sweep is taken to leave.
 const LEAST_FACTOR: f64 = 1e-3;
 /// The last terms of a series of speeds by what it leaves out, where it decays slowly.
 const REMAINDER: f64 = 0.25;
@@ -79,7 +79,7 @@ pub(super) fn sweep<D: Driven>(
         let factor = if linear && !newton && !is_driven {
             largest
         } else if before.is_finite() {
-            largest / before
+            (largest / before).max(LEAST_FACTOR)
         } else {
             panel.factor
         };
