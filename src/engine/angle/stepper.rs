@@ -227,6 +227,13 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// does not know.
     fn guess(&mut self, start: PanelStart) -> Tails {
         let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
+        let series = self.fine.tail;
+        if panel.is_in_closed_form(self.driven) {
+            return Tails {
+                series,
+                sweeps: series,
+            };
+        }
         let smooth = panel.table.switch.is_none();
         let guide = self.guide.as_mut().filter(|_| smooth);
         let known = guide.and_then(|guide| {
@@ -237,7 +244,6 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             let reads_time = self.driven.is_driven() && self.driven.reads_time();
             panel.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
         }
-        let series = self.fine.tail;
         Tails {
             series,
             sweeps: known.unwrap_or(series),

@@ -54,7 +54,7 @@ pub(super) fn sweep<D: Driven>(
     };
     swept.evaluations = 0;
     swept.share = 1.0;
-    if !is_driven && !panel.damped {
+    if panel.is_in_closed_form(driven) {
         return swept.take_undamped(driven, panel, start, tails);
     }
     let mut newton = false;

@@ -1,5 +1,6 @@
 //! The motion on a panel without damping and without driven loads: K' = b K + F is linear, with the integrating factor exp ∫ b.
 
+use super::Driven;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -26,6 +27,11 @@ impl<P: Copy> PanelTable<P> {
         for work in &mut self.work[..count] {
             *work *= half;
         }
+    }
+
+    /// Whether its motion is that of the forces of the position alone, and of the switch.
+    pub fn is_in_closed_form<D: Driven>(&self, driven: &D) -> bool {
+        !self.damped && !driven.is_driven()
     }
 
     /// Kinetic energy at the points that the forces of the position alone, and of the switch, make of that at the start, J.
