@@ -5,7 +5,7 @@ use super::super::energy::segment::Segment;
 use super::super::energy::{Orbit, panel::Panel};
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+use crate::numeric::chebyshev::Values;
 
 /// A run over the same angles.
 #[derive(Clone, Copy, Debug)]
@@ -36,24 +36,25 @@ impl<'a> Guide<'a> {
         start: f64,
     ) -> Option<Values> {
         let count = station.rule.degree() + 1;
-        let angles = station.rule.values(|x| station.piece.angle(x));
-        let mut kinetic = [0.0; MAX_DEGREE + 1];
+        // Angles, of which the kinetic energy there takes the place.
+        let mut kinetic = station.rule.values(|x| station.piece.angle(x));
         let mut done = 0;
         while done < count {
-            let panel = self.panel(turns, angles[done])?;
-            let from = done;
-            let next = |angle: &f64| Self::local(panel, turns, *angle);
-            let on_it = angles[from..count].iter().map(next);
-            for local in on_it.take_while(|local| Self::is_on(panel, *local)) {
-                kinetic[done] = local;
-                done += 1;
-            }
-            let points = &mut kinetic[from..done];
+            let panel = self.panel(turns, kinetic[done])?;
+            let local = |angle: &f64| Self::local(panel, turns, *angle);
+            let left = &mut kinetic[done..count];
+            let on_it = left
+                .iter()
+                .take_while(|angle| Self::is_on(panel, local(angle)));
+            let here = on_it.count();
+            let points = &mut left[..here];
+            points.iter_mut().for_each(|angle| *angle = local(angle));
             panel.slowness(points);
-            for (point, inertia) in points.iter_mut().zip(&station.table.inertia[from..]) {
+            for (point, inertia) in points.iter_mut().zip(&station.table.inertia[done..]) {
                 let speed = 1.0 / *point;
                 *point = 0.5 * inertia * speed * speed;
             }
+            done += points.len();
         }
         let moved = start - kinetic[0];
         kinetic[..count].iter_mut().for_each(|one| *one += moved);
