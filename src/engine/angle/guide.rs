@@ -5,7 +5,7 @@ use super::super::energy::segment::Segment;
 use super::super::energy::{Orbit, panel::Panel};
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+use crate::numeric::chebyshev::Values;
 
 /// Known run over the same angles.
 #[derive(Clone, Copy, Debug)]
@@ -36,20 +36,25 @@ impl<'a> Guide<'a> {
         start: f64,
     ) -> Option<Values> {
         let count = station.rule.degree() + 1;
-        let angles = station.rule.values(|x| station.piece.angle(x));
-        let mut kinetic = [0.0; MAX_DEGREE + 1];
+        // Angles, of which the kinetic energy there takes the place.
+        let mut kinetic = station.rule.values(|x| station.piece.angle(x));
         let mut done = 0;
         while done < count {
-            let panel = self.panel(turns, angles[done])?;
-            let local = angles.map(|angle| Self::local(panel, turns, angle));
-            let slopes = panel.slowness(&local);
-            let on_it = |angle: &&f64| Self::is_on(panel, **angle);
-            let until = done + local[done..count].iter().take_while(on_it).count();
-            for j in done..until {
-                let speed = 1.0 / slopes[j];
-                kinetic[j] = 0.5 * station.table.inertia[j] * speed * speed;
+            let panel = self.panel(turns, kinetic[done])?;
+            let local = |angle: &f64| Self::local(panel, turns, *angle);
+            let left = &mut kinetic[done..count];
+            let on_it = left
+                .iter()
+                .take_while(|angle| Self::is_on(panel, local(angle)));
+            let here = on_it.count();
+            let points = &mut left[..here];
+            points.iter_mut().for_each(|angle| *angle = local(angle));
+            panel.slowness(points);
+            for (point, inertia) in points.iter_mut().zip(&station.table.inertia[done..]) {
+                let speed = 1.0 / *point;
+                *point = 0.5 * inertia * speed * speed;
             }
-            done = until;
+            done += points.len();
         }
         let moved = start - kinetic[0];
         kinetic[..count].iter_mut().for_each(|one| *one += moved);

@@ -227,17 +227,19 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
     /// are solved as if there was none, which the guide does not know.
     fn guess(&mut self, start: PanelStart) -> Tails {
         let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
+        let series = self.fine.tail;
+        let needs_none = panel.is_in_closed_form(self.driven).then_some(series);
         let smooth = panel.table.switch.is_none();
         let guide = self.guide.as_mut().filter(|_| smooth);
-        let known = guide.and_then(|guide| {
+        let of_guide = |guide: &mut Guide<'_>| {
             self.swept.kinetic = guide.kinetic(panel, self.turns, start.kinetic)?;
             Some(SETTLED * guide.tail)
-        });
+        };
+        let known = needs_none.or_else(|| guide.and_then(of_guide));
         if known.is_none() {
             let reads_time = self.driven.is_driven() && self.driven.reads_time();
             panel.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
         }
-        let series = self.fine.tail;
         Tails {
             series,
             sweeps: known.unwrap_or(series),

@@ -11,6 +11,8 @@ use nalgebra::{DMatrix, DVectorViewMut};
 const MOST_SWEEPS: u32 = 40;
 /// Error that the sweeps may leave, relative to the tail: it adds up over the turns.
 pub(super) const SETTLED: f64 = 1e-3;
+/// Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
+const ROUNDED: f64 = 2.0 * f64::EPSILON;
 /// Least convergence factor that a sweep is assumed to have.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
@@ -52,7 +54,7 @@ pub(super) fn sweep<D: Driven>(
     };
     swept.evaluations = 0;
     swept.share = 1.0;
-    if !is_driven && !panel.damped {
+    if panel.is_in_closed_form(driven) {
         return swept.take_undamped(driven, panel, start, tails);
     }
     let mut newton = false;
@@ -81,13 +83,14 @@ pub(super) fn sweep<D: Driven>(
         } else {
             panel.factor
         };
-        let at_rounding = largest < SUM_ROUNDING && largest >= SLOW_FACTOR * before;
+        let gains = before.is_finite() && largest < SLOW_FACTOR * before;
+        let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
                 swept.evaluate(driven, panel, start)?;
                 return swept.finish(panel, start, tails.series);
             }
-        } else if largest * factor <= settled * tails.sweeps || at_rounding {
+        } else if largest * factor <= (settled * tails.sweeps).max(ROUNDED) || at_rounding {
             if is_driven {
                 swept.forces.take_speeds(panel, start, &swept.kinetic);
             } else {

@@ -73,9 +73,10 @@ pub(super) fn begins_beyond<D: Driven>(
 impl Swept {
     /// Ends the motion at the fraction `share` of the panel.
     pub fn end_at(&mut self, rule: &Rule, start: PanelStart, share: f64) {
-        let inside = rule.values(|x| share * (1.0 + x) - 1.0);
-        self.slopes = self.slope.values(&inside).map(|slope| share * slope);
-        self.slopes[rule.degree() + 1..].fill(0.0);
+        self.slopes = rule.values(|x| share * (1.0 + x) - 1.0);
+        let slopes = &mut self.slopes[..=rule.degree()];
+        self.slope.values(slopes);
+        slopes.iter_mut().for_each(|slope| *slope *= share);
         self.slope = rule.series(&self.slopes);
         self.end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
         self.gain = self.end - start.kinetic;

@@ -1,5 +1,6 @@
 //! Motion on a panel without damping and driven loads in closed form: K' = b K + F with the integrating factor exp ∫ b.
 
+use super::Driven;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -26,6 +27,11 @@ impl<P: Copy> PanelTable<P> {
         for work in &mut self.work[..count] {
             *work *= half;
         }
+    }
+
+    /// True if the panel has neither damping nor driven loads: its motion is known in closed form.
+    pub fn is_in_closed_form<D: Driven>(&self, driven: &D) -> bool {
+        !self.damped && !driven.is_driven()
     }
 
     /// Returns the kinetic energy at the points, J, without damping and driven loads, from that at the start, J.

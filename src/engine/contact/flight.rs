@@ -7,10 +7,13 @@ use crate::engine::PIECES;
 use crate::numeric::root;
 
 /// Shortest piece in the search for a closing gap, as a fraction of a step: longer ones are bisected until the cubic
-/// through their ends excludes a closing. In the shortest the rate of the gap is taken to change sign at most once.
+/// through their ends excludes a closing or narrows all along. In the shortest the rate of the gap is taken to change
+/// sign at most once.
 const FINEST_PIECE: f64 = 1.0 / 1024.0;
 /// Bound of the deviation of the gap from the cubic, as a multiple of the deviation at the middle of a piece.
 const CUBIC_MARGIN: f64 = 4.0;
+/// Width of the bracket of a closing, as a fraction of a step: the step that ends there meets it by its own rates.
+const NEAR_CLOSING: f64 = 1e-9;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn fly(&mut self) -> Halt {
@@ -162,9 +165,11 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     let off = middle.value - 0.125 * (a + 3.0 * (b + c) + d);
     let turned = middle.rate * width - 0.75 * (c + d - a - b);
     let doubt = CUBIC_MARGIN * (off.abs() + 0.25 * turned.abs());
+    // Its rate is three times the differences of the control points; what is off in four parts of a piece changes in one.
+    let narrows = 3.0 * (b - a).max(c - b).max(d - c) < -4.0 * doubt;
     if cubic.into_iter().fold(f64::INFINITY, f64::min) > doubt {
         None
-    } else if to.u - from.u > FINEST_PIECE {
+    } else if to.u - from.u > FINEST_PIECE && !(narrows && a > 0.0) {
         closing_between(gap, from, middle, h).or_else(|| closing_between(gap, middle, to, h))
     } else {
         closing_in(gap, from, to)
@@ -193,7 +198,7 @@ fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
     if gap(from).value <= 0.0 {
         return Some(from);
     }
-    root::bracketed(|u| gap(u).value, from, to)
+    root::within(|u| gap(u).value, from, to, NEAR_CLOSING)
 }
 
 /// Returns the first zero of a value that is positive at the start and sampled as negative later.

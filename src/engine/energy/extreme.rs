@@ -38,10 +38,14 @@ impl Panel {
         let from = points[index.saturating_sub(1)];
         let to = points[(index + 1).min(self.rule.degree())];
         let bend = self.slope.derivative();
-        let stretch_rate = self.piece.stretch_rate();
         // The speed is stretch/slope.
-        let rate =
-            |x: f64| stretch_rate * self.slope.value(x) - self.piece.stretch(x) * bend.value(x);
+        let rate = |x: f64| {
+            let stretched = match self.piece.stretch_rate() {
+                0.0 => 0.0,
+                rate => rate * self.slope.value(x),
+            };
+            stretched - self.piece.stretch(x) * bend.value(x)
+        };
         let at_point = sign * self.speed(points[index]).abs();
         // At an extreme the speed is insensitive to the position.
         root::within(rate, from, to, 1e-9)

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use super::Orbit;
 use super::panel::Panel;
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::Values;
 
 impl Orbit {
     /// Returns the positions that resolve the motion up to a time, s: the points of the series, each as the index of
@@ -68,11 +67,15 @@ impl Orbit {
 }
 
 impl Panel {
-    /// Returns |dt/dθ| (s/rad) at angles (rad) of a panel without turning points.
-    pub fn slowness(&self, angles: &Values) -> Values {
+    /// Replaces angles (rad) of a panel without turning points by |dt/dθ| there, s/rad.
+    pub fn slowness(&self, angles: &mut [f64]) {
         let share = 2.0 / self.piece.span();
-        let x = angles.map(|angle| (angle - self.piece.from) * share - 1.0);
-        let by_length = share.abs();
-        self.slope.values(&x).map(|slope| slope * by_length)
+        for angle in &mut *angles {
+            *angle = (*angle - self.piece.from) * share - 1.0;
+        }
+        self.slope.values(angles);
+        for slope in angles {
+            *slope *= share.abs();
+        }
     }
 }

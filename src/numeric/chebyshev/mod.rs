@@ -6,6 +6,8 @@ mod transform;
 
 pub use rule::Rule;
 
+use super::LANES;
+
 /// Largest degree of a series.
 pub const MAX_DEGREE: usize = 32;
 
@@ -82,16 +84,22 @@ impl Series {
         (self.coefficients[0] - b2) + x * b1
     }
 
-    /// Returns the values at many places at once.
-    pub fn values<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
-        let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
-        for c in self.terms()[1..].iter().rev() {
-            for j in 0..N {
-                let next = (c - b2[j]) + 2.0 * x[j] * b1[j];
-                (b1[j], b2[j]) = (next, b1[j]);
+    /// Replaces some places by the values there.
+    pub fn values(&self, places: &mut [f64]) {
+        for places in places.chunks_mut(2 * LANES) {
+            let mut x = [0.0; 2 * LANES];
+            x[..places.len()].copy_from_slice(places);
+            let twice = x.map(|x| 2.0 * x);
+            let (mut b1, mut b2) = ([0.0; 2 * LANES], [0.0; 2 * LANES]);
+            for c in self.terms()[1..].iter().rev() {
+                for j in 0..2 * LANES {
+                    (b1[j], b2[j]) = ((c - b2[j]) + twice[j] * b1[j], b1[j]);
+                }
+            }
+            for (j, value) in places.iter_mut().enumerate() {
+                *value = (self.coefficients[0] - b2[j]) + x[j] * b1[j];
             }
         }
-        std::array::from_fn(|j| (self.coefficients[0] - b2[j]) + x[j] * b1[j])
     }
 
     /// Returns the integral from −1; the term beyond the degree is left out, for it is as small as the tail.
