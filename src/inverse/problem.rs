@@ -99,7 +99,7 @@ impl<'a> Problem<'a> {
         let steps: Vec<Linearised> = steps.collect();
         let increments = match motion.prior.cycle {
             0 => Increments::default(),
-            turns => Increments::new(angles(states, &steps), turns, motion.prior.harmonics),
+            _ => Increments::new(ways(states, &steps, path.speed()), motion.prior),
         };
         Stretch {
             steps,
@@ -264,15 +264,16 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Crank angles at begin, middle and end of each step, rad.
-pub(super) fn angles(states: &[State], steps: &[Linearised]) -> impl Iterator<Item = [f64; 3]> {
+/// Crank angles, rad, and speeds, in units of one, at begin, middle and end of each step.
+pub(super) fn ways(
+    states: &[State],
+    steps: &[Linearised],
+    speed: f64,
+) -> impl Iterator<Item = [[f64; 2]; 3]> {
     let pairs = states.windows(2).zip(steps);
-    pairs.map(|(ends, step)| {
-        let (a, b) = (&ends[0], &ends[1]);
-        [
-            a[0],
-            0.5 * (a[0] + b[0]) + 0.125 * step.h * (a[1] - b[1]),
-            b[0],
-        ]
+    pairs.map(move |(ends, step)| {
+        let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
+        let middle = hermite([0.0, step.h], [a, b], 0.5 * step.h);
+        [a, middle, b].map(|[theta, omega]| [theta, omega / speed])
     })
 }
