@@ -107,16 +107,26 @@ impl<'a, const N: usize> Columns<'a, N> {
         to(&[(1.0, whole)]);
     }
 
-    /// Multiplies the rows by a matrix.
+    /// Multiplies the rows by a matrix that is triangular below its second row, as transitions and their inverses are.
     fn transform(&mut self, matrix: &Matrix<N>) {
         let count = self.errors.len();
-        self.room.fill(0.0);
-        for (to, factors) in self.room.chunks_exact_mut(count).zip(matrix) {
+        let upper = &mut self.room[..2 * count];
+        upper.fill(0.0);
+        for (to, factors) in upper.chunks_exact_mut(count).zip(matrix) {
             for (from, factor) in self.of.chunks_exact(count).zip(factors) {
                 add(to, *factor, from);
             }
         }
-        std::mem::swap(&mut self.of, &mut self.room);
+        self.of[..2 * count].copy_from_slice(upper);
+        for row in 2..N {
+            let (to, below) = self.of[row * count..].split_at_mut(count);
+            if matrix[row][row] != 1.0 {
+                to.iter_mut().for_each(|value| *value *= matrix[row][row]);
+            }
+            for (from, factor) in below.chunks_exact(count).zip(&matrix[row][row + 1..]) {
+                add(to, *factor, from);
+            }
+        }
     }
 
     fn step(&mut self, node: usize, step: &Step<N>) {

@@ -150,16 +150,17 @@ impl<'a> Problem<'a> {
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        let posterior = (motion.prior.cycle > 0).then(|| {
-            let stretches = self.stretches(motion, path, noise.sigma);
-            let linear = Linear {
-                stretches: &stretches,
-                prior: motion.prior,
-                scales,
-            };
-            linear.posterior(noise)
-        });
-        let posterior = posterior.flatten();
+        // What repeats is found along the whole path.
+        let stretches = match motion.prior.cycle {
+            0 => Vec::new(),
+            _ => self.stretches(motion, path, noise.sigma),
+        };
+        let linear = Linear {
+            stretches: &stretches,
+            prior: motion.prior,
+            scales,
+        };
+        let posterior = linear.posterior(noise);
         let nodes = self.grid.len();
         let times = &self.grid.times;
         let shared = FORGOTTEN / noise.corner;
@@ -172,13 +173,12 @@ impl<'a> Problem<'a> {
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let (from, to) = (from.max(known.start), to.min(known.end));
-            let stretch = self.stretch(motion, path, from..to, noise.sigma);
-            let linear = Linear {
-                stretches: &[],
-                prior: motion.prior,
-                scales,
+            let own =
+                (stretches.is_empty()).then(|| self.stretch(motion, path, from..to, noise.sigma));
+            let Some(stretch) = own.as_ref().or(stretches.first()) else {
+                return;
             };
-            let model = linear.deviations(&stretch, noise);
+            let model = linear.deviations(stretch, noise);
             let all = self.estimates(motion, path, from, &model, noise, posterior.as_ref());
             found.copy_from_slice(&all[core.start - from..core.end - from]);
         };
