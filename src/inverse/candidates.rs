@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use super::grid::Path;
 use super::likelihood::{Linear, Stretch};
+use super::maximum::ENOUGH_RISE;
 use super::periodic::Increments;
 use super::prior::{LADDERS, Prior, TORQUE};
-use super::problem::{Problem, angles};
+use super::problem::{Problem, ways};
 use super::scales::{Autoregression, Noise, Scales};
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
@@ -145,9 +146,9 @@ impl Problem<'_> {
         tried
     }
 
-    /// Priors with a part that repeats, where that makes the samples likelier than its two parameters cost (Schwarz 1978) beside
-    /// the torque as it is without. Not of records so long that stretches stand for them: the columns of each node would take fifty
-    /// times the time.
+    /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost (Schwarz 1978)
+    /// beside the torque as it is without; and with amplitudes that follow the speed, where these make them likelier still. Not of
+    /// records so long that stretches stand for them: the columns of each node would take fifty times the time.
     fn repeating(
         &self,
         turns: f64,
@@ -156,51 +157,69 @@ impl Problem<'_> {
         correlated: &[Autoregression],
     ) -> Vec<Candidate> {
         let torque = tried.iter().find(|one| one.prior == TORQUE);
-        let torque = torque.filter(|_| self.sampled() == self.all());
-        let about = abouts.iter().find(|about| about.prior == TORQUE);
-        let (Some(Candidate { noise, .. }), Some(about)) = (torque, about) else {
+        let torque = torque.filter(|_| self.sampled() == self.all() && turns >= 2.0);
+        let Some(Candidate { noise, .. }) = torque else {
             return Vec::new();
         };
-        let least = noise.likelihood + (self.record.times.len() as f64).ln();
-        let of_cycle = |cycle: u8| {
-            let with = |harmonics: usize| {
-                let prior = Prior {
-                    cycle,
-                    harmonics,
-                    ..TORQUE
-                };
-                About {
-                    prior,
-                    stretches: self.repeated(about, prior),
-                    path: about.path.clone(),
-                    ..*about
-                }
+        let with = |prior: Prior, before: Noise, least: f64| {
+            let plain = Prior {
+                follows_speed: prior.follows_speed,
+                ..TORQUE
             };
-            let mut about = with(HARMONICS);
-            let mut first = about.candidate_from(about.prior, *noise, least, correlated)?;
-            // Two coefficients for each, and the samples tell no more of them than there are samples.
-            while 8 * about.prior.harmonics <= self.record.times.len() {
-                let more = with(2 * about.prior.harmonics);
-                let Noise { likelihood, .. } = first.noise;
-                match more.candidate_from(more.prior, first.noise, likelihood, correlated) {
-                    Some(next) if next.noise.likelihood > likelihood => {
-                        (about, first) = (more, next);
-                    }
-                    _ => break,
-                }
-            }
-            let prior = Prior {
-                order: 2,
-                ..first.prior
+            let about = abouts.iter().find(|about| about.prior == plain)?;
+            let about = About {
+                prior,
+                stretches: self.repeated(about, prior),
+                path: about.path.clone(),
+                ..*about
             };
-            let next = about.candidate_from(prior, first.noise, least, correlated);
-            Some(std::iter::once(first).chain(next))
+            let next = about.candidate_from(prior, before, least, correlated)?;
+            (!self.is_computed(&next.noise)).then_some(next)
         };
-        let cycles = [1, 2]
-            .into_iter()
-            .filter(|cycle| turns >= 2.0 * f64::from(*cycle));
-        let found = parallel::map(cycles, of_cycle);
-        found.into_iter().flatten().flatten().collect()
+        // What is added to a prior is kept where it makes the samples likelier.
+        let extended = |prior: Prior, before: Noise, least: f64| {
+            let mut found = Vec::from_iter(with(prior, before, least));
+            let extend = |found: &mut Vec<Candidate>, by: fn(Prior) -> Prior| {
+                let last = found.last().copied();
+                let likelier = |Candidate { prior, noise, .. }| {
+                    with(by(prior), noise, noise.likelihood + ENOUGH_RISE)
+                };
+                let next = last.and_then(likelier);
+                found.extend(next);
+                next.is_some()
+            };
+            if turns >= 4.0 {
+                extend(&mut found, |prior| Prior { cycle: 2, ..prior });
+            }
+            // The samples tell no more coefficients than there are samples.
+            let has_room =
+                |one: &Candidate| 4 * one.prior.coefficients() <= self.record.times.len();
+            let double = |prior: Prior| Prior {
+                harmonics: 2 * prior.harmonics,
+                ..prior
+            };
+            while found.last().is_some_and(has_room) && extend(&mut found, double) {}
+            let smoother =
+                |Candidate { prior, noise, .. }| with(Prior { order: 2, ..prior }, noise, least);
+            let next = found.last().copied().and_then(smoother);
+            found.extend(next);
+            found
+        };
+        let cost = (self.record.times.len() as f64).ln();
+        let first = Prior {
+            cycle: 1,
+            harmonics: HARMONICS,
+            ..TORQUE
+        };
+        let mut found = extended(first, *noise, noise.likelihood + cost);
+        if let Some(Candidate { noise, .. }) = found.first().copied() {
+            let following = Prior {
+                follows_speed: true,
+                ..first
+            };
+            found.extend(extended(following, noise, noise.likelihood));
+        }
+        found
     }
 
     /// The stretches of a linear model, with what repeats in each step.
@@ -210,7 +229,7 @@ impl Problem<'_> {
             let states = about.path.piece(&range).states;
             let steps = stretch.steps.clone();
             Stretch {
-                increments: Increments::new(angles(states, &steps), prior.cycle, prior.harmonics),
+                increments: Increments::new(ways(states, &steps, about.path.speed()), prior),
                 observed: stretch.observed.clone(),
                 steps,
             }

@@ -81,6 +81,12 @@ impl Path {
         }
     }
 
+    /// Root mean square of the speed, rad/s.
+    pub fn speed(&self) -> f64 {
+        let squares = self.states.iter().map(|state| state[1] * state[1]);
+        (squares.sum::<f64>() / self.states.len() as f64).sqrt()
+    }
+
     /// The nodes with their states.
     pub fn nodes(&self) -> impl Iterator<Item = (usize, &State)> {
         self.ranges.iter().flat_map(Clone::clone).zip(&self.states)

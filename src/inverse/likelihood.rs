@@ -70,13 +70,14 @@ impl Linear<'_> {
 
     /// Returns the evidence without the periodic part, and the regression of that part.
     fn regressed(&self, noise: &Noise) -> (Evidence, Regression) {
-        let mut to = Regression::new(2 * self.prior.harmonics);
+        let mut to = Regression::new(self.prior);
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             match model.dimension() {
                 3 => kalman::regressed::<3>(&model, &mut to),
                 4 => kalman::regressed::<4>(&model, &mut to),
-                _ => kalman::regressed::<5>(&model, &mut to),
+                5 => kalman::regressed::<5>(&model, &mut to),
+                _ => kalman::regressed::<6>(&model, &mut to),
             }
         };
         let evidence = self.stretches.iter().map(of).sum();

@@ -2,6 +2,8 @@
 //!
 //! du = √q dW + dp,   p(θ) = Σ βⱼ φⱼ(θ),   βⱼ ~ N(0, σ² s²/k²ᵐ)   for cos kθ and sin kθ: a periodic Wiener process of order m.
 //!
+//! The force of a loss grows with the speed: the φⱼ may be ω cos kθ and ω sin kθ too, ω in units of its root mean square.
+//!
 //! The filter runs once for β = 0, and beside it the derivatives of its state by β follow the same recursion (augmented Kalman
 //! filter; de Jong, Ann. Statist. 19 (1991) 1073). A prediction error is then e + E β with the variance that it has without β, and
 //! what is left is a linear regression with the information Σ EᵀE/S.
@@ -13,6 +15,7 @@ use nalgebra::{DMatrix, DMatrixView};
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
+use super::prior::Prior;
 use super::regression::{Posterior, ROWS_AT_ONCE, Regression};
 use super::state_space::Deviations;
 
@@ -26,12 +29,21 @@ pub(super) struct Increments {
 }
 
 impl Increments {
-    /// Along a path with these crank angles at begins, middles and ends, rad; `harmonics` of a cycle of so many turns.
-    pub fn new(angles: impl Iterator<Item = [f64; 3]>, turns: u8, harmonics: usize) -> Increments {
-        let at = |angle: f64| cosines_and_sines(angle / f64::from(turns), harmonics);
+    /// Of a prior along a path with these crank angles, rad, and speeds, over their root mean square, at begins, middles and ends.
+    pub fn new(ways: impl Iterator<Item = [[f64; 2]; 3]>, prior: Prior) -> Increments {
+        let at = |[angle, speed]: [f64; 2]| {
+            let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
+            match prior.follows_speed {
+                false => list,
+                true => list
+                    .chunks(2)
+                    .flat_map(|pair| [pair[0], pair[1], speed * pair[0], speed * pair[1]])
+                    .collect(),
+            }
+        };
         let mut values = Vec::new();
         let mut known = None;
-        for [begin, middle, end] in angles {
+        for [begin, middle, end] in ways {
             let begin = known.unwrap_or_else(|| at(begin));
             let end = at(end);
             for list in [&at(middle), &end] {
@@ -39,7 +51,7 @@ impl Increments {
             }
             known = Some(end);
         }
-        let count = 2 * harmonics;
+        let count = prior.coefficients();
         Increments { count, values }
     }
 
@@ -95,16 +107,26 @@ impl<'a, const N: usize> Columns<'a, N> {
         to(&[(1.0, whole)]);
     }
 
-    /// Multiplies the rows by a matrix.
+    /// Multiplies the rows by a matrix that is triangular below its second row, as transitions and their inverses are.
     fn transform(&mut self, matrix: &Matrix<N>) {
         let count = self.errors.len();
-        self.room.fill(0.0);
-        for (to, factors) in self.room.chunks_exact_mut(count).zip(matrix) {
+        let upper = &mut self.room[..2 * count];
+        upper.fill(0.0);
+        for (to, factors) in upper.chunks_exact_mut(count).zip(matrix) {
             for (from, factor) in self.of.chunks_exact(count).zip(factors) {
                 add(to, *factor, from);
             }
         }
-        std::mem::swap(&mut self.of, &mut self.room);
+        self.of[..2 * count].copy_from_slice(upper);
+        for row in 2..N {
+            let (to, below) = self.of[row * count..].split_at_mut(count);
+            if matrix[row][row] != 1.0 {
+                to.iter_mut().for_each(|value| *value *= matrix[row][row]);
+            }
+            for (from, factor) in below.chunks_exact(count).zip(&matrix[row][row + 1..]) {
+                add(to, *factor, from);
+            }
+        }
     }
 
     fn step(&mut self, node: usize, step: &Step<N>) {

@@ -17,7 +17,8 @@ pub(super) struct Prior {
     pub unknown: Unknown,
     /// Number of integrations from the white noise to u: 1 (Wiener process) or more.
     pub order: usize,
-    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state.
+    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state. The amplitudes of what repeats
+    /// are then straight lines over ω.
     pub follows_speed: bool,
     /// Turns of the cycle in which a part of u repeats; 0 without such a part.
     pub cycle: u8,
@@ -37,6 +38,16 @@ impl Prior {
         }
     }
 
+    /// Number of coefficients of what repeats.
+    pub fn coefficients(self) -> usize {
+        self.of_harmonic() * self.harmonics
+    }
+
+    /// Number of coefficients of each harmonic: of cos kθ and sin kθ, and of these times the speed.
+    pub fn of_harmonic(self) -> usize {
+        if self.follows_speed { 4 } else { 2 }
+    }
+
     /// Number of states.
     pub fn states(self) -> usize {
         2 + self.order + usize::from(self.follows_speed)
@@ -44,17 +55,30 @@ impl Prior {
 
     /// Names the random term in words.
     pub fn name(self) -> &'static str {
+        match (self.cycle, self.follows_speed, self.order) {
+            (0, ..) => {}
+            (1, false, 1) => return "torque that repeats every turn, and a Wiener process",
+            (1, false, _) => {
+                return "torque that repeats every turn, and an integrated Wiener process";
+            }
+            (1, true, 1) => {
+                return "torque that repeats every turn and follows the speed, and a Wiener process";
+            }
+            (1, true, _) => {
+                return "torque that repeats every turn and follows the speed, and an integrated Wiener process";
+            }
+            (_, false, 1) => return "torque that repeats every two turns, and a Wiener process",
+            (_, false, _) => {
+                return "torque that repeats every two turns, and an integrated Wiener process";
+            }
+            (_, true, 1) => {
+                return "torque that repeats every two turns and follows the speed, and a Wiener process";
+            }
+            _ => {
+                return "torque that repeats every two turns and follows the speed, and an integrated Wiener process";
+            }
+        }
         match (self.unknown, self.order, self.follows_speed) {
-            (.., 1, _) if self.cycle == 1 => "torque that repeats every turn, and a Wiener process",
-            _ if self.cycle == 1 => {
-                "torque that repeats every turn, and an integrated Wiener process"
-            }
-            (.., 1, _) if self.cycle > 1 => {
-                "torque that repeats every two turns, and a Wiener process"
-            }
-            _ if self.cycle > 1 => {
-                "torque that repeats every two turns, and an integrated Wiener process"
-            }
             (Unknown::Acceleration, 3, _) => "angle with white crackle, without mechanics",
             (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
             (.., true) => "torque that follows the speed, and a Wiener process",

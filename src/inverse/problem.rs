@@ -99,7 +99,7 @@ impl<'a> Problem<'a> {
         let steps: Vec<Linearised> = steps.collect();
         let increments = match motion.prior.cycle {
             0 => Increments::default(),
-            turns => Increments::new(angles(states, &steps), turns, motion.prior.harmonics),
+            _ => Increments::new(ways(states, &steps, path.speed()), motion.prior),
         };
         Stretch {
             steps,
@@ -150,16 +150,17 @@ impl<'a> Problem<'a> {
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        let posterior = (motion.prior.cycle > 0).then(|| {
-            let stretches = self.stretches(motion, path, noise.sigma);
-            let linear = Linear {
-                stretches: &stretches,
-                prior: motion.prior,
-                scales,
-            };
-            linear.posterior(noise)
-        });
-        let posterior = posterior.flatten();
+        // What repeats is found along the whole path.
+        let stretches = match motion.prior.cycle {
+            0 => Vec::new(),
+            _ => self.stretches(motion, path, noise.sigma),
+        };
+        let linear = Linear {
+            stretches: &stretches,
+            prior: motion.prior,
+            scales,
+        };
+        let posterior = linear.posterior(noise);
         let nodes = self.grid.len();
         let times = &self.grid.times;
         let shared = FORGOTTEN / noise.corner;
@@ -172,13 +173,12 @@ impl<'a> Problem<'a> {
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let (from, to) = (from.max(known.start), to.min(known.end));
-            let stretch = self.stretch(motion, path, from..to, noise.sigma);
-            let linear = Linear {
-                stretches: &[],
-                prior: motion.prior,
-                scales,
+            let own =
+                (stretches.is_empty()).then(|| self.stretch(motion, path, from..to, noise.sigma));
+            let Some(stretch) = own.as_ref().or(stretches.first()) else {
+                return;
             };
-            let model = linear.deviations(&stretch, noise);
+            let model = linear.deviations(stretch, noise);
             let all = self.estimates(motion, path, from, &model, noise, posterior.as_ref());
             found.copy_from_slice(&all[core.start - from..core.end - from]);
         };
@@ -264,15 +264,16 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Crank angles at begin, middle and end of each step, rad.
-pub(super) fn angles(states: &[State], steps: &[Linearised]) -> impl Iterator<Item = [f64; 3]> {
+/// Crank angles, rad, and speeds, in units of one, at begin, middle and end of each step.
+pub(super) fn ways(
+    states: &[State],
+    steps: &[Linearised],
+    speed: f64,
+) -> impl Iterator<Item = [[f64; 2]; 3]> {
     let pairs = states.windows(2).zip(steps);
-    pairs.map(|(ends, step)| {
-        let (a, b) = (&ends[0], &ends[1]);
-        [
-            a[0],
-            0.5 * (a[0] + b[0]) + 0.125 * step.h * (a[1] - b[1]),
-            b[0],
-        ]
+    pairs.map(move |(ends, step)| {
+        let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
+        let middle = hermite([0.0, step.h], [a, b], 0.5 * step.h);
+        [a, middle, b].map(|[theta, omega]| [theta, omega / speed])
     })
 }

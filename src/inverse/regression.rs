@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::prior::Prior;
 use crate::numeric::cholesky::cholesky;
 use crate::numeric::maximum::largest_to;
 
@@ -28,21 +29,22 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     /// Standard deviation of each coefficient in units of σ.
-    fn deviations(self, count: usize) -> Vec<f64> {
-        let of = |j: usize| self.size / (1.0 + (j / 2) as f64).powi(self.order);
-        (0..count).map(of).collect()
+    fn deviations(self, prior: Prior) -> Vec<f64> {
+        let of = |j: usize| self.size / (1.0 + (j / prior.of_harmonic()) as f64).powi(self.order);
+        (0..prior.coefficients()).map(of).collect()
     }
 
-    /// Returns s of the spectrum of another order with the same variance at the middle harmonic, on a logarithmic
-    /// scale, of `count` coefficients.
-    fn of_order(self, order: i32, count: usize) -> f64 {
-        self.size * (0.5 * count as f64).sqrt().powi(order - self.order)
+    /// Returns s of the spectrum of another order with the same variance at the middle of `harmonics`, on a logarithmic
+    /// scale.
+    fn of_order(self, order: i32, harmonics: usize) -> f64 {
+        self.size * (harmonics as f64).sqrt().powi(order - self.order)
     }
 }
 
 /// Normal equations of the coefficients: Σ EᵀE/S, of which the lower triangle is kept, and −Σ Eᵀe/S.
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
+    prior: Prior,
     information: DMatrix<f64>,
     score: Vec<f64>,
     /// Rows E/√S that wait for their multiplication, one after the other.
@@ -50,9 +52,11 @@ pub(super) struct Regression {
 }
 
 impl Regression {
-    /// The equations of `count` coefficients.
-    pub fn new(count: usize) -> Regression {
+    /// The equations of the coefficients of a prior.
+    pub fn new(prior: Prior) -> Regression {
+        let count = prior.coefficients();
         Regression {
+            prior,
             information: DMatrix::zeros(count, count),
             score: vec![0.0; count],
             rows: Vec::with_capacity(ROWS_AT_ONCE * count),
@@ -94,7 +98,9 @@ impl Regression {
             let [low, high] = match near {
                 // From e⁻² to 1e13 times the least standard error of a coefficient.
                 None => [told * (-2f64).exp(), told * 30f64.exp()],
-                Some(near) => [0.25, 4.0].map(|part| part * near.of_order(order, self.score.len())),
+                Some(near) => {
+                    [0.25, 4.0].map(|part| part * near.of_order(order, self.prior.harmonics))
+                }
             };
             let with = |log: f64| Spectrum {
                 size: log.exp(),
@@ -115,7 +121,7 @@ impl Regression {
     /// The coefficients given the samples.
     pub fn solved(&self, spectrum: Spectrum) -> Option<Posterior> {
         let count = self.score.len();
-        let deviations = spectrum.deviations(count);
+        let deviations = spectrum.deviations(self.prior);
         let scaled = DMatrix::from_fn(count, count, |i, j| {
             let unit = if i == j { 1.0 } else { 0.0 };
             unit + deviations[i] * self.information[(i, j)] * deviations[j]

@@ -144,6 +144,7 @@ impl Problem<'_> {
             estimates: Vec::new(),
             settled: false,
         };
+        let mut before = f64::INFINITY;
         for iteration in 0..ITERATIONS {
             // About a path that has moved the noise is estimated again, once.
             if iteration == 1 || iteration == 0 && prior.follows_speed {
@@ -169,9 +170,13 @@ impl Problem<'_> {
                 result.settled = true;
                 break;
             }
-            if !change.is_finite() {
+            // What repeats is taken along the path before: its changes fall in one ratio, which may be too slow.
+            let left = ITERATIONS - 1 - iteration;
+            let at_last = change * (change / before).powi(left as i32);
+            if !change.is_finite() || prior.cycle > 0 && iteration > 2 && at_last > PATH_AT_REST {
                 break;
             }
+            before = change;
         }
         result
     }
