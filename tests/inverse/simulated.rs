@@ -504,6 +504,29 @@ fn turns_that_repeat_help_each_other() {
     }
 }
 
+/// A loss grows with the speed, while its shape over the turn stays: the band covers the force at a noise of 1e-2 rad,
+/// where little more than that shape can be told of a start-up.
+#[test]
+fn what_repeats_grows_with_the_speed() {
+    let mut random = Random(0x77aa_1c0d_1204_2b99);
+    let motion = Motion {
+        name: "start-up with losses",
+        start: [0.4, 0.5],
+        end: 1.5,
+        rows: 1000,
+        torque: |_, theta, omega| {
+            let arm = position(theta)[1];
+            6.0 - 0.06 * omega - (15.0 * arm * omega + 40.0) * arm
+        },
+    };
+    let truth = motion.run();
+    for _ in 0..2 {
+        let record = measure(&truth, Sensor::Angle(1e-2), &mut random);
+        let [_, covered] = judge(&truth, &record, &found(&motion, &record, 1.0));
+        assert!(covered > 0.85, "covered {covered}");
+    }
+}
+
 /// Mean cycle of an engine: its band covers the mean of the true forces at nine of ten degrees. For a torque with an
 /// individual part in every turn, the scatter from cycle to cycle is that of this part.
 #[test]
