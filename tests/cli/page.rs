@@ -195,6 +195,27 @@ fn pages_run_in_a_browser() {
     }
 }
 
+/// Logarithmic axes have ticks on every range: those of the plotting library never end on this one.
+#[test]
+fn logarithmic_axes_have_ticks_on_every_range() {
+    let Some(browser) = browser() else {
+        eprintln!("no Chromium here: the page is not opened");
+        return;
+    };
+    let folder = Folder::with(&free("revolutions = 3"));
+    let masses = "slider.mass=0.00014881439483446118kg,0.0008681066868469929kg";
+    let arguments = ["sweep", "scene.toml", "--vary", masses];
+    let more = ["--report", "page.html", "--out", "rows.csv"];
+    folder.run(&[&arguments[..], &more[..]].concat()).done();
+    let script = "
+        get('log').checked = true;
+        get('log').onchange();
+        await wait(100);
+        said.push(get('x').value, document.querySelectorAll('canvas').length);";
+    let said = probed(browser, &folder, &folder.read("page.html"), script);
+    assert_eq!(said, ["", "0", "slider_mass_kg", "1"]);
+}
+
 /// The animation moves, the keys step through it, and the cursor shows the values of the CSV file.
 #[test]
 fn the_cursor_has_the_values_of_the_rows() {
