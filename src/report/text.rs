@@ -27,7 +27,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     fact!(facts, "stroke", "{} m", six(result.stroke_m));
     for dead_centre in &result.dead_centres {
         let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
-        let name = format_args!("{} dead centre", dead_centre.kind);
+        let name = format!("{} dead centre", dead_centre.kind);
         fact!(facts, name, "{angle} deg, x = {x} m");
     }
     if let (Some(advance), Some(back), Some(ratio)) =
