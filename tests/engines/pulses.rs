@@ -1,7 +1,9 @@
 //! Narrow pulses over angle, time or speed, in any turn: no engine may step over one.
 
 use std::f64::consts::PI;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
+use rayon::prelude::*;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Interpolation, Load, Scene, Slider, Table, Variable};
 use slider_crank::simulate::{Options, Simulation, simulate};
@@ -85,13 +87,14 @@ fn agrees(simulation: &Simulation, [theta, omega]: [f64; 2]) -> Result<(), Strin
 fn random_pulses_are_met_by_every_method() {
     let asked = std::env::var(MORE_CASES).ok();
     let count = asked.map_or(CASES, |count| count.parse().expect("a number"));
-    let (mut compared, mut wrong) = (0, Vec::new());
-    for seed in 0..count {
+    let compared = AtomicU64::new(0);
+    let off = |seed: u64| {
         let case = Case::random(&mut Chance(seed * 1_000_003));
         let Some(end) = case.reference() else {
-            continue;
+            return Vec::new();
         };
         let scene = scene(&case);
+        let mut wrong = Vec::new();
         for method in [Method::Auto, Method::Time, Method::Angle, Method::Dop853] {
             let simulation = match run(&scene, method) {
                 Ok(simulation) => simulation,
@@ -102,9 +105,12 @@ fn random_pulses_are_met_by_every_method() {
             if let Err(off) = agrees(&simulation, end) {
                 wrong.push(format!("seed {seed}, {method}: {off}\n{case:?}"));
             }
-            compared += 1;
+            compared.fetch_add(1, Relaxed);
         }
-    }
+        wrong
+    };
+    let wrong: Vec<String> = (0..count).into_par_iter().flat_map_iter(off).collect();
+    let compared = compared.into_inner();
     let bad = wrong.len();
     assert!(bad == 0, "{bad} of {compared}:\n{}", wrong.join("\n"));
     assert!(compared > 2 * count, "{compared} of {count}");
