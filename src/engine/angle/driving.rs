@@ -1,6 +1,6 @@
 //! Run over the angle: goal, resolution and result.
 
-use super::swept::Spent;
+use super::solution::Spent;
 use super::{Errors, Guide};
 use crate::engine::WorkLimit;
 use crate::engine::energy::segment::Segment;
@@ -75,8 +75,8 @@ pub struct Resolution<'a> {
 pub(super) const FEW_TURNS: f64 = 48.0;
 
 /// Returns the work from the start of the last panel to a time in it, J.
-pub(super) fn work_until(leg: &Segment, until: f64, spent: &Spent) -> f64 {
-    let Some((panel, since)) = leg.panel_at(until) else {
+pub(super) fn work_until(segment: &Segment, until: f64, spent: &Spent) -> f64 {
+    let Some((panel, since)) = segment.panel_at(until) else {
         return 0.0;
     };
     spent.work(panel.rule, panel.piece.span(), panel.position(since))

@@ -25,8 +25,8 @@ pub enum NoCycle {
 }
 
 impl From<NotApplicable> for NoCycle {
-    fn from(unserved: NotApplicable) -> NoCycle {
-        NoCycle::NotApplicable(unserved)
+    fn from(why: NotApplicable) -> NoCycle {
+        NoCycle::NotApplicable(why)
     }
 }
 
@@ -78,8 +78,8 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     let kinetic = root::bracketed(
         |kinetic| {
             let gain = known(kinetic).map_or_else(|| map.gain(kinetic), Ok);
-            gain.unwrap_or_else(|unserved| {
-                failed = Some(unserved);
+            gain.unwrap_or_else(|why| {
+                failed = Some(why);
                 f64::NAN
             })
         },
@@ -142,7 +142,7 @@ fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle>
     match map.gain(kinetic) {
         Ok(gain) => Ok(Some(Looked { kinetic, gain })),
         Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
-        Err(unserved) => Err(unserved.into()),
+        Err(why) => Err(why.into()),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::numeric::chebyshev::Values;
 /// Known run over the same angles.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide<'a> {
-    leg: &'a Segment,
+    segment: &'a Segment,
     /// Tail of its series.
     pub(super) tail: f64,
     /// Index of the panel of the last request.
@@ -21,7 +21,7 @@ impl<'a> Guide<'a> {
     /// Makes a guide from a motion in one direction whose series have decayed to `tail`.
     pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
         Guide {
-            leg: orbit.last_leg(),
+            segment: orbit.last_leg(),
             tail,
             index: 0,
         }
@@ -31,26 +31,26 @@ impl<'a> Guide<'a> {
     /// `start` at the first point. None beyond the end of the guide, and where the energy is not positive.
     pub(super) fn kinetic<P: Copy>(
         &mut self,
-        station: &PanelTable<P>,
+        panel: &PanelTable<P>,
         turns: f64,
         start: f64,
     ) -> Option<Values> {
-        let count = station.rule.degree() + 1;
+        let count = panel.rule.degree() + 1;
         // Angles, of which the kinetic energy there takes the place.
-        let mut kinetic = station.rule.values(|x| station.piece.angle(x));
+        let mut kinetic = panel.rule.values(|x| panel.piece.angle(x));
         let mut done = 0;
         while done < count {
-            let panel = self.panel(turns, kinetic[done])?;
-            let local = |angle: &f64| Self::local(panel, turns, *angle);
+            let known = self.panel(turns, kinetic[done])?;
+            let local = |angle: &f64| Self::local(known, turns, *angle);
             let left = &mut kinetic[done..count];
             let on_it = left
                 .iter()
-                .take_while(|angle| Self::is_on(panel, local(angle)));
+                .take_while(|angle| Self::is_on(known, local(angle)));
             let here = on_it.count();
             let points = &mut left[..here];
             points.iter_mut().for_each(|angle| *angle = local(angle));
-            panel.slowness(points);
-            for (point, inertia) in points.iter_mut().zip(&station.table.inertia[done..]) {
+            known.slowness(points);
+            for (point, inertia) in points.iter_mut().zip(&panel.table.inertia[done..]) {
                 let speed = 1.0 / *point;
                 *point = 0.5 * inertia * speed * speed;
             }
@@ -82,9 +82,9 @@ impl<'a> Guide<'a> {
 
     /// Returns the panel in which an angle lies.
     fn panel(&mut self, turns: f64, angle: f64) -> Option<&'a Panel> {
-        let leg = self.leg;
+        let segment = self.segment;
         loop {
-            let (panel, _) = leg.panel(self.index)?;
+            let (panel, _) = segment.panel(self.index)?;
             let local = Self::local(panel, turns, angle);
             if Self::beyond(panel, local) > SAME_ANGLE {
                 self.index += 1;

@@ -19,18 +19,18 @@ const SMALL_WORK: f64 = 0.1;
 impl<D: Driven> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, or for all turns if the failure recurs or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
-        self.refined = true;
-        let fastest = self.fastest;
+        self.progress.refined = true;
+        let fastest = self.progress.fastest;
         let for_now = !self.parts.is_empty();
         let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
         if panel.raise(self.driven)? {
             return Ok(());
         }
         let half = panel.half().abs();
-        let slow = self.kinetic < NEAR_REST * fastest;
+        let slow = self.progress.kinetic < NEAR_REST * fastest;
         let stops = self.gives_up
             && why == Unsolved::Stops
-            && self.kinetic < STOPPING_ENERGY * fastest
+            && self.progress.kinetic < STOPPING_ENERGY * fastest
             && half < STOPPING_LENGTH;
         if stops {
             return Err(NotApplicable::TooSlow);
@@ -38,7 +38,7 @@ impl<D: Driven> PanelStepper<'_, D> {
         let Some([first, second]) = panel.parts(self.driven, 0.5, self.fine)? else {
             // The forces may have produced this energy within a small part of a radian.
             let force = panel.table.force[0] + panel.table.push[0];
-            return Err(if slow || self.kinetic < NEAR_REST * force.abs() {
+            return Err(if slow || self.progress.kinetic < NEAR_REST * force.abs() {
                 NotApplicable::TooSlow
             } else {
                 NotApplicable::NotSmooth
@@ -47,7 +47,8 @@ impl<D: Driven> PanelStepper<'_, D> {
         if for_now {
             self.parts.pop();
             self.parts.extend([second, first]);
-        } else if panel.failed || panel.is_new() && panel.largest_work() < SMALL_WORK * self.kinetic
+        } else if panel.failed
+            || panel.is_new() && panel.largest_work() < SMALL_WORK * self.progress.kinetic
         {
             self.panels.splice(self.next..=self.next, [first, second]);
         } else {

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use super::driving::{FEW_TURNS, work_until};
 use super::poincare_map;
-use super::stepper::{Done, PanelStepper};
+use super::progress::Done;
+use super::stepper::PanelStepper;
 use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
@@ -24,58 +25,62 @@ pub fn run<D: Driven>(
     resolution: Resolution<'_>,
 ) -> Result<Driving, NotApplicable> {
     let (start, speed) = (from.angle.reduced(), from.speed);
-    let mut march = PanelStepper::new(driven, start, speed, resolution)?;
-    march.begin = from.t;
+    let mut stepper = PanelStepper::new(driven, start, speed, resolution)?;
+    stepper.begin = from.t;
     if from.t == 0.0 && start.turns == 0.0 {
         // An angle as given, not reduced, is not rounded.
-        march.errors = Errors::at(march.kinetic, 0.0);
+        stepper.progress.errors = Errors::at(stepper.progress.kinetic, 0.0);
     }
-    march.gives_up = true;
+    stepper.gives_up = true;
     let reads_time = driven.is_driven() && driven.reads_time();
-    let repeats = !reads_time && march.panels[0].table.switch.is_none();
-    let mut forecast = forecast(&march, goal, reads_time);
+    let repeats = !reads_time && stepper.panels[0].table.switch.is_none();
+    let mut forecast = forecast(&stepper, goal, reads_time);
     let way = f64::from(driven.cycle()) * TAU;
-    let mut leg = Segment::open();
+    let mut segment = Segment::open();
     loop {
-        let spent = march.spent();
-        let done = march.at_cycle() && leg.len() > 0;
-        if done && forecast.is_hopeless(spent, march.t.0, way).is_some() {
+        let spent = stepper.spent();
+        let done = stepper.at_cycle() && segment.len() > 0;
+        if done
+            && forecast
+                .is_hopeless(spent, stepper.progress.t.0, way)
+                .is_some()
+        {
             let why = NotApplicable::TooManyTurns;
-            return Ok(ended(march, leg, (start, speed), why));
+            return Ok(ended(stepper, segment, (start, speed), why));
         }
-        if repeats && march.at_cycle() && march.turns.abs() >= FEW_TURNS {
-            return poincare_map::run(march, leg, start, speed, goal, resolution);
+        if repeats && stepper.at_cycle() && stepper.progress.turns.abs() >= FEW_TURNS {
+            return poincare_map::run(stepper, segment, start, speed, goal, resolution);
         }
-        let next = if leg.len() < MOST_PANELS {
-            march.panel()
+        let next = if segment.len() < MOST_PANELS {
+            stepper.panel()
         } else {
             Err(NotApplicable::TooLong)
         };
         let Done { panel, spent, work } = match next {
             Ok(done) => done,
-            Err(why) if leg.len() == 0 => return Err(why),
-            Err(why) => return Ok(ended(march, leg, (start, speed), why)),
+            Err(why) if segment.len() == 0 => return Err(why),
+            Err(why) => return Ok(ended(stepper, segment, (start, speed), why)),
         };
         let turned = (panel.piece.to - start.rest).abs() + panel.turns.abs() * TAU;
-        leg.push(panel);
+        segment.push(panel);
         let passed = match goal {
-            Goal::Time(until) => leg.duration.0 > until,
+            Goal::Time(until) => segment.duration.0 > until,
             Goal::Turned(way) => turned >= way - SAME_ANGLE,
         };
         if passed {
-            let orbit = Orbit::one_way(start, speed, leg);
+            let orbit = Orbit::one_way(start, speed, segment);
             let end = match goal {
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
-            march.leave_panels();
+            let work = stepper.progress.work - work + work_until(orbit.last_leg(), end, &spent);
+            stepper.leave_panels();
             return Ok(Driving {
                 orbit,
                 end,
                 work,
-                errors: march.errors,
-                evaluations: march.evaluations,
+                errors: stepper.progress.errors,
+                evaluations: stepper.evaluations,
                 short: None,
             });
         }
@@ -84,7 +89,7 @@ pub fn run<D: Driven>(
 
 /// Starts the forecast for a run without a map: will it reach its goal within the limit?
 fn forecast<'a, D: Driven>(
-    march: &PanelStepper<'a, D>,
+    stepper: &PanelStepper<'a, D>,
     goal: Goal,
     reads_time: bool,
 ) -> WorkForecast<'a> {
@@ -95,29 +100,29 @@ fn forecast<'a, D: Driven>(
     let ends = Ends {
         t,
         way,
-        limit: march.limit,
+        limit: stepper.limit,
     };
-    WorkForecast::new(0.0, march.spent(), ends, reads_time)
+    WorkForecast::new(0.0, stepper.spent(), ends, reads_time)
 }
 
 /// Makes the result of a run that ended before its goal, from its initial angle and speed (rad/s).
 fn ended<D: Driven>(
-    mut march: PanelStepper<'_, D>,
-    leg: Segment,
+    mut stepper: PanelStepper<'_, D>,
+    segment: Segment,
     (start, speed): (Angle, f64),
     why: NotApplicable,
 ) -> Driving {
-    march.leave_panels();
+    stepper.leave_panels();
     Driving {
-        short: leg.last_angle(start.turns).map(|angle| Short {
+        short: segment.last_angle(start.turns).map(|angle| Short {
             why,
             angle,
-            kinetic: march.kinetic,
+            kinetic: stepper.progress.kinetic,
         }),
-        end: leg.duration.0,
-        orbit: Orbit::one_way(start, speed, leg),
-        work: march.work,
-        errors: march.errors,
-        evaluations: march.evaluations,
+        end: segment.duration.0,
+        orbit: Orbit::one_way(start, speed, segment),
+        work: stepper.progress.work,
+        errors: stepper.progress.errors,
+        evaluations: stepper.evaluations,
     }
 }

@@ -1,7 +1,7 @@
 //! Resolution test for driven loads on a panel.
 
 use super::panel::{Fineness, PanelStart, PanelTable};
-use super::swept::Swept;
+use super::solution::PanelSolution;
 use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
@@ -15,7 +15,7 @@ struct OnPanel<'a, D: Driven> {
     driven: &'a D,
     panel: &'a PanelTable<D::Place>,
     start: PanelStart,
-    swept: &'a Swept,
+    solution: &'a PanelSolution,
     /// Time after the start of the panel as a series in x, s.
     time: Series,
     /// Non-conservative force as a series in x, N m.
@@ -30,12 +30,12 @@ pub(super) fn hides<D: Driven>(
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     fine: Fineness,
-    swept: &Swept,
+    solution: &PanelSolution,
 ) -> Option<f64> {
     if !driven.has_detail() {
         return None;
     }
-    let (rule, slope) = (panel.rule, &swept.slope);
+    let (rule, slope) = (panel.rule, &solution.slope);
     let degree = rule.degree();
     let sum = |of: fn(f64) -> f64| {
         let terms = (1..=degree).map(|k| of(k as f64) * slope.coefficient(k).abs());
@@ -45,12 +45,12 @@ pub(super) fn hides<D: Driven>(
         driven,
         panel,
         start,
-        swept,
+        solution,
         time: slope.integral(),
-        spent: rule.series(&swept.forces.spent),
+        spent: rule.series(&solution.forces.spent),
         varies: [sum(|_| 1.0), sum(|k| k * k)],
     };
-    let forces = largest(&swept.forces.spent[..=degree]).max(panel.largest_force);
+    let forces = largest(&solution.forces.spent[..=degree]).max(panel.largest_force);
     let rounding = SUM_ROUNDING * forces;
     let look = NodeCriterion {
         nodes: degree,
@@ -97,7 +97,7 @@ impl<D: Driven> OnPanel<'_, D> {
 
 impl<D: Driven> Interpolant for OnPanel<'_, D> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
-        let slope = &self.swept.slope;
+        let slope = &self.solution.slope;
         let [about, steep] = self.varies;
         let by_mean = Interval::point(slope.coefficient(0)).widened(about);
         let by_middle = Interval::point(slope.value(from + to - 1.0)).widened(steep * (to - from));
@@ -105,7 +105,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
             by_mean.low.max(by_middle.low),
             by_mean.high.min(by_middle.high),
         );
-        let least = self.swept.slopes[..=slope.degree()]
+        let least = self.solution.slopes[..=slope.degree()]
             .iter()
             .fold(f64::INFINITY, |least: f64, slope| least.min(*slope));
         // A rotating crank is slower everywhere than twice the largest speed at the points.
@@ -120,7 +120,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
 
     fn missed(&self, at: f64) -> f64 {
         let x = 2.0 * at - 1.0;
-        let speed = self.speed(self.swept.slope.value(x));
+        let speed = self.speed(self.solution.slope.value(x));
         let mut table = Table::default();
         let mut angles = [0.0; MAX_DEGREE + 1];
         angles[0] = self.angle(at).rest;

@@ -2,20 +2,18 @@
 
 use super::super::energy::NotApplicable;
 use super::super::energy::error_bound::off_by_place;
-use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
-use super::errors::{Errors, uncertain};
 use super::guide::Guide;
 use super::panel::{Fineness, PanelStart, PanelTable};
+use super::progress::{Done, Progress};
 use super::seen::hides;
+use super::solution::PanelSolution;
 use super::sweep::{SETTLED, Tails, sweep};
-use super::swept::{Spent, Swept};
 use super::switch::{Side, begins_beyond, side};
 use super::{Driven, Panels, Resolution, turn};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
-use crate::numeric::exact::two_sum;
 
 /// State of a run over the angle, with the panels of a cycle.
 #[derive(Clone)]
@@ -28,50 +26,23 @@ pub(super) struct PanelStepper<'a, D: Driven> {
     pub(super) parts: Vec<PanelTable<D::Place>>,
     pub(super) next: usize,
     /// Motion on the last panel.
-    pub(super) swept: Swept,
+    pub(super) solution: PanelSolution,
     /// Known run that supplies the first guess.
     pub(super) guide: Option<Guide<'a>>,
     /// Start time of the run, s.
     pub begin: f64,
-    /// Time since the start of the run, s: rounded value and remainder.
-    pub t: (f64, f64),
-    /// Kinetic energy, J.
-    pub kinetic: f64,
-    /// Rounding remainder of the kinetic energy, J.
-    pub(super) kinetic_low: f64,
-    /// Propagated rounding errors.
-    pub errors: Errors,
-    /// Whole turns since the start, with sign.
-    pub turns: f64,
-    /// Kinetic energy gained, J.
-    pub gain: f64,
-    /// Work of the non-conservative loads, J.
-    pub work: f64,
+    /// Sums up to the next panel.
+    pub progress: Progress,
     /// Evaluations of the loads.
     pub evaluations: u64,
     /// Positions tabulated before the run.
     positions: u64,
-    /// Largest kinetic energy at the ends of panels, J.
-    pub fastest: f64,
     start: Angle,
     /// True if the run is a comparison: it shares no panels with other runs.
     other: bool,
     pub limit: WorkLimit<'a>,
-    /// True if a panel was cut or its degree raised since the last reset.
-    pub refined: bool,
-    /// True if the points of a panel missed a load since the last reset.
-    pub hid: bool,
     /// True if a crank that seems to stop is given up before its panels become tiny.
     pub gives_up: bool,
-}
-
-/// Solved panel with the work done on it.
-pub(super) struct Done {
-    pub panel: Panel,
-    /// Non-conservative force on the panel.
-    pub spent: Spent,
-    /// Work of the non-conservative force on the panel, J.
-    pub work: f64,
 }
 
 impl<'a, D: Driven> PanelStepper<'a, D> {
@@ -114,24 +85,15 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             panels,
             parts: Vec::new(),
             next: 0,
-            swept: Swept::new(),
+            solution: PanelSolution::new(),
             guide: resolution.guide,
             begin: 0.0,
-            t: (0.0, 0.0),
-            kinetic,
-            kinetic_low: 0.0,
-            errors: Errors::at(kinetic, off),
-            turns: 0.0,
-            gain: 0.0,
-            work: 0.0,
+            progress: Progress::at(kinetic, off),
             evaluations: 0,
             positions,
-            fastest: kinetic,
             start,
             other: resolution.other,
             limit: resolution.limit,
-            refined: false,
-            hid: false,
             gives_up: false,
         })
     }
@@ -150,8 +112,8 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
 
     /// Returns the range of the speed at the points of the last panel, rad/s.
     pub fn speeds(&self) -> Interval {
-        let count = self.swept.slope.degree() + 1;
-        self.swept.forces.speed_range(count)
+        let count = self.solution.slope.degree() + 1;
+        self.solution.forces.speed_range(count)
     }
 
     /// True if the next panel begins a cycle.
@@ -167,9 +129,9 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                 return Err(NotApplicable::WorkLimit);
             }
             let start = PanelStart {
-                t: self.begin + self.t.0,
-                kinetic: self.kinetic,
-                turns: self.start.turns + self.turns,
+                t: self.begin + self.progress.t.0,
+                kinetic: self.progress.kinetic,
+                turns: self.start.turns + self.progress.turns,
                 direction: self.direction,
             };
             let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
@@ -178,24 +140,24 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             }
             let tails = self.guess(start);
             let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
-            let swept = &mut self.swept;
-            if let Err(why) = sweep(self.driven, panel, start, tails, swept) {
-                self.evaluations += self.swept.evaluations;
+            let solution = &mut self.solution;
+            if let Err(why) = sweep(self.driven, panel, start, tails, solution) {
+                self.evaluations += self.solution.evaluations;
                 self.refine(why)?;
                 continue;
             }
-            let hidden = hides(self.driven, panel, start, self.fine, swept);
+            let hidden = hides(self.driven, panel, start, self.fine, solution);
             let parts = hidden.map(|at| panel.parts(self.driven, at, self.fine));
             if let Some([first, second]) = parts.transpose()?.flatten() {
-                self.evaluations += self.swept.evaluations;
-                self.hid = true;
+                self.evaluations += self.solution.evaluations;
+                self.progress.hid = true;
                 self.parts.pop();
                 self.parts.extend([second, first]);
                 continue;
             }
-            match side(self.driven, panel, start, swept) {
+            match side(self.driven, panel, start, solution) {
                 Side::Stays => {
-                    panel.remember(&swept.kinetic);
+                    panel.remember(&solution.kinetic);
                     let piece = panel.piece;
                     self.remember_rest();
                     return Ok(self.pass(piece, None));
@@ -210,15 +172,15 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
                     panel.turn_over(self.driven)?;
                 }
                 Side::Leaves(share) => {
-                    panel.remember(&swept.kinetic);
+                    panel.remember(&solution.kinetic);
                     let [first, rest] = panel.piece.cut(share);
-                    swept.end_at(panel.rule, start, share);
+                    solution.end_at(panel.rule, start, share);
                     let rest = self.rest(rest.from)?;
                     self.remember_rest();
                     return Ok(self.pass(first, Some(rest)));
                 }
             }
-            self.evaluations += self.swept.evaluations;
+            self.evaluations += self.solution.evaluations;
         }
     }
 
@@ -232,13 +194,13 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         let smooth = panel.table.switch.is_none();
         let guide = self.guide.as_mut().filter(|_| smooth);
         let of_guide = |guide: &mut Guide<'_>| {
-            self.swept.kinetic = guide.kinetic(panel, self.turns, start.kinetic)?;
+            self.solution.kinetic = guide.kinetic(panel, self.progress.turns, start.kinetic)?;
             Some(SETTLED * guide.tail)
         };
         let known = needs_none.or_else(|| guide.and_then(of_guide));
         if known.is_none() {
             let reads_time = self.driven.is_driven() && self.driven.reads_time();
-            panel.guess(start.kinetic, reads_time, &mut self.swept.kinetic);
+            panel.guess(start.kinetic, reads_time, &mut self.solution.kinetic);
         }
         Tails {
             series,
@@ -248,35 +210,9 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
 
     /// Moves on over a piece of the next panel; `rest` is the remainder of the panel in this turn.
     fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> Done {
-        let swept = &self.swept;
         let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
-        let rule = panel.rule;
-        let spent = swept.spent();
-        let work = spent.work(rule, piece.to - piece.from, 1.0);
-        // Under steep loads the end energy is not the sum of start and gain.
-        let summed = swept.end == self.kinetic + swept.gain;
-        (self.kinetic, self.kinetic_low) = if summed {
-            two_sum(self.kinetic, swept.gain + self.kinetic_low)
-        } else {
-            (swept.end, 0.0)
-        };
-        self.gain += swept.gain;
-        self.fastest = self.fastest.max(self.kinetic);
-        self.work += work;
-        self.evaluations += swept.evaluations;
-        let kept = (0.5 * work.min(0.0) / self.kinetic).exp();
-        let count = rule.degree() + 1;
-        let misplaced = [&panel.table.force, &panel.table.push]
-            .map(|forces| uncertain(&piece, &forces[..count]));
-        let noise = f64::EPSILON * (swept.gain.abs() + misplaced[0] + misplaced[1]);
-        let (early, most) = swept.early(rule);
-        let (slopes, slope) = (&swept.slopes, swept.slope);
-        let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
-        panel.turns = self.turns;
-        let duration = panel.duration.0;
-        self.errors.pass(kept, noise, early, duration, most);
-        let (sum, lost) = two_sum(self.t.0, panel.duration.0);
-        self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
+        let done = self.progress.pass(panel, piece, &self.solution);
+        self.evaluations += self.solution.evaluations;
         self.parts.pop();
         self.parts.extend(rest);
         if self.parts.is_empty() {
@@ -284,12 +220,12 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
             self.next += 1;
             let next = self.panels.get(self.next);
             if next.is_none_or(|next| next.turns != turns) {
-                self.turns += self.direction;
+                self.progress.turns += self.direction;
             }
             if next.is_none() {
                 self.next = 0;
             }
         }
-        Done { panel, spent, work }
+        done
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Driven;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
-use super::swept::Swept;
+use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
@@ -36,13 +36,13 @@ pub(super) struct Tails {
     pub sweeps: f64,
 }
 
-/// Solves a panel from the guess of the kinetic energy at its points in `swept`.
+/// Solves a panel from the guess of the kinetic energy at its points in `solution`.
 pub(super) fn sweep<D: Driven>(
     driven: &D,
     panel: &mut PanelTable<D::Place>,
     start: PanelStart,
     tails: Tails,
-    swept: &mut Swept,
+    solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
     // Evaluations of driven loads cost more than the sweeps that they spare.
     let is_driven = driven.is_driven();
@@ -52,26 +52,26 @@ pub(super) fn sweep<D: Driven>(
         // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
         10.0 * SETTLED
     };
-    swept.evaluations = 0;
-    swept.share = 1.0;
+    solution.evaluations = 0;
+    solution.share = 1.0;
     if panel.is_in_closed_form(driven) {
-        return swept.take_undamped(driven, panel, start, tails);
+        return solution.take_undamped(driven, panel, start, tails);
     }
     let mut newton = false;
     let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
     for _ in 0..MOST_SWEEPS {
-        swept.evaluate(driven, panel, start)?;
-        let mut change = swept.change(panel, start);
-        newton = newton || linear && !swept.linearise(panel, &mut change);
+        solution.evaluate(driven, panel, start)?;
+        let mut change = solution.change(panel, start);
+        newton = newton || linear && !solution.linearise(panel, &mut change);
         if newton {
-            let rates = swept.forces.rates(driven, panel, start);
+            let rates = solution.forces.rates(driven, panel, start);
             correction(panel.rule, panel.half(), &rates, &mut change).ok_or(Unsolved::TooLong)?;
-            keep_positive(&swept.kinetic, &mut change);
+            keep_positive(&solution.kinetic, &mut change);
         }
-        let largest = add(&mut swept.kinetic, &mut change, panel.rule.degree() + 1)?;
+        let largest = add(&mut solution.kinetic, &mut change, panel.rule.degree() + 1)?;
         // The forces are as accurate as the motion: more sweeps would not resolve them.
-        if swept.forces_are_left_out(panel, start, tails.series, largest) {
+        if solution.forces_are_left_out(panel, start, tails.series, largest) {
             return Err(Unsolved::TooLong);
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
@@ -87,18 +87,18 @@ pub(super) fn sweep<D: Driven>(
         let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
-                swept.evaluate(driven, panel, start)?;
-                return swept.finish(panel, start, tails.series);
+                solution.evaluate(driven, panel, start)?;
+                return solution.finish(panel, start, tails.series);
             }
         } else if largest * factor <= (settled * tails.sweeps).max(ROUNDED) || at_rounding {
             if is_driven {
-                swept.forces.take_speeds(panel, start, &swept.kinetic);
+                solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
-                swept.evaluate(driven, panel, start)?;
+                solution.evaluate(driven, panel, start)?;
             }
-            swept.finish(panel, start, tails.series)?;
+            solution.finish(panel, start, tails.series)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
-            swept.end = start.kinetic + swept.gain;
+            solution.end = start.kinetic + solution.gain;
             return Ok(());
         } else if before.is_finite() {
             panel.factor = (largest / before).max(LEAST_FACTOR);
@@ -127,7 +127,7 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
     }
 }
 
-impl Swept {
+impl PanelSolution {
     /// Evaluates the forces at the present kinetic energy.
     fn evaluate<D: Driven>(
         &mut self,

@@ -1,7 +1,7 @@
 //! Switching: zero of the switch on a panel, at which the forces change their form.
 
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
-use super::swept::Swept;
+use super::solution::PanelSolution;
 use super::{Driven, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::dip::may_dip;
@@ -25,12 +25,12 @@ pub(super) fn side<D: Driven>(
     driven: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
-    swept: &Swept,
+    solution: &PanelSolution,
 ) -> Side {
     let Some(switch) = &panel.table.switch else {
         return Side::Stays;
     };
-    let (values, noise) = values(driven, switch, panel, start, swept);
+    let (values, noise) = values(driven, switch, panel, start, solution);
     let Some(x) = first_below(panel, &values, noise) else {
         return Side::Stays;
     };
@@ -70,7 +70,7 @@ pub(super) fn begins_beyond<D: Driven>(
     panel.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
 }
 
-impl Swept {
+impl PanelSolution {
     /// Ends the motion at the fraction `share` of the panel.
     pub fn end_at(&mut self, rule: &Rule, start: PanelStart, share: f64) {
         self.slopes = rule.values(|x| share * (1.0 + x) - 1.0);
@@ -90,10 +90,10 @@ fn values<D: Driven>(
     switch: &Switch,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
-    swept: &Swept,
+    solution: &PanelSolution,
 ) -> (Values, f64) {
     let count = panel.rule.degree() + 1;
-    let speeds = swept.forces.speeds();
+    let speeds = solution.forces.speeds();
     let mut parts = [[0.0; MAX_DEGREE + 1]; 4];
     let [place, rate, square, others] = &mut parts;
     for j in 0..count {
@@ -104,7 +104,7 @@ fn values<D: Driven>(
     }
     if driven.is_driven() {
         let times = if driven.reads_time() {
-            panel.rule.integrals(&swept.slopes)
+            panel.rule.integrals(&solution.slopes)
         } else {
             [0.0; MAX_DEGREE + 1]
         };

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use super::super::Driven;
+use super::super::progress::Progress;
 use super::super::seen::at_speeds;
 use super::super::stepper::PanelStepper;
-use super::super::{Driven, Errors};
 use super::{DEGREE, LastTurns};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::interpolated_turns::{Cell, Turn};
@@ -24,8 +25,8 @@ impl<D: Driven> LastTurns<'_, D> {
             let (turn, its) = self.whole_turn(kinetic)?;
             speeds = Some(speeds.map_or(its, |all| all.hull(its)));
             // All turns of a cell have the same panels.
-            if self.march.refined {
-                self.march.settle()?;
+            if self.stepper.progress.refined {
+                self.stepper.settle()?;
                 turns.clear();
             } else {
                 turns.push(turn);
@@ -39,7 +40,7 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// True if the energies of a cell around `middle`, J, resolve the loads at all speeds in the range (rad/s).
     fn shows(&self, speeds: Interval, middle: f64) -> bool {
-        let PanelStepper { driven, panels, .. } = &self.march;
+        let PanelStepper { driven, panels, .. } = &self.stepper;
         let look = NodeCriterion {
             nodes: DEGREE,
             ellipses: ellipses(DEGREE, self.tail),
@@ -55,29 +56,29 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
     fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
-        self.march.gives_up = false;
+        self.stepper.gives_up = false;
         let mut speeds: Option<Interval> = None;
-        self.march.restart(kinetic);
-        let mut leg = Segment::open();
+        self.stepper.restart(kinetic);
+        let mut segment = Segment::open();
         loop {
-            leg.push(self.march.panel()?.panel);
-            let here = self.march.speeds();
+            segment.push(self.stepper.panel()?.panel);
+            let here = self.stepper.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
-            if self.march.hid {
+            if self.stepper.progress.hid {
                 // Panels that end at a position specific to this energy make its turn unlike the others.
                 return Err(NotApplicable::NotSmooth);
             }
-            if self.march.at_cycle() {
+            if self.stepper.at_cycle() {
                 break;
             }
         }
         let turn = Turn {
-            count: self.march.turns.abs(),
-            duration: self.march.t.0,
-            gain: self.march.gain,
-            work: self.march.work,
+            count: self.stepper.progress.turns.abs(),
+            duration: self.stepper.progress.t.0,
+            gain: self.stepper.progress.gain,
+            work: self.stepper.progress.work,
         };
-        Ok(((leg, turn), speeds.unwrap_or_default()))
+        Ok(((segment, turn), speeds.unwrap_or_default()))
     }
 }
 
@@ -87,15 +88,6 @@ impl<D: Driven> PanelStepper<'_, D> {
         self.parts.clear();
         self.guide = None;
         self.next = 0;
-        self.t = (0.0, 0.0);
-        self.kinetic = kinetic;
-        self.kinetic_low = 0.0;
-        self.errors = Errors::at(kinetic, 0.0);
-        self.fastest = kinetic;
-        self.turns = 0.0;
-        self.gain = 0.0;
-        self.work = 0.0;
-        self.refined = false;
-        self.hid = false;
+        self.progress = Progress::at(kinetic, 0.0);
     }
 }

@@ -10,7 +10,8 @@ use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::driving::{FEW_TURNS, work_until};
-use super::stepper::{Done, PanelStepper};
+use super::progress::Done;
+use super::stepper::PanelStepper;
 use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
@@ -28,27 +29,28 @@ const MOST_TURNS: f64 = 1e8;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Driven>(
-    march: PanelStepper<'_, D>,
-    leg: Segment,
+    stepper: PanelStepper<'_, D>,
+    segment: Segment,
     start: Angle,
     speed: f64,
     goal: Goal,
     resolution: Resolution<'_>,
 ) -> Result<Driving, NotApplicable> {
     let mark = Mark {
-        turns: march.turns.abs(),
-        t: march.t,
-        kinetic: march.kinetic,
-        work: march.work,
+        turns: stepper.progress.turns.abs(),
+        t: stepper.progress.t,
+        kinetic: stepper.progress.kinetic,
+        work: stepper.progress.work,
         low: [0.0; 2],
     };
-    let (errors, first) = (march.errors, march.t.0);
+    let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
     let mut way = LastTurns {
         tail: resolution.tail,
         width: WIDEST,
-        rises: march.gain > 0.0,
-        lost: (march.gain / march.turns).abs() * f64::from(march.driven.cycle()),
-        march,
+        rises: stepper.progress.gain > 0.0,
+        lost: (stepper.progress.gain / stepper.progress.turns).abs()
+            * f64::from(stepper.driven.cycle()),
+        stepper,
         map: Interpolated {
             cells: Vec::new(),
             steady: false,
@@ -58,9 +60,9 @@ pub(super) fn run<D: Driven>(
     };
     let (last, why) = way.turn_of(goal);
     let ended = way.last_turns(&last, goal, start, why)?;
-    let evaluations = way.march.evaluations;
-    let kinetic = way.march.kinetic;
-    let before = last.work + way.march.work;
+    let evaluations = way.stepper.evaluations;
+    let kinetic = way.stepper.progress.kinetic;
+    let before = last.work + way.stepper.progress.work;
     let short = match &ended {
         MapEnd::AtGoal(_) => None,
         MapEnd::Short(why) => {
@@ -80,7 +82,7 @@ pub(super) fn run<D: Driven>(
         recent: Recent::default(),
         error: 0.0,
     };
-    let orbit = Orbit::of_turns(start, speed, leg, turns);
+    let orbit = Orbit::of_turns(start, speed, segment, turns);
     let end = match goal {
         _ if short.is_some() => orbit.length(),
         Goal::Time(until) => until,
@@ -115,7 +117,7 @@ enum MapEnd {
 }
 
 struct LastTurns<'a, D: Driven> {
-    march: PanelStepper<'a, D>,
+    stepper: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
@@ -173,7 +175,7 @@ impl<D: Driven> LastTurns<'_, D> {
             if mark.turns - first > MOST_TURNS {
                 return (known, Some(NotApplicable::TooManyTurns));
             }
-            if self.march.limit.is_reached(0) {
+            if self.stepper.limit.is_reached(0) {
                 return (known, Some(NotApplicable::WorkLimit));
             }
             self.rises = turn.gain > 0.0;
@@ -227,8 +229,8 @@ impl<D: Driven> LastTurns<'_, D> {
         start: Angle,
         map_ended: Option<NotApplicable>,
     ) -> Result<MapEnd, NotApplicable> {
-        self.march.restart(mark.kinetic);
-        self.march.gives_up = true;
+        self.stepper.restart(mark.kinetic);
+        self.stepper.gives_up = true;
         let most = match map_ended {
             None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
             Some(_) => FEW_TURNS,
@@ -236,10 +238,10 @@ impl<D: Driven> LastTurns<'_, D> {
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
         if limited.is_some() {
-            self.march.limit = WorkLimit::NONE;
+            self.stepper.limit = WorkLimit::NONE;
         }
         loop {
-            let done = match self.march.panel() {
+            let done = match self.stepper.panel() {
                 Ok(done) => done,
                 Err(why) if self.last.len() == 0 => return Err(why),
                 Err(why) => return Ok(MapEnd::Short(why)),
@@ -248,10 +250,10 @@ impl<D: Driven> LastTurns<'_, D> {
             let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
             self.last.push(done.panel.clone());
             let passed = match goal {
-                Goal::Time(until) => self.march.t.0 > (until - mark.t.0) - mark.t.1,
+                Goal::Time(until) => self.stepper.progress.t.0 > (until - mark.t.0) - mark.t.1,
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
             };
-            let all = self.march.at_cycle() && self.march.turns.abs() >= most;
+            let all = self.stepper.at_cycle() && self.stepper.progress.turns.abs() >= most;
             match map_ended {
                 _ if passed => return Ok(MapEnd::AtGoal(done.into())),
                 None if all => return Ok(MapEnd::AtGoal(done.into())),

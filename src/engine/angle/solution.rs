@@ -26,7 +26,7 @@ impl Spent {
 
 /// Motion on a panel.
 #[derive(Clone)]
-pub(super) struct Swept {
+pub(super) struct PanelSolution {
     /// Kinetic energy at the points, J.
     pub kinetic: Values,
     /// Magnitude of dt/dx at the points, s.
@@ -44,11 +44,11 @@ pub(super) struct Swept {
     pub evaluations: u64,
 }
 
-impl Swept {
+impl PanelSolution {
     /// Makes an empty motion.
-    pub fn new() -> Swept {
+    pub fn new() -> PanelSolution {
         let zero = [0.0; MAX_DEGREE + 1];
-        Swept {
+        PanelSolution {
             kinetic: zero,
             slopes: zero,
             slope: Series::new(0, zero),
