@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::curves::SPACING;
+use super::curves::CURVE_STEP;
 use super::diagrams::{self, Diagram};
 use super::key_values::{Facts, degrees, fact, given, six};
 use super::rows::{REACTIONS, reactions};
-use super::text::{NAMES, extreme, kinematics};
+use super::text::{NAME_WIDTH, extreme, kinematics};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::kinematics::{Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
@@ -102,9 +102,9 @@ impl Report for TurnReport<'_> {
 
     /// Returns the facts, followed by those of the changed lengths, if given.
     fn text(&self) -> String {
-        let mut text = self.facts().lines(NAMES);
+        let mut text = self.facts().lines(NAME_WIDTH);
         if let Some(changed) = &self.result.changed {
-            let changed = kinematics(changed).lines(NAMES);
+            let changed = kinematics(changed).lines(NAME_WIDTH);
             let _ = write!(text, "\nwith the changed lengths\n{changed}");
         }
         text
@@ -145,7 +145,7 @@ impl Report for TurnReport<'_> {
 
     fn figure(&self, view: &View) -> Result<String, Error> {
         let Some(diagram) = self.diagram else {
-            let every = SPACING;
+            let every = CURVE_STEP;
             return view.svg(&TurnReport { every, ..*self }.table(), self.default_view());
         };
         let svg = diagram.svg(self.result, self.scene, view.size)?;

@@ -113,13 +113,12 @@ pub struct Preview {
     last: Option<Row>,
 }
 
-/// Maximum number of rows in a preview; thinning leaves at least half of them.
-const PREVIEW_ROWS: usize = 24;
-
 impl Default for Preview {
     fn default() -> Preview {
+        // Thinning leaves at least half of them.
+        let most_rows = 24;
         Preview {
-            few: Decimated::new(PREVIEW_ROWS),
+            few: Decimated::new(most_rows),
             last: None,
         }
     }

@@ -61,10 +61,7 @@ const CENTRE_OF_GRAVITY: Layer = (
 );
 
 /// Width of the drawing, pixels.
-const WIDTH: f64 = 640.0;
-
-/// Speed of colour quantisation of a GIF, 1 (finest) to 30; a drawing has few colours.
-const COARSENESS: i32 = 20;
+const DRAWING_WIDTH: f64 = 640.0;
 
 /// Visible rectangle of the plane, m.
 #[derive(Clone, Copy)]
@@ -78,7 +75,7 @@ struct Extent {
 impl Extent {
     /// Returns the scale, pixels per metre, and the height of the drawing, pixels.
     fn scale(self) -> (f64, f64) {
-        let scale = WIDTH / (self.right - self.left);
+        let scale = DRAWING_WIDTH / (self.right - self.left);
         (scale, (scale * (self.high - self.low)).ceil() + 40.0)
     }
 }
@@ -166,7 +163,7 @@ impl Sketch {
         let at = |[x, y]: [f64; 2]| (scale * (x - extent.left), scale * (extent.high - y) + 20.0);
         let (title, note) = (escaped(&self.title), escaped(note));
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{DRAWING_WIDTH}\" height=\"{height}\" viewBox=\"0 0 {DRAWING_WIDTH} {height}\" \
              role=\"img\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
         for ((_, look), part) in self.parts(pose, extent) {
@@ -242,13 +239,15 @@ pub fn animation(
     mut output: Output,
 ) -> Result<(), Error> {
     let extent = sketch.extent(frames.iter().map(|(pose, _)| *pose));
-    let [width, height] = [WIDTH, extent.scale().1].map(|side| side.min(65_535.0) as u16);
+    let [width, height] = [DRAWING_WIDTH, extent.scale().1].map(|side| side.min(65_535.0) as u16);
+    // Colour quantisation from 1 (finest) to 30; a drawing has few colours.
+    let quantisation_speed = 20;
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(failed)?;
     encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
     for (pose, note) in frames {
         let mut rgba = pixels(&sketch.frame(*pose, extent, note), 1.0)?.take();
-        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, COARSENESS);
+        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, quantisation_speed);
         frame.delay = hundredths;
         encoder.write_frame(&frame).map_err(failed)?;
     }

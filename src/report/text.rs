@@ -4,7 +4,7 @@ use super::key_values::{Facts, degrees, fact, given, six};
 use crate::kinematics::{Kinematics, Located, NamedPosition, Synthesis};
 
 /// Width of the column of position names, characters.
-pub(super) const NAMES: usize = 24;
+pub(super) const NAME_WIDTH: usize = 24;
 
 /// Returns the angle or range of angles of a named position, and the reason for its name.
 pub(super) fn place(position: &NamedPosition) -> String {

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::key_values::{Facts, fact, six};
 use super::quantity::{Quantity, split};
 use super::table::Table;
+use super::text::NAME_WIDTH;
 use super::{DefaultView, Report};
 use crate::error::Error;
 pub use motion::Motion;
@@ -144,7 +145,7 @@ impl Report for Comparison {
     }
 
     fn text(&self) -> String {
-        self.facts().lines(24)
+        self.facts().lines(NAME_WIDTH)
     }
 
     fn table(&self) -> Table {
