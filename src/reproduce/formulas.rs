@@ -12,9 +12,6 @@ use crate::scene::{Expression, Instant};
 /// Function from the name of a quantity and the crank angle (rad) to its value; none for unknown names.
 pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
 
-/// Step of numerical derivatives, rad: truncation and rounding errors are each about 1e-12 of the value.
-const DERIVATIVE_STEP: f64 = 1e-3;
-
 /// CSV texts of a paper, by column:
 pub(super) struct Files {
     /// Symbols: symbol,formula,source; a formula uses symbols above it and the variables theta and t.
@@ -83,7 +80,9 @@ impl PaperFormulas {
         let slope = |name: &str| {
             let of = symbol(name.strip_prefix("slope_")?)?;
             let at = |theta| of.value(&now(0.0, theta));
-            Some(difference::slope(at, theta, DERIVATIVE_STEP))
+            // With this step, rad, truncation and rounding errors are each about 1e-12 of the value.
+            let step = 1e-3;
+            Some(difference::slope(at, theta, step))
         };
         let number = |name: &str| slope(name).or_else(|| (self.quantities)(name, theta));
         let named = |name: &str| symbol(name).or_else(|| number(name).map(Expression::constant));

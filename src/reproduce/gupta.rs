@@ -15,9 +15,6 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/gupta-figures.csv"),
 };
 
-/// Initial guess of the script: rod angle 180 degrees, slider position 40 mm.
-const GUESS: (f64, f64) = (PI, 0.04);
-
 /// Names of the six quantities, prefixed by `script_` (by the script) or `closed_` (closed form). The rod angle theta3
 /// is that of the direction from slider to crank pin.
 const QUANTITIES: [&str; 6] = ["theta3", "r4", "omega3", "v4", "alpha3", "a4"];
@@ -33,8 +30,8 @@ impl Script {
     fn computed(&self, theta: f64) -> [f64; 6] {
         let Linkage { r, l, .. } = self.linkage;
         let speed = self.speed;
-        // Tolerance of the script: 1e-6 mm.
-        let Some(found) = self.linkage.close_loop(theta, GUESS, 1e-9) else {
+        // Initial guess of the script: rod angle 180 degrees, slider position 40 mm; tolerance 1e-6 mm.
+        let Some(found) = self.linkage.close_loop(theta, (PI, 0.04), 1e-9) else {
             return [f64::NAN; 6];
         };
         let (sin3, cos3) = found.theta3.sin_cos();

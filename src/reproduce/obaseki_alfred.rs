@@ -15,9 +15,6 @@ const FILES: Files = Files {
     figures: include_str!("../../data/papers/obaseki-alfred-figures.csv"),
 };
 
-/// Number of points per turn in the search for the largest torque; the figure is read to 2 %.
-const TURN: u32 = 36_000;
-
 /// Returns the engine of table 1 with another offset, m, uniform crank and rod, and the rod as two masses, (31)-(33).
 fn engine(symbols: &PaperFormulas, offset: f64) -> Result<Scene, Error> {
     let names = ["k", "c", "m_crank", "m_rod", "m_slider", "w"];
@@ -103,8 +100,10 @@ fn perpendicular(symbols: &PaperFormulas, offset: f64) -> Result<[f64; 2], Error
     let (m2, m3) = (2.0 / 3.0 * rod + 0.5 * crank, rod / 3.0 + slider);
     let linkage = Linkage::new(&engine(symbols, offset)?.geometry);
     let mut found = [0.0f64; 2];
-    for i in 0..TURN {
-        let theta = TAU * f64::from(i) / f64::from(TURN);
+    // Far closer than the 2 % to which the figure is read.
+    let points_of_turn = 36_000;
+    for i in 0..points_of_turn {
+        let theta = TAU * f64::from(i) / f64::from(points_of_turn);
         let pose = linkage.pose(theta);
         let inertia = -(m2 * w * w * k * theta.cos() + m3 * (pose.d2x * w * w));
         let stroke = &mut found[usize::from(pose.dx > 0.0)];

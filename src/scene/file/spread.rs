@@ -4,9 +4,6 @@ use super::keys::Key;
 use super::value;
 use crate::scene::unit::{self, Factor};
 
-/// Largest number of values of one key.
-const MOST_VALUES: usize = 1_000_000;
-
 /// Evenly spaced values from first to last, in the unit in which these are written.
 #[derive(Clone, Debug)]
 pub(super) struct Spread {
@@ -26,11 +23,11 @@ impl Spread {
         count: &str,
         logarithmic: bool,
     ) -> Result<Spread, String> {
+        let most = 1_000_000;
         let counted = count.parse().ok();
-        let counted = counted.filter(|count| (1..=MOST_VALUES).contains(count));
-        let count = counted.ok_or_else(|| {
-            format!("`{count}` is not a number of values from 1 to {MOST_VALUES}")
-        })?;
+        let counted = counted.filter(|count| (1..=most).contains(count));
+        let count = counted
+            .ok_or_else(|| format!("`{count}` is not a number of values from 1 to {most}"))?;
         let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
         if !unit.is_empty() && unit != last_unit {
             return Err(format!(

@@ -16,20 +16,8 @@ use crate::numeric::exact::sum3;
 /// Least local error target that can be met in double precision.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
-/// Largest local error target.
-const LARGEST_TOLERANCE: f64 = 0.1;
-
 /// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
 pub(crate) const MOST_OUTPUT_ROWS: f64 = 1e9;
-
-/// Rounding tolerance at the limits of the crank angle, relative to crank plus rod: a pin this far outside is inside.
-const LIMIT_ROUNDING: f64 = 1e-12;
-
-/// Rounding tolerance of a moment of inertia against the least possible one, relative to the latter.
-const INERTIA_ROUNDING: f64 = 1e-9;
-
-/// Largest initial crank angle, rad, where doubles are 0.007 degrees apart.
-const LARGEST_ANGLE: f64 = 1e12;
 
 /// Keys that decide whether the mechanism can be assembled.
 const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
@@ -126,7 +114,8 @@ fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) 
         "width",
         "depth",
     ];
-    if inertia >= least * (1.0 - INERTIA_ROUNDING) {
+    let relative_rounding = 1e-9;
+    if inertia >= least * (1.0 - relative_rounding) {
         return;
     }
     let fields = KEYS.map(|key| format!("{body}.{key}"));
@@ -221,12 +210,12 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
             "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
         );
     }
-    if !(LEAST_TOLERANCE..=LARGEST_TOLERANCE).contains(&run.tolerance) {
+    let largest = 0.1;
+    if !(LEAST_TOLERANCE..=largest).contains(&run.tolerance) {
         let what = format!("a tolerance of {} cannot be used", show(run.tolerance));
         let usual = Run::default().tolerance;
-        let help = format!(
-            "give one from {LEAST_TOLERANCE:e} to {LARGEST_TOLERANCE}; {usual:e} is the default"
-        );
+        let help =
+            format!("give one from {LEAST_TOLERANCE:e} to {largest}; {usual:e} is the default");
         list.add("run.tolerance", what, help);
     }
 }
@@ -236,17 +225,21 @@ fn run(list: &mut Check, run: &Run, motion: &Motion) {
 fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
     let angle = motion.angle;
     list.finite("motion.speed", motion.speed);
-    if list.finite("motion.angle", angle) && angle.abs() > LARGEST_ANGLE {
+    // Doubles of this size, rad, are 0.007 degrees apart.
+    let largest = 1e12;
+    if list.finite("motion.angle", angle) && angle.abs() > largest {
         let what =
             format!("{angle:e} rad is so many turns that rounding hides the place in the last one");
-        let help = format!("give an angle below {LARGEST_ANGLE:e} rad");
+        let help = format!("give an angle below {largest:e} rad");
         list.add("motion.angle", what, help);
     }
     let Geometry {
         crank, rod, offset, ..
     } = *geometry;
     let distance = (offset + crank * angle.sin()).abs();
-    let outside = distance > rod + LIMIT_ROUNDING * (crank + rod);
+    // At a limit of the angle, rounding may leave the pin this far outside, m.
+    let rounding = 1e-12 * (crank + rod);
+    let outside = distance > rod + rounding;
     if !outside
         || *motion == Motion::default()
         || !list.has_no_problem(&LENGTHS)
