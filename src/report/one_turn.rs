@@ -112,11 +112,9 @@ impl Report for TurnReport<'_> {
 
     /// Returns the rows; for changed lengths with their change of the motion and the changed motion (not in CSV).
     fn table(&self) -> Table {
-        let mut table = Table::new(&self.columns());
+        let rows = self.result.rows(self.every).map(|row| values(&row));
+        let mut table = Table::filled(&self.columns(), rows);
         table.plot_only_columns = if self.result.changed.is_some() { 3 } else { 0 };
-        for row in self.result.rows(self.every) {
-            table.push(values(&row));
-        }
         table
     }
 

@@ -15,7 +15,7 @@ const CLEARANCE: &str =
 const TORQUE: &str = "crank_torque_nm";
 
 /// Maximum number of rows kept for pictures and pages.
-pub(super) const ROWS_KEPT: usize = 100_000;
+pub(super) const MOST_PLOT_ROWS: usize = 100_000;
 
 /// Returns the cells of the columns [`REACTIONS`], N and N m.
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {

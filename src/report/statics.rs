@@ -78,12 +78,12 @@ impl Report for StaticsReport<'_> {
             "crank-torque" => "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
             _ => "slider_force_n,slider_force_min_n,slider_force_max_n",
         };
-        let mut table = Table::new(&format!(
+        let header = format!(
             "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
-        ));
+        );
+        let rows = self.result.rows(self.every).map(|row| cells(&row));
+        let mut table = Table::filled(&header, rows);
         table.plot_only_columns = if self.details { 0 } else { 2 };
-        let rows = self.result.rows(self.every);
-        rows.for_each(|row| table.push(cells(&row)));
         table
     }
 

@@ -104,10 +104,8 @@ impl Comparison {
                 "compare scenes, rows of `simulate --out` or measured motions with overlapping times",
             ));
         }
-        let mut table = Table::new(&names);
-        for k in 0..times.len() {
-            table.push(values.iter().map(|column| column[k]));
-        }
+        let row = |k: usize| values.iter().map(move |column| column[k]);
+        let table = Table::filled(&names, (0..times.len()).map(row));
         let names: Vec<String> = motions.iter().map(|motion| motion.name.clone()).collect();
         Ok(Comparison {
             title: names.join(", "),
