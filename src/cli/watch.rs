@@ -48,10 +48,11 @@ pub(super) fn start(takes_requests: bool) -> Stop {
     let _ = ctrlc::set_handler(interrupted);
     if std::io::stderr().is_terminal() {
         let stop = stop.clone();
+        let between_looks = Duration::from_millis(100);
         thread::spawn(move || {
             thread::sleep(PATIENCE);
             while show(&stop) {
-                thread::sleep(Duration::from_millis(100));
+                thread::sleep(between_looks);
             }
         });
     }

@@ -8,7 +8,7 @@ mod curves;
 mod decimate;
 mod default_view;
 mod diagrams;
-mod drawing;
+mod dimensions;
 mod explain;
 mod figure;
 mod identify;

@@ -4,7 +4,7 @@ use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
 use super::default_view::{DefaultView, Scatter};
-use super::drawing::Drawing;
+use super::dimensions::Dimensions;
 use super::key_values::Facts;
 use super::table::{Shown, Table};
 use crate::error::Error;
@@ -38,7 +38,7 @@ pub struct Origin {
 #[derive(Serialize)]
 struct Data<'a> {
     columns: Vec<Shown<'a>>,
-    drawing: Option<Drawing>,
+    drawing: Option<Dimensions>,
     events: Vec<Mark>,
     /// Half-width of a band, in standard errors.
     band: f64,
@@ -106,7 +106,7 @@ pub(super) fn html(
     };
     let data = Data {
         columns: table.shown(),
-        drawing: default.scene.map(Drawing::of),
+        drawing: default.scene.map(Dimensions::of),
         events: events.iter().map(mark).collect(),
         band: default.band,
         poles: default.has_poles,

@@ -42,7 +42,8 @@ impl Measurement {
         let (first, last) = (*times.first()?, *times.last()?);
         let step = (last - first) / times.len() as f64;
         let known = f64::EPSILON * first.abs().max(last.abs());
-        (known > 1e-6 * step).then_some(known)
+        let coarse = 1e-6 * step;
+        (known > coarse).then_some(known)
     }
 
     /// Counts times from the first row where doubles lose digits of the time stamps in the file.
