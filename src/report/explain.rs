@@ -26,11 +26,8 @@ pub fn explanation(result: &Explanation) -> String {
         }
         let _ = write!(text, "{title}\n{}", facts.lines(NAME_WIDTH));
     }
-    let _ = write!(
-        text,
-        "computation\n{}",
-        computation(result).lines(NAME_WIDTH)
-    );
+    let computation = computation(result).lines(NAME_WIDTH);
+    let _ = write!(text, "computation\n{computation}");
     if let Some(at) = &result.at {
         text.push_str(&terms_at(at));
     }

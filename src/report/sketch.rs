@@ -60,9 +60,6 @@ const CENTRE_OF_GRAVITY: Layer = (
     "fill=\"#d55e00\" stroke=\"#333\" stroke-width=\"1\"",
 );
 
-/// Width of the drawing, pixels.
-const DRAWING_WIDTH: f64 = 640.0;
-
 /// Visible rectangle of the plane, m.
 #[derive(Clone, Copy)]
 struct Window {
@@ -73,10 +70,12 @@ struct Window {
 }
 
 impl Window {
-    /// Returns the scale, pixels per metre, and the height of the drawing, pixels.
-    fn scale(self) -> (f64, f64) {
-        let scale = DRAWING_WIDTH / (self.right - self.left);
-        (scale, (scale * (self.high - self.low)).ceil() + 40.0)
+    /// Returns the scale, pixels per metre, and width and height of the drawing, pixels.
+    fn scale(self) -> (f64, [f64; 2]) {
+        let width = 640.0;
+        let scale = width / (self.right - self.left);
+        let height = (scale * (self.high - self.low)).ceil() + 40.0;
+        (scale, [width, height])
     }
 }
 
@@ -159,11 +158,11 @@ impl Sketch {
 
     /// Returns the mechanism in a pose as SVG, in a rectangle common to several poses, with a note below.
     fn frame(&self, pose: Pose, window: Window, note: &str) -> String {
-        let (scale, height) = window.scale();
+        let (scale, [width, height]) = window.scale();
         let at = |[x, y]: [f64; 2]| (scale * (x - window.left), scale * (window.high - y) + 20.0);
         let (title, note) = (escaped(&self.title), escaped(note));
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{DRAWING_WIDTH}\" height=\"{height}\" viewBox=\"0 0 {DRAWING_WIDTH} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
              role=\"img\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
         for ((_, look), element) in self.elements(pose, window) {
@@ -239,7 +238,8 @@ pub fn animation(
     mut output: Output,
 ) -> Result<(), Error> {
     let window = sketch.window(frames.iter().map(|(pose, _)| *pose));
-    let [width, height] = [DRAWING_WIDTH, window.scale().1].map(|side| side.min(65_535.0) as u16);
+    let (_, sides) = window.scale();
+    let [width, height] = sides.map(|side| side.min(65_535.0) as u16);
     // Colour quantisation from 1 (finest) to 30; a drawing has few colours.
     let quantisation_speed = 20;
     let mut bytes = Vec::new();

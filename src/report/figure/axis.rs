@@ -9,7 +9,7 @@ const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720
 
 /// Kind of scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ScaleKind {
+enum Kind {
     Linear,
     /// Linear, with ticks at parts of a turn.
     Degrees,
@@ -17,16 +17,16 @@ enum ScaleKind {
     Log,
 }
 
-impl ScaleKind {
+impl Kind {
     /// Returns the coordinate of a value along the axis; NaN if it cannot be drawn.
     fn coordinate(self, value: f64) -> f64 {
         // Differences of larger values may overflow.
         let largest = 1e300;
         match self {
             _ if value.abs() > largest => f64::NAN,
-            ScaleKind::Log if value > 0.0 => value.log10(),
-            ScaleKind::Log => f64::NAN,
-            ScaleKind::Linear | ScaleKind::Degrees => value,
+            Kind::Log if value > 0.0 => value.log10(),
+            Kind::Log => f64::NAN,
+            Kind::Linear | Kind::Degrees => value,
         }
     }
 }
@@ -37,12 +37,12 @@ pub struct Axis {
     pub(in crate::report) label: String,
     /// Label used where the full one does not fit; empty for none.
     short: String,
-    kind: ScaleKind,
+    kind: Kind,
     range: Option<(f64, f64)>,
 }
 
 impl Axis {
-    fn new(label: impl Into<String>, kind: ScaleKind) -> Axis {
+    fn new(label: impl Into<String>, kind: Kind) -> Axis {
         Axis {
             label: label.into(),
             short: String::new(),
@@ -53,17 +53,17 @@ impl Axis {
 
     /// Returns a linear axis; the label names the quantity and its unit.
     pub fn linear(label: impl Into<String>) -> Axis {
-        Axis::new(label, ScaleKind::Linear)
+        Axis::new(label, Kind::Linear)
     }
 
     /// Returns a linear axis of angles in degrees, ticks at parts of a turn; the label names the angle and its unit.
     pub fn degrees(label: impl Into<String>) -> Axis {
-        Axis::new(label, ScaleKind::Degrees)
+        Axis::new(label, Kind::Degrees)
     }
 
     /// Returns a logarithmic axis; the label names the quantity and its unit.
     pub fn log(label: impl Into<String>) -> Axis {
-        Axis::new(label, ScaleKind::Log)
+        Axis::new(label, Kind::Log)
     }
 
     /// Sets a shorter label, used where the full one does not fit.
@@ -106,7 +106,7 @@ pub(super) struct Tick {
 
 /// Scale of an axis: kind and limits of the coordinate.
 pub(super) struct Scale {
-    kind: ScaleKind,
+    kind: Kind,
     low: f64,
     high: f64,
 }
@@ -126,18 +126,13 @@ impl Scale {
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
                     (low.min(value), high.max(value))
                 });
-            // A smaller range comes from the rounding of equal values.
-            let least_range = 1e-13 * low.abs().max(high.abs());
+            // Equal values differ by rounding.
+            let is_constant = high - low <= 1e-13 * low.abs().max(high.abs());
             let margin = match kind {
                 _ if low > high => return (0.0, 1.0),
-                ScaleKind::Log if high - low < 0.1 => 0.5,
-                ScaleKind::Linear if high - low <= least_range => {
-                    if low == 0.0 {
-                        1.0
-                    } else {
-                        0.1 * low.abs()
-                    }
-                }
+                Kind::Log if high - low < 0.1 => 0.5,
+                Kind::Linear if is_constant && low == 0.0 => 1.0,
+                Kind::Linear if is_constant => 0.1 * low.abs(),
                 _ => free_space(low, high),
             };
             (low - margin, high + margin)
@@ -164,7 +159,7 @@ impl Scale {
 
     /// Returns the position of a value, clamped to 0 to 1; 0 for a value that is not positive on a logarithmic axis.
     pub fn clamped(&self, value: f64) -> f64 {
-        if self.kind == ScaleKind::Log && value <= 0.0 {
+        if self.kind == Kind::Log && value <= 0.0 {
             return 0.0;
         }
         self.position(value).clamp(0.0, 1.0)
@@ -172,7 +167,7 @@ impl Scale {
 
     /// Returns at most `most` ticks.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
-        if self.kind != ScaleKind::Log {
+        if self.kind != Kind::Log {
             return self.even(self.low, self.high, most);
         }
         let parts = self.decades(1, &[1, 2, 5]);
@@ -208,7 +203,7 @@ impl Scale {
         let least = (high - low) / most.max(1) as f64;
         let of_turn = PARTS_OF_TURN.into_iter().find(|part| *part >= least);
         let step = of_turn
-            .filter(|_| self.kind == ScaleKind::Degrees && least > 5.0)
+            .filter(|_| self.kind == Kind::Degrees && least > 5.0)
             .unwrap_or_else(|| round_step(least));
         let digits = |value: f64| value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
         let size = digits(low.abs().max(high.abs()));

@@ -30,7 +30,7 @@ pub(super) struct Layout {
     pub marker_radius: f64,
 }
 
-/// Measures of every figure: texts are legible, and ticks are apart, in print at the default size.
+/// Measures of every figure, chosen by eye for the default panel.
 pub(super) const LAYOUT: Layout = Layout {
     panel: (680.0, 420.0),
     least_panel: (150.0, 100.0),

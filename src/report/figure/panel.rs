@@ -33,10 +33,8 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match entries.iter_mut().find(known) {
             Some((_, of)) => of.push(series),
             None => {
-                let label = fitted(
-                    &series.label,
-                    inner_width(room) - LAYOUT.sample - LAYOUT.entry_gap,
-                );
+                let room = inner_width(room) - LAYOUT.sample - LAYOUT.entry_gap;
+                let label = fitted(&series.label, room);
                 entries.push((label, vec![series]));
             }
         }
