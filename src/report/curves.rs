@@ -164,10 +164,10 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     Some(edges.collect())
 }
 
-/// Crank angle between points of a drawn curve, rad: half a degree.
+/// Crank angle between points of a drawn curve, rad: half a degree, about a pixel of a turn.
 pub(super) const CURVE_STEP: f64 = PI / 360.0;
 
-/// Maximum number of points of a curve, about; curves with more are thinned.
+/// Maximum number of points of a curve, about, several per pixel of a panel; curves with more are thinned.
 pub(super) const CURVE_POINTS: usize = 4000;
 
 /// Thins a curve to about [`CURVE_POINTS`]: keeps the extremes of x and y of each piece.

@@ -14,7 +14,7 @@ const CLEARANCE: &str =
     "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
 const TORQUE: &str = "crank_torque_nm";
 
-/// Maximum number of rows kept for pictures and pages.
+/// Maximum number of rows kept for pictures and pages; a page of so many holds about 20 megabytes.
 pub(super) const MOST_PLOT_ROWS: usize = 100_000;
 
 /// Returns the cells of the columns [`REACTIONS`], N and N m.

@@ -3,7 +3,7 @@
 use super::key_values::{Facts, degrees, fact, given, six};
 use crate::kinematics::{Kinematics, Located, NamedPosition, Synthesis};
 
-/// Width of the column of position names, characters.
+/// Width of the column of names, characters, more than the longest fixed name has.
 pub(super) const NAME_WIDTH: usize = 24;
 
 /// Returns the angle or range of angles of a named position, and the reason for its name.

@@ -80,7 +80,7 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Maximum number of designs of a sweep.
+    /// Maximum number of designs of a sweep; more come from a typing error.
     pub const MOST_DESIGNS: usize = 1_000_000_000;
 
     /// Prepares a sweep over all combinations of the values, or over a sample.

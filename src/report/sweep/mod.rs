@@ -53,7 +53,7 @@ pub struct SweepSummaryOptions {
     pub kept: Option<usize>,
 }
 
-/// Maximum number of designs on a page.
+/// Maximum number of designs on a page, which then holds about ten megabytes.
 pub const MOST_PAGE_DESIGNS: usize = 50_000;
 
 #[derive(Debug)]

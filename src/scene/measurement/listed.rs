@@ -3,7 +3,7 @@
 use crate::scene::Problem;
 use crate::scene::number::counted;
 
-/// Largest number of problems of one kind that are listed.
+/// Largest number of problems of one kind that are listed; they show what the others are.
 const MOST_LISTED: usize = 3;
 
 /// Problems, of which the first of each kind are listed and all are counted.
