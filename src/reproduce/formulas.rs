@@ -22,6 +22,18 @@ pub(super) struct Files {
     pub figures: &'static str,
 }
 
+/// Returns the built-in CSV texts of a paper, by its name in `data/papers`.
+macro_rules! files {
+    ($paper:literal) => {
+        $crate::reproduce::formulas::Files {
+            symbols: include_str!(concat!("../../data/papers/", $paper, "-symbols.csv")),
+            claims: include_str!(concat!("../../data/papers/", $paper, ".csv")),
+            figures: include_str!(concat!("../../data/papers/", $paper, "-figures.csv")),
+        }
+    };
+}
+pub(super) use files;
+
 /// Paper whose formulas can be evaluated.
 pub(super) struct PaperFormulas {
     symbols: BTreeMap<String, Expression>,

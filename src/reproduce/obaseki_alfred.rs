@@ -3,17 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use super::formulas::{Files, PaperFormulas};
+use super::formulas::{PaperFormulas, files};
 use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::{Linkage, size_from_stroke};
 use crate::scene::{Crank, Rod, RodModel, Scene, Slider};
-
-const FILES: Files = Files {
-    symbols: include_str!("../../data/papers/obaseki-alfred-symbols.csv"),
-    claims: include_str!("../../data/papers/obaseki-alfred.csv"),
-    figures: include_str!("../../data/papers/obaseki-alfred-figures.csv"),
-};
 
 /// Returns the engine of table 1 with another offset, m, uniform crank and rod, and the rod as two masses, (31)-(33).
 fn engine(symbols: &PaperFormulas, offset: f64) -> Result<Scene, Error> {
@@ -39,7 +33,7 @@ fn engine(symbols: &PaperFormulas, offset: f64) -> Result<Scene, Error> {
 }
 
 pub(super) fn formulas() -> Result<PaperFormulas, Error> {
-    let symbols = PaperFormulas::new(FILES)?;
+    let symbols = PaperFormulas::new(files!("obaseki-alfred"))?;
     let [k2, c2] = symbols.numbers(["k2", "c2"])?;
     let two_mass = engine(&symbols, 0.02)?;
     let mut rigid = two_mass.clone();
