@@ -30,7 +30,7 @@ pub(super) fn plain(text: &str) -> String {
 
 /// Formats a stated value with 12 significant digits, which hides rounding noise.
 pub(super) fn show(value: f64) -> String {
-    rounded(value, 12, PLAIN)
+    rounded(value, 12, WITHOUT_EXPONENT)
 }
 
 /// Formats a value with its unit, if it has one.
@@ -41,14 +41,19 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
 /// Formats two values that differ with enough digits to show it.
 pub(super) fn apart(a: f64, b: f64) -> (String, String) {
     (6..=17)
-        .map(|digits| (rounded(a, digits, PLAIN), rounded(b, digits, PLAIN)))
+        .map(|digits| {
+            (
+                rounded(a, digits, WITHOUT_EXPONENT),
+                rounded(b, digits, WITHOUT_EXPONENT),
+            )
+        })
         .find(|(a, b)| a != b)
         .unwrap_or_else(|| (show(a), show(b)))
 }
 
 /// Formats a computed value with six significant digits.
 pub(super) fn computed(value: f64) -> String {
-    rounded(value, 6, PLAIN)
+    rounded(value, 6, WITHOUT_EXPONENT)
 }
 
 /// Formats a count with its noun: `1 row`, `2 rows`.
@@ -57,7 +62,7 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 }
 
 /// Sizes of the numbers that messages write without exponent.
-const PLAIN: Range<f64> = 1e-6..1e15;
+const WITHOUT_EXPONENT: Range<f64> = 1e-6..1e15;
 
 /// Formats a number with at most `digits` significant digits, without trailing zeros; without exponent if its size is
 /// in `plain`.

@@ -131,7 +131,7 @@ impl Measurement {
         if steps.iter().all(|step| *step <= least_ratio * least) {
             return None;
         }
-        let usual = median(steps.clone())?;
+        let usual = median(steps.iter().copied())?;
         let is_gap = |step: &&f64| **step > least_ratio * usual;
         let first = steps.iter().position(|step| is_gap(&step))?;
         Some(format!(
