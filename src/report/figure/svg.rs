@@ -97,10 +97,8 @@ impl Svg {
     }
 
     pub fn marker(&mut self, (x, y): Place, series: &Series) {
-        let (radius, fill) = (
-            LAYOUT.marker_radius,
-            format!("fill=\"{}\"", series.colour()),
-        );
+        let radius = LAYOUT.marker_radius;
+        let fill = format!("fill=\"{}\"", series.colour());
         match SHAPES[series.colour % SHAPES.len()] {
             [] => {
                 let _ = writeln!(
