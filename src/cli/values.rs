@@ -30,12 +30,12 @@ pub(super) fn positive_angle(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a crank angle between rows (rad) that gives more than 1e8 rows per turn, a likely error of the unit.
+/// Refuses a crank angle between rows (rad) that gives too many rows per turn, a likely error of the unit.
 pub(super) fn check_rows_of_turn(every: f64) -> Result<(), Error> {
-    const MOST_ROWS: f64 = 1e8;
-    if std::f64::consts::TAU / every > MOST_ROWS {
+    let most_rows = 1e8;
+    if std::f64::consts::TAU / every > most_rows {
         return Err(Error::refused(
-            format!("--every {every} rad gives more than {MOST_ROWS} rows"),
+            format!("--every {every} rad gives more than {most_rows} rows"),
             "give an angle like \"1 deg\"",
         ));
     }

@@ -222,7 +222,7 @@ fn held(by: Option<&Torques>) -> String {
 
 fn outside(load: Option<&Load>) -> String {
     load.map_or_else(String::new, |load| {
-        let of = match load.is_tabulated() {
+        let of = match load.table().is_some() {
             true => "beyond its rows",
             false => "outside its domain",
         };
