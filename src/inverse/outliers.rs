@@ -20,8 +20,16 @@ const NORMAL: f64 = 1.4826;
 /// Weight below which a sample is left out.
 const LEAST_WEIGHT: f64 = 1e-6;
 
-/// Returns weights of the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
-pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Vec<f64>> {
+/// Weights of the samples by a smoothed motion.
+pub(super) struct Judgement {
+    pub weights: Vec<f64>,
+    /// True if the far samples are few enough for outliers. Outliers that pull the motion to themselves put many samples
+    /// far from it: the farthest are then left out, for the next motion to judge the others.
+    pub few: bool,
+}
+
+/// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
+pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
     let record = &problem.record;
     let sigma = smoothed.noise.sigma;
     let mut standardised: Vec<f64> = (0..record.times.len())
@@ -47,24 +55,33 @@ pub(super) fn weights(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> 
     for r in &mut standardised {
         *r -= r.clamp(-step / sigma, step / sigma);
     }
-    let far = || standardised.iter().filter(|r| r.abs() > FAR * scale);
+    let mut sizes: Vec<f64> = standardised.iter().map(|r| r.abs()).collect();
+    let most = (MOST_OUTLIERS * sizes.len() as f64) as usize;
+    let (_, next, _) = sizes.select_nth_unstable_by(most, |a, b| b.total_cmp(a));
+    let few = *next <= FAR * scale;
+    let limit = next.max(FAR * scale);
+    let far = || standardised.iter().filter(|r| r.abs() > limit);
     let count = far().count() as f64;
-    if count == 0.0 || count > MOST_OUTLIERS * standardised.len() as f64 {
+    if count == 0.0 {
         let weighted = record.weights.iter().any(|w| *w < 1.0);
-        return weighted.then(|| match count {
-            0.0 => record.weights.clone(),
-            _ => vec![1.0; standardised.len()],
+        return weighted.then(|| Judgement {
+            weights: record.weights.clone(),
+            few,
         });
     }
     let part = count / standardised.len() as f64;
     let wide = far().map(|r| r * r).sum::<f64>() / count / (scale * scale);
     let weight = |r: &f64| {
+        if !few && r.abs() <= limit {
+            return 1.0;
+        }
         let square = (r / scale).powi(2);
         let odds = part / (1.0 - part) / wide.sqrt() * (0.5 * square * (1.0 - 1.0 / wide)).exp();
         let weight = 1.0 / (1.0 + odds);
         if weight < LEAST_WEIGHT { 0.0 } else { weight }
     };
-    Some(standardised.iter().map(weight).collect())
+    let weights = standardised.iter().map(weight).collect();
+    Some(Judgement { weights, few })
 }
 
 /// True if two lists of weights differ by less than 0.1.

@@ -149,16 +149,23 @@ fn without_outliers<'a>(
         let first = first_path(&problem, angles);
         kinematic = problem.kinematic(first, sigma);
     }
+    let mut few = true;
     for _ in 0..OUTLIER_ROUNDS {
-        let Some(weights) = outliers::weights(&problem, &kinematic, step) else {
+        let Some(judged) = outliers::judge(&problem, &kinematic, step) else {
             break;
         };
-        let before = std::mem::replace(&mut problem.record.weights, weights);
+        few = judged.few;
+        let before = std::mem::replace(&mut problem.record.weights, judged.weights);
         let path = problem.path_of(KINEMATIC, &kinematic, problem.all());
         kinematic = problem.kinematic(path, kinematic.noise.sigma);
         if outliers::alike(&before, &problem.record.weights) {
             break;
         }
+    }
+    if !few {
+        problem.record.weights.fill(1.0);
+        let path = problem.path_of(KINEMATIC, &kinematic, problem.all());
+        kinematic = problem.kinematic(path, kinematic.noise.sigma);
     }
     (problem, kinematic)
 }
@@ -176,8 +183,12 @@ pub(super) fn likeliest(
         if problem.record.codes.is_some() || before.iter().all(|weight| *weight == 1.0) {
             break;
         }
-        let Some(weights) = outliers::weights(problem, &found.0, 0.0) else {
+        let Some(judged) = outliers::judge(problem, &found.0, 0.0) else {
             break;
+        };
+        let weights = match judged.few {
+            true => judged.weights,
+            false => vec![1.0; before.len()],
         };
         if outliers::alike(&before, &weights) {
             break;

@@ -14,6 +14,7 @@ mod inverse_limits;
 mod long_records;
 mod measured_rows;
 mod noise;
+mod outliers;
 mod polynomial;
 mod simulated;
 mod uncertain;
