@@ -70,10 +70,6 @@ pub struct Resolution<'a> {
     pub limit: WorkLimit<'a>,
 }
 
-/// Turns computed one by one before the Poincaré map takes over, and at most after its end; turns between two kept
-/// marks.
-pub(super) const FEW_TURNS: f64 = 48.0;
-
 /// Returns the work from the start of the last panel to a time in it, J.
 pub(super) fn work_until(segment: &Segment, until: f64, spent: &Spent) -> f64 {
     let Some((panel, since)) = segment.panel_at(until) else {

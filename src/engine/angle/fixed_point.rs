@@ -6,13 +6,6 @@
 use super::super::energy::NotApplicable;
 use crate::numeric::root;
 
-/// Search range from the first energy, as ln of the energy ratio.
-const FARTHEST: f64 = 60.0;
-/// Largest search step, as ln of the energy ratio.
-const LONGEST_LOG_STEP: f64 = 0.4;
-/// Bisections between an energy at which the crank stops within the cycle and one at which it loses energy.
-const HALVINGS: usize = 40;
-
 /// Reason why there is no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCycle {
@@ -163,6 +156,17 @@ fn bracket(
     Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
 }
 
+/// True if the search goes on at this ratio of energies; no machine turns beyond it, with speeds in the ratio 1e13.
+fn is_in_range(ratio: f64) -> bool {
+    ratio.ln() < 60.0
+}
+
+/// Returns the next search step, as ln of the energy ratio: twice this one, up to a factor of 1.5.
+fn longer(step: f64) -> f64 {
+    let longest = 0.4;
+    (2.0 * step).min(longest)
+}
+
 /// Returns the nearest bracket below a cycle that loses.
 fn below(
     map: &mut dyn CycleMap,
@@ -173,14 +177,14 @@ fn below(
     if first.gain == 0.0 {
         return Ok(Some((first, first)));
     }
-    while (first.kinetic / high.kinetic).ln() < FARTHEST {
+    while is_in_range(first.kinetic / high.kinetic) {
         let kinetic = high.kinetic * (-step).exp();
         match look(map, kinetic)? {
             Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, high))),
             Some(looked) => high = looked,
             None => return near_stop(map, kinetic, high),
         }
-        step = (2.0 * step).min(LONGEST_LOG_STEP);
+        step = longer(step);
     }
     Ok(None)
 }
@@ -195,7 +199,7 @@ fn above(
     let (mut kinetic, mut step) = (first, step);
     let (mut gains, mut stops, mut turned) = (None, None, false);
     let mut looked = at_first;
-    while (kinetic / first).ln() < FARTHEST {
+    while is_in_range(kinetic / first) {
         turned |= looked.is_some();
         match looked {
             None => (gains, stops) = (None, Some(kinetic)),
@@ -212,7 +216,7 @@ fn above(
             }
         }
         kinetic *= step.exp();
-        step = (2.0 * step).min(LONGEST_LOG_STEP);
+        step = longer(step);
         looked = look(map, kinetic)?;
     }
     Err(match (gains, turned) {
@@ -230,7 +234,9 @@ fn near_stop(
     loses: Looked,
 ) -> Result<Option<(Looked, Looked)>, NoCycle> {
     let (mut stops, mut loses) = (stops, loses);
-    for _ in 0..HALVINGS {
+    // A search step halved so often is 4e-13 of the energy.
+    let halvings = 40;
+    for _ in 0..halvings {
         let kinetic = (stops * loses.kinetic).sqrt();
         match look(map, kinetic)? {
             None => stops = kinetic,

@@ -69,11 +69,9 @@ pub(super) struct Fineness {
     pub speed: f64,
 }
 
-/// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end. Forces
-/// are continuous at a switching: the effect is of second order in this length.
+/// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end, and there
+/// a switch as small beside its parts as zero. Forces are continuous at a switching: the effect is of second order.
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
-/// Reduction of the truncation error of forces, which adds up over the turns.
-const ADDED_UP: f64 = 0.1;
 /// Convergence factor above which sweeps give way to Newton's method; also the first estimate of the factor.
 pub(super) const SLOW_FACTOR: f64 = 0.3;
 /// Degree of the series tried first.
@@ -215,7 +213,9 @@ impl<P: Copy> PanelTable<P> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
         let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
         let force = self.rule.series(&self.force_of_position());
-        let share = (force.largest() * self.half().abs() / kinetic / ADDED_UP).min(1.0);
+        // Fraction of the tail for the truncation error of forces, which adds up over the turns.
+        let error_share = 0.1;
+        let share = (force.largest() * self.half().abs() / kinetic / error_share).min(1.0);
         let degrees = Rule::DEGREES.into_iter();
         let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
         smaller.find(|degree| {

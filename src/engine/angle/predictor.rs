@@ -2,10 +2,8 @@
 
 use crate::numeric::chebyshev::Values;
 
-/// Number of profiles kept.
+/// Number of profiles kept: one more than the degree of the polynomial through them.
 const PROFILES_KEPT: usize = 5;
-/// Largest sum of the magnitudes of the weights: larger weights amplify the errors of the profiles.
-const MOST_SHARES: f64 = 40.0;
 
 /// Kinetic energy profiles at the points of a panel in the last turns.
 #[derive(Clone)]
@@ -91,6 +89,8 @@ impl Predictor {
             shares[i] = above / below;
             size += shares[i].abs();
         }
-        (size <= MOST_SHARES).then_some(shares)
+        // Larger weights would amplify the errors of the profiles by more than this factor.
+        let most_amplified = 40.0;
+        (size <= most_amplified).then_some(shares)
     }
 }

@@ -6,16 +6,6 @@ use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
 
-/// Fraction of the largest kinetic energy below which the crank is near rest.
-const NEAR_REST: f64 = 1e-2;
-/// Fraction of the largest kinetic energy, and half length of a panel (rad), below which a crank that seems to stop on
-/// the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
-const STOPPING_ENERGY: f64 = 0.1;
-const STOPPING_LENGTH: f64 = 0.25;
-/// Work of the position-dependent forces, relative to the kinetic energy, below which it is not the reason for a panel
-/// being too long: the panel will be too long in the next turn, too.
-const SMALL_WORK: f64 = 0.1;
-
 impl<D: Driven> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, or for all turns if the failure recurs or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
@@ -26,30 +16,34 @@ impl<D: Driven> PanelStepper<'_, D> {
         if panel.raise(self.driven)? {
             return Ok(());
         }
-        let half = panel.half().abs();
-        let slow = self.progress.kinetic < NEAR_REST * fastest;
-        let stops = self.gives_up
-            && why == Unsolved::Stops
-            && self.progress.kinetic < STOPPING_ENERGY * fastest
-            && half < STOPPING_LENGTH;
-        if stops {
+        let kinetic = self.progress.kinetic;
+        // Below this fraction of the largest kinetic energy, and of this half length, rad, a crank that seems to stop on
+        // the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
+        let (slow_share, short_half) = (0.1, 0.25);
+        let slows = kinetic < slow_share * fastest && panel.half().abs() < short_half;
+        if self.gives_up && why == Unsolved::Stops && slows {
             return Err(NotApplicable::TooSlow);
         }
         let Some([first, second]) = panel.parts(self.driven, 0.5, self.fine)? else {
-            // The forces may have produced this energy within a small part of a radian.
+            // The crank is near rest below this fraction of the largest kinetic energy, and where the forces may have
+            // produced its energy within so many radians.
+            let small = 1e-2;
             let force = panel.table.force[0] + panel.table.push[0];
-            return Err(if slow || self.progress.kinetic < NEAR_REST * force.abs() {
-                NotApplicable::TooSlow
-            } else {
-                NotApplicable::NotSmooth
-            });
+            return Err(
+                if kinetic < small * fastest || kinetic < small * force.abs() {
+                    NotApplicable::TooSlow
+                } else {
+                    NotApplicable::NotSmooth
+                },
+            );
         };
+        // Where the position-dependent forces do less work than this fraction of the kinetic energy, they are not the
+        // reason for the panel being too long: it will be too long in the next turn, too.
+        let small_work = 0.1;
         if for_now {
             self.parts.pop();
             self.parts.extend([second, first]);
-        } else if panel.failed
-            || panel.is_new() && panel.largest_work() < SMALL_WORK * self.progress.kinetic
-        {
+        } else if panel.failed || panel.is_new() && panel.largest_work() < small_work * kinetic {
             self.panels.splice(self.next..=self.next, [first, second]);
         } else {
             panel.failed = true;

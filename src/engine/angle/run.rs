@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::driving::{FEW_TURNS, work_until};
-use super::poincare_map;
+use super::driving::work_until;
+use super::poincare_map::{self, SINGLE_TURNS};
 use super::progress::Done;
 use super::stepper::PanelStepper;
 use super::{Driven, Driving, Errors, Goal, Resolution, Short};
@@ -48,7 +48,7 @@ pub fn run<D: Driven>(
             let why = NotApplicable::TooManyTurns;
             return Ok(ended(stepper, segment, (start, speed), why));
         }
-        if repeats && stepper.at_cycle() && stepper.progress.turns.abs() >= FEW_TURNS {
+        if repeats && stepper.at_cycle() && stepper.progress.turns.abs() >= SINGLE_TURNS {
             return poincare_map::run(stepper, segment, start, speed, goal, resolution);
         }
         let next = if segment.len() < MOST_PANELS {

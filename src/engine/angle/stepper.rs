@@ -8,7 +8,7 @@ use super::panel::{Fineness, PanelStart, PanelTable};
 use super::progress::{Done, Progress};
 use super::seen::hides;
 use super::solution::PanelSolution;
-use super::sweep::{SETTLED, Tails, sweep};
+use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
 use super::switch::{Side, begins_beyond, side};
 use super::{Driven, Panels, Resolution, turn};
 use crate::engine::WorkLimit;
@@ -195,7 +195,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         let guide = self.guide.as_mut().filter(|_| smooth);
         let of_guide = |guide: &mut Guide<'_>| {
             self.solution.kinetic = guide.kinetic(panel, self.progress.turns, start.kinetic)?;
-            Some(SETTLED * guide.tail)
+            Some(SWEEP_ERROR_SHARE * guide.tail)
         };
         let known = needs_none.or_else(|| guide.and_then(of_guide));
         if known.is_none() {

@@ -7,16 +7,8 @@ use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
-/// Most sweeps over a panel.
-const MOST_SWEEPS: u32 = 40;
-/// Error that the sweeps may leave, relative to the tail: it adds up over the turns.
-pub(super) const SETTLED: f64 = 1e-3;
-/// Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
-const ROUNDED: f64 = 2.0 * f64::EPSILON;
-/// Least convergence factor that a sweep is assumed to have.
-const LEAST_FACTOR: f64 = 1e-3;
-/// Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
-const REMAINDER: f64 = 0.25;
+/// Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns.
+pub(super) const SWEEP_ERROR_SHARE: f64 = 1e-3;
 
 /// Reason why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +38,19 @@ pub(super) fn sweep<D: Driven>(
 ) -> Result<(), Unsolved> {
     // Evaluations of driven loads cost more than the sweeps that they spare.
     let is_driven = driven.is_driven();
-    let settled = if is_driven {
-        SETTLED
+    let error_share = if is_driven {
+        SWEEP_ERROR_SHARE
     } else {
         // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
-        10.0 * SETTLED
+        10.0 * SWEEP_ERROR_SHARE
     };
+    // Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
+    let energy_rounding = 2.0 * f64::EPSILON;
+    let largest_error = (error_share * tails.sweeps).max(energy_rounding);
+    // Convergence factor that a sweep is assumed to have at least, however much the last one gained.
+    let least_factor = 1e-3;
+    // Sweeps that gain the factor SLOW_FACTOR each reach rounding after 30.
+    let most_sweeps = 40;
     solution.evaluations = 0;
     solution.share = 1.0;
     if panel.is_in_closed_form(driven) {
@@ -60,7 +59,7 @@ pub(super) fn sweep<D: Driven>(
     let mut newton = false;
     let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
-    for _ in 0..MOST_SWEEPS {
+    for _ in 0..most_sweeps {
         solution.evaluate(driven, panel, start)?;
         let mut change = solution.change(panel, start);
         newton = newton || linear && !solution.linearise(panel, &mut change);
@@ -79,7 +78,7 @@ pub(super) fn sweep<D: Driven>(
         let factor = if linear && !newton && !is_driven {
             largest
         } else if before.is_finite() {
-            (largest / before).max(LEAST_FACTOR)
+            (largest / before).max(least_factor)
         } else {
             panel.factor
         };
@@ -90,7 +89,7 @@ pub(super) fn sweep<D: Driven>(
                 solution.evaluate(driven, panel, start)?;
                 return solution.finish(panel, start, tails.series);
             }
-        } else if largest * factor <= (settled * tails.sweeps).max(ROUNDED) || at_rounding {
+        } else if largest * factor <= largest_error || at_rounding {
             if is_driven {
                 solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
@@ -101,7 +100,7 @@ pub(super) fn sweep<D: Driven>(
             solution.end = start.kinetic + solution.gain;
             return Ok(());
         } else if before.is_finite() {
-            panel.factor = (largest / before).max(LEAST_FACTOR);
+            panel.factor = (largest / before).max(least_factor);
             newton = panel.factor > SLOW_FACTOR;
         }
         before = largest;
@@ -200,7 +199,9 @@ impl PanelSolution {
         known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
         let noise = noise_of_angle(panel);
-        let wanted = (REMAINDER * tail).max(tail.min(SUM_ROUNDING));
+        // Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
+        let terms_per_error = 0.25;
+        let wanted = (terms_per_error * tail).max(tail.min(SUM_ROUNDING));
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }

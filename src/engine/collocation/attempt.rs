@@ -76,9 +76,6 @@ fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
     Some(alpha)
 }
 
-/// Time shift of the difference quotient of the acceleration, as a fraction of the step.
-const TIME_APART: f64 = 1e-3;
-
 impl Collocation<'_> {
     /// Scales an error of angle (rad) and speed (rad/s) by the tolerance.
     pub(super) fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
@@ -101,7 +98,8 @@ impl Collocation<'_> {
     /// Rejects a step as too long, and estimates the rounding error due to its times: no shorter step reduces it.
     pub(super) fn too_long(&mut self, h: f64, factor: f64) -> Failed {
         if self.motion.depends_on_time() {
-            let apart = TIME_APART * h;
+            // Time shift of the difference quotient of the acceleration: a small fraction of the step.
+            let apart = 1e-3 * h;
             let mut later = self.batch;
             later.t = later.t.map(|t| t + apart);
             later.of_time = later.t.map(|t| self.motion.of_time(t));

@@ -21,10 +21,6 @@ use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
 
-/// Bounds of the ratio of a step to the one before.
-const LEAST_FACTOR: f64 = 0.1;
-const GREATEST_FACTOR: f64 = 4.0;
-
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step and the number of steps.
 pub fn run(
@@ -44,6 +40,8 @@ pub fn run(
     let mut wanted = first_length(&node, settings.way);
     let (mut steps, mut at_corner) = (0, false);
     let mut hidden = f64::INFINITY;
+    // Bounds of the ratio of a step to the one before, and of its ratio to one that was too long.
+    let (least_factor, greatest_factor, greatest_retry) = (0.1, 4.0, 0.9);
     while state.t < settings.t_end {
         if hidden <= state.t {
             hidden = f64::INFINITY;
@@ -73,17 +71,19 @@ pub fn run(
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);
             }
-            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST_FACTOR, 0.9),
+            Err(Failed::TooLong(factor)) => {
+                wanted = h * factor.clamp(least_factor, greatest_retry);
+            }
             Err(Failed::Hides(at)) => hidden = state.t + at * h,
             Err(Failed::Meets { at, factor }) => {
                 hidden = state.t + at * h;
-                wanted = h * factor.clamp(LEAST_FACTOR, 0.9);
+                wanted = h * factor.clamp(least_factor, greatest_retry);
             }
             Ok(Accepted { step, next, factor }) => {
                 let whole = length >= way;
                 // A step cut short by a corner says little about the length of the next.
                 wanted = if whole || factor < 1.0 {
-                    length * factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
+                    length * factor.clamp(least_factor, greatest_factor)
                 } else {
                     wanted
                 };

@@ -10,17 +10,6 @@ use super::state::State;
 use super::tableau::Tableau;
 use crate::numeric::gauss::legendre_series;
 
-/// Most sweeps per step; a step that needs more is too long.
-const SWEEPS: usize = 14;
-/// Sweeps of a step of suitable length.
-const FEW_SWEEPS: usize = 9;
-/// Fraction of the tolerance that unconverged sweeps may leave.
-const LEFT_BY_SWEEPS: f64 = 1e-2;
-/// Fraction of a step beyond which a corner is too near its end to shorten a failed step to the corner.
-const WELL_INSIDE: f64 = 0.9;
-/// Relative rounding error of a state.
-const STATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
-
 /// Collocation method with the data that a step hands to the next.
 pub struct Collocation<'a> {
     pub(super) motion: &'a Counted<'a>,
@@ -84,7 +73,9 @@ impl<'a> Collocation<'a> {
         }
         let (step, ..) = self.finish(state, h, &coefficients);
         let found = self.hides(state, &step, &coefficients)?;
-        (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
+        // Nearer to the end, a corner is not the reason why the step is too long.
+        let last_position = 0.9;
+        (found.is_corner && found.at < last_position).then_some(found.at)
     }
 
     /// Tries a step from a state without a search for corners.
@@ -97,6 +88,12 @@ impl<'a> Collocation<'a> {
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
         let mut newton = None;
+        // Sweeps of a step of suitable length, and of one that is not yet too long.
+        let (few_sweeps, most_sweeps) = (9, 14);
+        // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
+        let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
+        // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
+        let (fast, slow) = (0.3, 0.7);
         loop {
             let guess = self.batch.alpha;
             self.motion.fill(&mut self.batch);
@@ -114,20 +111,20 @@ impl<'a> Collocation<'a> {
             let rate = change / before;
             // Change that the next sweep would make.
             let left = change * rate.min(1.0);
-            if sweeps > 1 && left <= LEFT_BY_SWEEPS && change < 1.0 {
+            if sweeps > 1 && left <= sweep_error && change < 1.0 {
                 break;
             }
             // Smaller changes are rounding.
-            if change <= STATE_ROUNDING / self.tolerance {
+            if change <= state_rounding / self.tolerance {
                 break;
             }
-            if sweeps > 2 && rate > 0.3 {
+            if sweeps > 2 && rate > fast {
                 let noise = self.rounding(state, h, &self.coefficients());
                 if change <= self.in_units(state, h * h * noise, h * noise) {
                     break;
                 }
             }
-            if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
+            if sweeps == most_sweeps || (sweeps > 2 && rate > slow) {
                 if self.steep {
                     // A steep slope due to a jump does not persist beyond it.
                     self.steep = false;
@@ -162,9 +159,9 @@ impl<'a> Collocation<'a> {
         if error > 1.0 {
             return Err(self.too_long(h, factor));
         }
-        if sweeps > FEW_SWEEPS {
+        if sweeps > few_sweeps {
             factor = factor.min(0.9);
-        } else if sweeps == FEW_SWEEPS {
+        } else if sweeps == few_sweeps {
             factor = factor.min(1.0);
         }
         if let Some(hidden) = self.hides(state, &step, &coefficients) {
@@ -232,7 +229,8 @@ impl<'a> Collocation<'a> {
         let h = step.length();
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
         let allowed = term.max(self.rounding(state, h, coefficients));
-        let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
+        // Fraction of the tolerance to which the terms of a load that the nodes resolve have decayed.
+        let (times, part) = ([state.t, state.t + h], 1e-2 * self.tolerance);
         let look = NodeCriterion {
             compares: true,
             ..NodeCriterion::at_step(times, NODES, part, allowed)

@@ -10,12 +10,6 @@ use crate::engine::angle::Driving;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
 
-/// Relative roundoff of times of the angle engine.
-pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
-
-/// Number of times of a run at which row errors are sampled.
-const LOOKED_AT: u32 = 64;
-
 /// Returns the error of the worst row of a run until a time (s), from samples over the run.
 pub(super) fn worst_row(
     end: f64,
@@ -24,7 +18,8 @@ pub(super) fn worst_row(
 ) -> ErrorEstimate {
     // Multiples of the golden section lie everywhere in panels, however these divide the run.
     let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * end);
+    let samples = 64;
+    let times = (1..=samples).map(|i| (f64::from(i) * golden).fract() * end);
     times.fold(last, |worst, t| worst.max(error(t)))
 }
 

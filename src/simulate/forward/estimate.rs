@@ -19,9 +19,7 @@ use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
 use super::arrived::{AnglePiece, Arrived, Sink};
 use super::engine_loop::Course;
-use super::errors_over_angle::{
-    PLACE_ROUNDING, TIME_ROUNDING, by_energy, late_by, row_error, worst_row,
-};
+use super::errors_over_angle::{PLACE_ROUNDING, by_energy, late_by, row_error, worst_row};
 use super::over_angle::finer;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
@@ -32,15 +30,8 @@ use crate::mechanism::{CurveEquation, Equation};
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// Rotation before the angle engine resumes in the second run, rad: different from that of the first.
-const OTHER_WAIT: f64 = 1.4 * TAU;
-/// Evaluations of the second run for one of the first, plus a constant, in time or over the angle, for tables.
-const FOR_ONE: u64 = 20;
-const BESIDE: [u64; 2] = [20_000, 200_000];
-/// Stated roundoff, in standard deviations.
-const DEVIATIONS: f64 = 2.0;
-/// Remaining part of an energy error that is neglected. Half or twice as much changes none of 200 random runs.
-const FORGOTTEN: f64 = 0.1;
+/// Stated roundoff, in standard deviations: exceeded by 5 % of normally distributed errors.
+const STATED_DEVIATIONS: f64 = 2.0;
 
 /// Estimates the global error of a run; none where no second run reaches the end.
 pub(super) fn estimate(
@@ -70,10 +61,12 @@ fn by_second_run(
     let t_end = arrived.now.t;
     let over_angle = arrived.over_angle > 0;
     let limit = course.settings.limit;
+    // Evaluations for one of the first run, and for short runs: those of tables over the angle, or of the first steps.
+    let (per_evaluation, at_least) = (20, if over_angle { 200_000 } else { 20_000 });
     let share = arrived
         .evaluations
-        .saturating_mul(FOR_ONE)
-        .saturating_add(BESIDE[usize::from(over_angle)]);
+        .saturating_mul(per_evaluation)
+        .saturating_add(at_least);
     let plain = Settings {
         t_end,
         limit: WorkLimit {
@@ -105,7 +98,8 @@ fn by_second_run(
             extent: Extent::Duration(t_end),
             resolution: finer(guide),
             settings,
-            wait: OTHER_WAIT,
+            // Another part of a turn than in the first run.
+            wait: 1.4 * TAU,
             ..course.clone()
         };
         let forward = CrankMotion(course.task.equation());
@@ -147,13 +141,15 @@ fn distance(
 ) -> ErrorEstimate {
     let Start { t, angle, speed } = arrived.now;
     let [angle_noise, speed_noise] =
-        of_crank(course, arrived, spread).map(|noise| DEVIATIONS * f64::EPSILON * noise);
+        of_crank(course, arrived, spread).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
+    // Of the angle engine, relative to the time.
+    let time_rounding = 2.5 * f64::EPSILON;
     let floor = match arrived.over_angle {
         0 => ErrorEstimate {
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(course.task, arrived.now, TIME_ROUNDING * t, PLACE_ROUNDING),
+        _ => late_by(course.task, arrived.now, time_rounding * t, PLACE_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
@@ -207,8 +203,10 @@ impl<'m, 'a> Second<'m, 'a> {
         let [inertia, then] = [from, to].map(|at| self.inertia(at));
         let [alpha, after] = [from, to].map(|at| self.acceleration(at));
         let energy = [-inertia * alpha, inertia * from.speed];
-        // A piece that loses nearly all of its energy forgets an energy error.
-        let by_energy = if errors.kept < FORGOTTEN {
+        // A piece that loses nearly all of its energy forgets an energy error. Half or twice this fraction changes none
+        // of 200 random runs.
+        let forgotten = 0.1;
+        let by_energy = if errors.kept < forgotten {
             0.0
         } else {
             errors.early
@@ -245,7 +243,7 @@ impl Sink for Second<'_, '_> {
         let errors = &driving.errors;
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
-        let unit = DEVIATIONS * f64::EPSILON;
+        let unit = STATED_DEVIATIONS * f64::EPSILON;
         let [late, off] = [errors.late, errors.off].map(|error| error / unit);
         let carried = self.rounding.spread.carried(&transition);
         self.rounding.spread = carried

@@ -9,23 +9,17 @@ use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
-use super::driving::{FEW_TURNS, work_until};
+use super::driving::work_until;
 use super::progress::Done;
 use super::stepper::PanelStepper;
 use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::WorkLimit;
 use crate::numeric::angle::Angle;
 
-/// Degree of the interpolation over the energy.
+/// Degree of the interpolation over the energy: a cell costs one turn more than this.
 const DEGREE: usize = 16;
-/// Largest width of a cell, relative to the energy at its start.
-const WIDEST: f64 = 0.5;
-/// Least width of a cell, relative to the energy at its start.
-const NARROWEST: f64 = 1e-7;
-/// Fraction of the allowed tail at which the width of the next cell aims.
-const SAFETY: f64 = 0.2;
-/// Most turns that are iterated; they take some seconds.
-const MOST_TURNS: f64 = 1e8;
+/// Turns computed one by one before the map takes over, and again where it ends: about what its first three cells cost.
+pub(super) const SINGLE_TURNS: f64 = 3.0 * DEGREE as f64;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Driven>(
@@ -46,7 +40,7 @@ pub(super) fn run<D: Driven>(
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
     let mut way = LastTurns {
         tail: resolution.tail,
-        width: WIDEST,
+        width: f64::INFINITY,
         rises: stepper.progress.gain > 0.0,
         lost: (stepper.progress.gain / stepper.progress.turns).abs()
             * f64::from(stepper.driven.cycle()),
@@ -123,6 +117,7 @@ struct LastTurns<'a, D: Driven> {
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
     tail: f64,
+    /// Width of the next cell, relative to the energy at its start.
     width: f64,
     /// True if the energy rises from turn to turn.
     rises: bool,
@@ -137,6 +132,10 @@ impl<D: Driven> LastTurns<'_, D> {
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
+        // A state between two kept marks takes that many evaluations of the map at most.
+        let turns_between_marks = 48.0;
+        // Iterated in some seconds.
+        let most_turns = 1e8;
         loop {
             let turn = match self.map.turn(mark.kinetic) {
                 Some(turn) => turn,
@@ -168,11 +167,11 @@ impl<D: Driven> LastTurns<'_, D> {
                 }
                 return (mark, None);
             }
-            if mark.turns - known.turns >= FEW_TURNS {
+            if mark.turns - known.turns >= turns_between_marks {
                 self.marks.push(mark);
                 known = mark;
             }
-            if mark.turns - first > MOST_TURNS {
+            if mark.turns - first > most_turns {
                 return (known, Some(NotApplicable::TooManyTurns));
             }
             if self.stepper.limit.is_reached(0) {
@@ -188,6 +187,11 @@ impl<D: Driven> LastTurns<'_, D> {
     /// Adds the cell that begins at this energy, J, and returns the turn from there; an error where the cell would
     /// serve fewer turns than it costs.
     fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
+        // Range of the width: the energies stay positive and differ by far more than rounding.
+        let (narrowest, widest) = (1e-7, 0.5);
+        // Tail at which the width of the next cell aims, as a fraction of the allowed one.
+        let aim = 0.2;
+        self.width = self.width.min(widest);
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
             let (low, high) = if self.rises {
@@ -198,9 +202,9 @@ impl<D: Driven> LastTurns<'_, D> {
             let tried = self.width;
             let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
                 Ok(cell) => {
-                    let share = SAFETY * self.tail / cell.tail();
+                    let share = aim * self.tail / cell.tail();
                     let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
-                    self.width = (factor * tried).min(WIDEST);
+                    self.width = (factor * tried).min(widest);
                     if cell.tail() <= self.tail {
                         let turn = cell.turn(kinetic);
                         self.map.cells.push(cell);
@@ -215,7 +219,7 @@ impl<D: Driven> LastTurns<'_, D> {
             };
             let narrows = matches!(why, NotApplicable::TooSlow | NotApplicable::NotSmooth);
             let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
-            if !narrows || !pays || tried <= NARROWEST {
+            if !narrows || !pays || tried <= narrowest {
                 return Err(why);
             }
         }
@@ -233,7 +237,7 @@ impl<D: Driven> LastTurns<'_, D> {
         self.stepper.gives_up = true;
         let most = match map_ended {
             None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
-            Some(_) => FEW_TURNS,
+            Some(_) => SINGLE_TURNS,
         };
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
