@@ -89,9 +89,9 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     })
 }
 
-/// Evaluated cycle.
+/// Energy gained by a cycle.
 #[derive(Clone, Copy, Debug)]
-struct Looked {
+struct CycleGain {
     /// Kinetic energy at the start, J.
     kinetic: f64,
     /// Energy gained, J.
@@ -131,9 +131,9 @@ fn slope_over(
 }
 
 /// Evaluates a cycle; none if the crank does not complete it.
-fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
+fn evaluate(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<CycleGain>, NoCycle> {
     match map.gain(kinetic) {
-        Ok(gain) => Ok(Some(Looked { kinetic, gain })),
+        Ok(gain) => Ok(Some(CycleGain { kinetic, gain })),
         Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
         Err(why) => Err(why.into()),
     }
@@ -144,11 +144,11 @@ fn bracket(
     map: &mut dyn CycleMap,
     first: f64,
     step: f64,
-) -> Result<(Looked, Looked, bool), NoCycle> {
-    let at_first = look(map, first)?;
-    let gain = at_first.map(|looked| looked.gain);
-    if let Some(looked) = at_first.filter(|looked| looked.gain <= 0.0)
-        && let Some((low, high)) = below(map, looked, step)?
+) -> Result<(CycleGain, CycleGain, bool), NoCycle> {
+    let at_first = evaluate(map, first)?;
+    let gain = at_first.map(|cycle| cycle.gain);
+    if let Some(cycle) = at_first.filter(|cycle| cycle.gain <= 0.0)
+        && let Some((low, high)) = below(map, cycle, step)?
     {
         return Ok((low, high, true));
     }
@@ -170,18 +170,18 @@ fn longer(step: f64) -> f64 {
 /// Returns the nearest bracket below a cycle that loses.
 fn below(
     map: &mut dyn CycleMap,
-    first: Looked,
-    step: f64,
-) -> Result<Option<(Looked, Looked)>, NoCycle> {
-    let (mut high, mut step) = (first, step);
+    first: CycleGain,
+    mut step: f64,
+) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
+    let mut high = first;
     if first.gain == 0.0 {
         return Ok(Some((first, first)));
     }
     while is_in_range(first.kinetic / high.kinetic) {
         let kinetic = high.kinetic * (-step).exp();
-        match look(map, kinetic)? {
-            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, high))),
-            Some(looked) => high = looked,
+        match evaluate(map, kinetic)? {
+            Some(cycle) if cycle.gain >= 0.0 => return Ok(Some((cycle, high))),
+            Some(cycle) => high = cycle,
             None => return near_stop(map, kinetic, high),
         }
         step = longer(step);
@@ -192,18 +192,18 @@ fn below(
 /// Returns the nearest bracket above the first energy.
 fn above(
     map: &mut dyn CycleMap,
-    at_first: Option<Looked>,
+    at_first: Option<CycleGain>,
     first: f64,
-    step: f64,
-) -> Result<(Looked, Looked), NoCycle> {
-    let (mut kinetic, mut step) = (first, step);
+    mut step: f64,
+) -> Result<(CycleGain, CycleGain), NoCycle> {
+    let mut kinetic = first;
     let (mut gains, mut stops, mut turned) = (None, None, false);
-    let mut looked = at_first;
+    let mut cycle = at_first;
     while is_in_range(kinetic / first) {
-        turned |= looked.is_some();
-        match looked {
+        turned |= cycle.is_some();
+        match cycle {
             None => (gains, stops) = (None, Some(kinetic)),
-            Some(looked) if looked.gain >= 0.0 => gains = Some(looked),
+            Some(cycle) if cycle.gain >= 0.0 => gains = Some(cycle),
             Some(loses) => {
                 if let Some(low) = gains {
                     return Ok((low, loses));
@@ -217,7 +217,7 @@ fn above(
         }
         kinetic *= step.exp();
         step = longer(step);
-        looked = look(map, kinetic)?;
+        cycle = evaluate(map, kinetic)?;
     }
     Err(match (gains, turned) {
         (Some(_), _) => NoCycle::Gains,
@@ -230,18 +230,17 @@ fn above(
 /// Returns a bracket between an energy at which the cycle is not completed and a cycle that loses.
 fn near_stop(
     map: &mut dyn CycleMap,
-    stops: f64,
-    loses: Looked,
-) -> Result<Option<(Looked, Looked)>, NoCycle> {
-    let (mut stops, mut loses) = (stops, loses);
+    mut stops: f64,
+    mut loses: CycleGain,
+) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
     // A search step halved so often is 4e-13 of the energy.
     let halvings = 40;
     for _ in 0..halvings {
         let kinetic = (stops * loses.kinetic).sqrt();
-        match look(map, kinetic)? {
+        match evaluate(map, kinetic)? {
             None => stops = kinetic,
-            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, loses))),
-            Some(looked) => loses = looked,
+            Some(cycle) if cycle.gain >= 0.0 => return Ok(Some((cycle, loses))),
+            Some(cycle) => loses = cycle,
         }
     }
     Ok(None)

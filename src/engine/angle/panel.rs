@@ -3,7 +3,7 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
-use super::{Driven, State, Table};
+use super::{AngleDynamics, State, Table};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
@@ -80,8 +80,8 @@ pub(super) const FIRST_DEGREE: usize = 24;
 impl<P: Copy> PanelTable<P> {
     /// Makes the panel between two angles (rad); its degree is the least that resolves inertia and forces, after a
     /// trial with the degree `first`.
-    pub fn new<D: Driven<Place = P>>(
-        driven: &D,
+    pub fn new<D: AngleDynamics<Place = P>>(
+        dynamics: &D,
         turns: f64,
         ends: [f64; 2],
         side: f64,
@@ -89,15 +89,15 @@ impl<P: Copy> PanelTable<P> {
         first: usize,
     ) -> Result<Self, NotApplicable> {
         let mut panel = Self::empty(turns, ends, Rule::of(first), side);
-        panel.tabulate(driven)?;
-        panel.resolve(driven, fine, MAX_DEGREE)?;
+        panel.tabulate(dynamics)?;
+        panel.resolve(dynamics, fine, MAX_DEGREE)?;
         Ok(panel)
     }
 
     /// Sets the least degree that resolves inertia and forces, or `most`; true if they are resolved.
-    pub fn resolve<D: Driven<Place = P>>(
+    pub fn resolve<D: AngleDynamics<Place = P>>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         fine: Fineness,
         most: usize,
     ) -> Result<bool, NotApplicable> {
@@ -115,7 +115,7 @@ impl<P: Copy> PanelTable<P> {
             let degree = enough.unwrap_or(next);
             if degree != tried {
                 self.rule = Rule::of(degree);
-                self.tabulate(driven)?;
+                self.tabulate(dynamics)?;
             }
             if enough.is_some() {
                 return Ok(true);
@@ -145,9 +145,9 @@ impl<P: Copy> PanelTable<P> {
 
     /// Makes the rest of the panel from an angle (rad) on, after switching number `index`, for the other side; `known`
     /// is the same rest in the last turn.
-    pub fn rest<D: Driven<Place = P>>(
+    pub fn rest<D: AngleDynamics<Place = P>>(
         &self,
-        driven: &D,
+        dynamics: &D,
         from: f64,
         index: usize,
         known: Option<&Rest>,
@@ -155,11 +155,11 @@ impl<P: Copy> PanelTable<P> {
     ) -> Result<Self, NotApplicable> {
         let ends = [from, self.piece.to];
         let mut panel = match known {
-            None => Self::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
+            None => Self::new(dynamics, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
                 let mut panel = Self::empty(self.turns, ends, known.rule, -self.side);
                 panel.past.remember(&known.kinetic);
-                panel.tabulate(driven)?;
+                panel.tabulate(dynamics)?;
                 panel
             }
         };
@@ -174,17 +174,23 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Changes to the other side of the switch.
-    pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), NotApplicable> {
+    pub fn turn_over<D: AngleDynamics<Place = P>>(
+        &mut self,
+        dynamics: &D,
+    ) -> Result<(), NotApplicable> {
         self.side = -self.side;
         self.past.forget();
-        self.tabulate(driven)
+        self.tabulate(dynamics)
     }
 
-    pub fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), NotApplicable> {
+    pub fn tabulate<D: AngleDynamics<Place = P>>(
+        &mut self,
+        dynamics: &D,
+    ) -> Result<(), NotApplicable> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
-        driven.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
+        dynamics.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
         let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
         let forces = self.table.force[..count].iter();
         self.largest_force = forces.fold(0.0, |largest, force| largest.max(force.abs()));
@@ -233,20 +239,23 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Raises the degree to the next; false if there is none.
-    pub fn raise<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<bool, NotApplicable> {
+    pub fn raise<D: AngleDynamics<Place = P>>(
+        &mut self,
+        dynamics: &D,
+    ) -> Result<bool, NotApplicable> {
         let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
             return Ok(false);
         };
         self.rule = Rule::of(*next);
         self.past.forget();
-        self.tabulate(driven)?;
+        self.tabulate(dynamics)?;
         Ok(true)
     }
 
     /// Cuts the panel at the fraction `share`; none if it is too short.
-    pub fn parts<D: Driven<Place = P>>(
+    pub fn parts<D: AngleDynamics<Place = P>>(
         &self,
-        driven: &D,
+        dynamics: &D,
         share: f64,
         fine: Fineness,
     ) -> Result<Option<[Self; 2]>, NotApplicable> {
@@ -255,7 +264,7 @@ impl<P: Copy> PanelTable<P> {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let part = |ends| Self::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
+        let part = |ends| Self::new(dynamics, self.turns, ends, self.side, fine, FIRST_DEGREE);
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 

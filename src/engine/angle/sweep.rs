@@ -1,6 +1,6 @@
 //! Collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at its points, by Picard iteration and Newton's method.
 
-use super::Driven;
+use super::AngleDynamics;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{Rule, Values, largest};
@@ -29,16 +29,16 @@ pub(super) struct Tails {
 }
 
 /// Solves a panel from the guess of the kinetic energy at its points in `solution`.
-pub(super) fn sweep<D: Driven>(
-    driven: &D,
+pub(super) fn sweep<D: AngleDynamics>(
+    dynamics: &D,
     panel: &mut PanelTable<D::Place>,
     start: PanelStart,
     tails: Tails,
     solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
-    // Evaluations of driven loads cost more than the sweeps that they spare.
-    let is_driven = driven.is_driven();
-    let error_share = if is_driven {
+    // Evaluations of state loads cost more than the sweeps that they spare.
+    let has_state_loads = dynamics.has_state_loads();
+    let error_share = if has_state_loads {
         SWEEP_ERROR_SHARE
     } else {
         // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
@@ -53,18 +53,18 @@ pub(super) fn sweep<D: Driven>(
     let most_sweeps = 40;
     solution.evaluations = 0;
     solution.share = 1.0;
-    if panel.is_in_closed_form(driven) {
-        return solution.take_undamped(driven, panel, start, tails);
+    if panel.is_in_closed_form(dynamics) {
+        return solution.take_undamped(dynamics, panel, start, tails);
     }
     let mut newton = false;
     let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
     for _ in 0..most_sweeps {
-        solution.evaluate(driven, panel, start)?;
+        solution.evaluate(dynamics, panel, start)?;
         let mut change = solution.change(panel, start);
         newton = newton || linear && !solution.linearise(panel, &mut change);
         if newton {
-            let rates = solution.forces.rates(driven, panel, start);
+            let rates = solution.forces.rates(dynamics, panel, start);
             correction(panel.rule, panel.half(), &rates, &mut change).ok_or(Unsolved::TooLong)?;
             keep_positive(&solution.kinetic, &mut change);
         }
@@ -75,7 +75,7 @@ pub(super) fn sweep<D: Driven>(
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
         // the forces depend on the square root of the kinetic energy or on the energy itself.
-        let factor = if linear && !newton && !is_driven {
+        let factor = if linear && !newton && !has_state_loads {
             largest
         } else if before.is_finite() {
             (largest / before).max(least_factor)
@@ -86,14 +86,14 @@ pub(super) fn sweep<D: Driven>(
         let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
-                solution.evaluate(driven, panel, start)?;
+                solution.evaluate(dynamics, panel, start)?;
                 return solution.finish(panel, start, tails.series);
             }
         } else if largest * factor <= largest_error || at_rounding {
-            if is_driven {
+            if has_state_loads {
                 solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
-                solution.evaluate(driven, panel, start)?;
+                solution.evaluate(dynamics, panel, start)?;
             }
             solution.finish(panel, start, tails.series)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
@@ -128,21 +128,21 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 
 impl PanelSolution {
     /// Evaluates the forces at the present kinetic energy.
-    fn evaluate<D: Driven>(
+    fn evaluate<D: AngleDynamics>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
     ) -> Result<(), Unsolved> {
         self.evaluations += panel.rule.degree() as u64 + 1;
-        let known = self.forces.evaluate(driven, panel, start, &self.kinetic);
+        let known = self.forces.evaluate(dynamics, panel, start, &self.kinetic);
         known.ok_or(Unsolved::TooLong)
     }
 
     /// Computes the motion in closed form.
-    fn take_undamped<D: Driven>(
+    fn take_undamped<D: AngleDynamics>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
         tails: Tails,
@@ -152,7 +152,7 @@ impl PanelSolution {
         if points.iter().any(|kinetic| *kinetic <= 0.0) {
             return Err(Unsolved::Stops);
         }
-        self.evaluate(driven, panel, start)?;
+        self.evaluate(dynamics, panel, start)?;
         self.finish(panel, start, tails.series)
     }
 

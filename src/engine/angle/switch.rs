@@ -2,53 +2,53 @@
 
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::solution::PanelSolution;
-use super::{Driven, Switch};
+use super::{AngleDynamics, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::maximum;
 use crate::numeric::root;
 
-/// Behaviour of the switch on a panel.
+/// Change of the motion on a panel to the other side of the switch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Side {
+pub(super) enum Switching {
     /// Motion on the side of the panel throughout.
-    Stays,
+    Never,
     /// Motion on the other side from the start.
-    Other,
+    AtStart,
     /// Motion that changes to the other side at this fraction of the panel.
-    Leaves(f64),
+    At(f64),
 }
 
-/// Determines the side of the motion on a panel that was solved for one side.
-pub(super) fn side<D: Driven>(
-    driven: &D,
+/// Determines the switching of the motion on a panel that was solved for one side.
+pub(super) fn switching<D: AngleDynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     solution: &PanelSolution,
-) -> Side {
+) -> Switching {
     let Some(switch) = &panel.table.switch else {
-        return Side::Stays;
+        return Switching::Never;
     };
-    let (values, noise) = values(driven, switch, panel, start, solution);
+    let (values, noise) = values(dynamics, switch, panel, start, solution);
     let Some(x) = first_below(panel, &values, noise) else {
-        return Side::Stays;
+        return Switching::Never;
     };
     let length = 2.0 * panel.half().abs();
     let share = 0.5 * (x + 1.0);
     if share * length < SHORTEST_PANEL {
-        Side::Other
+        Switching::AtStart
     } else if (1.0 - share) * length < SHORTEST_PANEL {
-        Side::Stays
+        Switching::Never
     } else {
-        Side::Leaves(share)
+        Switching::At(share)
     }
 }
 
 /// True if the motion starts on the other side of the switch, judged at the start alone: under a steep loss the wrong
 /// side produces a transient, which is harder to resolve than the motion.
-pub(super) fn begins_beyond<D: Driven>(
-    driven: &D,
+pub(super) fn begins_beyond<D: AngleDynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
 ) -> bool {
@@ -56,8 +56,8 @@ pub(super) fn begins_beyond<D: Driven>(
         return false;
     };
     let speed = start.direction * (start.kinetic * panel.mobility[0]).sqrt();
-    let others = if driven.is_driven() {
-        driven.drive_switch(&panel.state(start.turns, 0, start.t, speed))
+    let others = if dynamics.has_state_loads() {
+        dynamics.switch_of_state_loads(&panel.state(start.turns, 0, start.t, speed))
     } else {
         0.0
     };
@@ -85,8 +85,8 @@ impl PanelSolution {
 }
 
 /// Returns the switch at the points, positive on the side of the panel, and its rounding error.
-fn values<D: Driven>(
-    driven: &D,
+fn values<D: AngleDynamics>(
+    dynamics: &D,
     switch: &Switch,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
@@ -102,15 +102,15 @@ fn values<D: Driven>(
         rate[j] = switch.rate[j] * speed;
         square[j] = switch.square[j] * speed * speed;
     }
-    if driven.is_driven() {
-        let times = if driven.reads_time() {
+    if dynamics.has_state_loads() {
+        let times = if dynamics.reads_time() {
             panel.rule.integrals(&solution.slopes)
         } else {
             [0.0; MAX_DEGREE + 1]
         };
         for j in 0..count {
             let at = [start.t + times[j], speeds[j]];
-            others[j] = driven.drive_switch(&panel.state(start.turns, j, at[0], at[1]));
+            others[j] = dynamics.switch_of_state_loads(&panel.state(start.turns, j, at[0], at[1]));
         }
     }
     let size = parts.each_ref().map(|part| largest(part));

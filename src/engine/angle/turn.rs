@@ -1,6 +1,6 @@
 //! Construction of the panels of one cycle.
 
-use super::Driven;
+use super::AngleDynamics;
 use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
@@ -9,26 +9,26 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 use std::f64::consts::TAU;
 
 /// Makes the panels of one cycle, which end at the corners.
-pub(super) fn panels<D: Driven>(
-    driven: &D,
+pub(super) fn panels<D: AngleDynamics>(
+    dynamics: &D,
     start: Angle,
     fine: Fineness,
     cuts: &[f64],
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
-    let (few, all) = (driven.corners(), driven.corners_if_light());
+    let (few, all) = (dynamics.corners(), dynamics.corners_if_light());
     if few.len() < all.len() {
         // Beyond this degree more panels cost no more.
-        let heavy = between(driven, few, start, fine, cuts, FIRST_DEGREE)?;
+        let heavy = between(dynamics, few, start, fine, cuts, FIRST_DEGREE)?;
         if let Some(list) = heavy {
             return Ok(list);
         }
     }
-    Ok(between(driven, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
+    Ok(between(dynamics, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
 }
 
 /// Makes the panels between corners, cut at fractions `cuts` up to 1; none if one is not resolved at degree `most`.
-fn between<D: Driven>(
-    driven: &D,
+fn between<D: AngleDynamics>(
+    dynamics: &D,
     corners: &[f64],
     start: Angle,
     fine: Fineness,
@@ -37,10 +37,10 @@ fn between<D: Driven>(
 ) -> Result<Option<Vec<PanelTable<D::Place>>>, NotApplicable> {
     let direction = fine.speed.signum();
     let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
-    let cycle = f64::from(driven.cycle());
+    let cycle = f64::from(dynamics.cycle());
     // Origin of the corners; for a cycle of one turn the whole turns do not matter.
     let phase = start.turns.rem_euclid(cycle) * TAU + start.rest;
-    for turn in 0..driven.cycle() {
+    for turn in 0..dynamics.cycle() {
         let before = f64::from(turn);
         let mut ends: Vec<f64> = corners
             .iter()
@@ -66,8 +66,8 @@ fn between<D: Driven>(
                 // The degree of the neighbour is likely to suffice.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
                 let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
-                panel.tabulate(driven)?;
-                if !panel.resolve(driven, fine, most)? && most < MAX_DEGREE {
+                panel.tabulate(dynamics)?;
+                if !panel.resolve(dynamics, fine, most)? && most < MAX_DEGREE {
                     return Ok(None);
                 }
                 list.push(panel);

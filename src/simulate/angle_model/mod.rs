@@ -10,7 +10,7 @@ use super::guide_friction::{GuideFriction, GuideGain, Spot};
 use super::marks::{Marks, SAME_ANGLE, in_order};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{Driven, Panels, State, Table};
+use crate::engine::angle::{AngleDynamics, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
@@ -127,7 +127,7 @@ impl<'a> AngleModel<'a> {
     }
 }
 
-impl Driven for AngleModel<'_> {
+impl AngleDynamics for AngleModel<'_> {
     type Place = Spot;
 
     fn positions(&self) -> u64 {
@@ -143,7 +143,7 @@ impl Driven for AngleModel<'_> {
     ) {
         self.count(count);
         let loads = self.equation.loads();
-        let driven = self.is_driven();
+        let driven = self.has_state_loads();
         let mut guided = None;
         let at = match self.guide {
             None => self.equation.first_terms(angles, count),
@@ -185,7 +185,7 @@ impl Driven for AngleModel<'_> {
         self.cycle
     }
 
-    fn is_driven(&self) -> bool {
+    fn has_state_loads(&self) -> bool {
         self.equation.loads().have_nonlinear_rates()
     }
 
@@ -193,7 +193,7 @@ impl Driven for AngleModel<'_> {
         self.equation.loads().reads().has(Variable::T)
     }
 
-    fn drive<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
+    fn state_loads<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
         let now = Spot::instants(at);
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
@@ -205,7 +205,7 @@ impl Driven for AngleModel<'_> {
     }
 
     fn has_detail(&self) -> bool {
-        self.is_driven() && self.equation.loads().have_detail()
+        self.has_state_loads() && self.equation.loads().have_detail()
     }
 
     fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
@@ -219,7 +219,7 @@ impl Driven for AngleModel<'_> {
         loads.detail_of_state(&seen, arms, ellipse)
     }
 
-    fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {
+    fn switch_of_state_loads(&self, at: &State<'_, Spot>) -> f64 {
         let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
         at.place.gain.pressed(load)
     }

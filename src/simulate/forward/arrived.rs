@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::super::configuration_curve::{End, Observer, OnCurve};
 use crate::engine::Counted;
-use crate::engine::angle::Driving;
+use crate::engine::angle::AngleRun;
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
@@ -38,7 +38,7 @@ pub(super) trait Sink: Observer {
 
 /// Piece over the crank angle, placed in the time of the run.
 pub(super) struct AnglePiece {
-    pub driving: Driving,
+    pub driving: AngleRun,
     pub engine: Engine,
     pub from: Start,
     pub to: Start,

@@ -6,7 +6,7 @@ use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::MARGIN;
 use super::arrived::Arrived;
-use crate::engine::angle::Driving;
+use crate::engine::angle::AngleRun;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
 
@@ -42,7 +42,7 @@ pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> 
 /// Returns the error of the last state and of the worst row of the energy engine.
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
-    driving: &Driving,
+    driving: &AngleRun,
     arrived: &Arrived,
     wants_rows: bool,
 ) -> Estimate {

@@ -206,17 +206,18 @@ impl<'m, 'a> Second<'m, 'a> {
         // A piece that loses nearly all of its energy forgets an energy error. Half or twice this fraction changes none
         // of 200 random runs.
         let forgotten = 0.1;
-        let by_energy = if errors.kept < forgotten {
+        let by_energy = if errors.retained < forgotten {
             0.0
         } else {
-            errors.early
+            errors.advance
         };
         let early = [
             1.0 / from.speed + by_energy * energy[0],
             by_energy * energy[1],
         ];
         let angle = early.map(|early| to.speed * early);
-        let speed = [0, 1].map(|k| (errors.kept * energy[k] / then + after * angle[k]) / to.speed);
+        let speed =
+            [0, 1].map(|k| (errors.retained * energy[k] / then + after * angle[k]) / to.speed);
         [angle, speed]
     }
 
@@ -244,7 +245,7 @@ impl Sink for Second<'_, '_> {
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
         let unit = STATED_DEVIATIONS * f64::EPSILON;
-        let [late, off] = [errors.late, errors.off].map(|error| error / unit);
+        let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
         let carried = self.rounding.spread.carried(&transition);
         self.rounding.spread = carried
             .along(speed * late, self.acceleration(&to) * late)

@@ -10,7 +10,7 @@ use super::super::stop;
 use super::arrived::{AnglePiece, PieceEnd};
 use super::engine_loop::Pass;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{self, Driving, Goal, Guide, Resolution};
+use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::error::Error;
@@ -42,7 +42,7 @@ impl Pass<'_, '_> {
         }
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
-        let driving = Driving::whole(orbit, t, work);
+        let driving = AngleRun::whole(orbit, t, work);
         self.drove(Engine::Energy, reason, driving, Start { t, angle, speed })?;
         Ok(PieceEnd::Ended)
     }
@@ -53,9 +53,10 @@ impl Pass<'_, '_> {
         let from = self.arrived.now;
         let driving = match self.drive() {
             // Past its limits a crank that does not turn fully is followed from the start.
-            Ok(Driving {
-                short: Some(short), ..
-            }) if !course.task.turns_fully() => Err(short.why),
+            Ok(AngleRun {
+                early_end: Some(end),
+                ..
+            }) if !course.task.turns_fully() => Err(end.why),
             driving => driving,
         };
         let driving = match driving {
@@ -65,29 +66,29 @@ impl Pass<'_, '_> {
                 return Ok(PieceEnd::NotApplicable(why));
             }
         };
-        let short = driving.short;
-        let t = match (course.extent, short) {
+        let early_end = driving.early_end;
+        let t = match (course.extent, early_end) {
             (Extent::Duration(duration), None) => duration,
             _ => from.t + driving.end,
         };
-        let (angle, speed) = match short {
+        let (angle, speed) = match early_end {
             None => driving.orbit.state(driving.end),
-            Some(short) => {
-                let inertia = course.task.equation().terms(short.angle.rest).inertia.m;
-                let speed = (2.0 * short.kinetic / inertia).sqrt();
-                (short.angle.reduced(), from.speed.signum() * speed)
+            Some(end) => {
+                let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
+                let speed = (2.0 * end.kinetic / inertia).sqrt();
+                (end.angle.reduced(), from.speed.signum() * speed)
             }
         };
-        if short.is_some() {
+        if early_end.is_some() {
             let way = angle.minus(from.angle).abs();
             let soon = way < 2.0 * self.wait;
             self.wait = if soon { 2.0 * self.wait } else { course.wait };
         }
         self.drove(Engine::Angle, reason, driving, Start { t, angle, speed })?;
-        Ok(short.map_or(PieceEnd::Ended, |short| PieceEnd::NotApplicable(short.why)))
+        Ok(early_end.map_or(PieceEnd::Ended, |end| PieceEnd::NotApplicable(end.why)))
     }
 
-    fn drive(&self) -> Result<Driving, NotApplicable> {
+    fn drive(&self) -> Result<AngleRun, NotApplicable> {
         let course = self.course;
         let now = self.arrived.now;
         let goal = match course.extent {
@@ -109,7 +110,7 @@ impl Pass<'_, '_> {
         &mut self,
         engine: Engine,
         reason: Cow<'static, str>,
-        driving: Driving,
+        driving: AngleRun,
         to: Start,
     ) -> Result<(), Error> {
         self.keep();

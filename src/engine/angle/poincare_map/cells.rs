@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::Driven;
-use super::super::progress::Progress;
-use super::super::seen::at_speeds;
+use super::super::AngleDynamics;
+use super::super::load_resolution::resolves_speeds;
 use super::super::stepper::PanelStepper;
 use super::{DEGREE, LastTurns};
 use crate::engine::energy::NotApplicable;
@@ -14,7 +13,7 @@ use crate::engine::sight::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
-impl<D: Driven> LastTurns<'_, D> {
+impl<D: AngleDynamics> LastTurns<'_, D> {
     /// Computes the cell over the energies middle ± half, J.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
         let rule = Rule::of(DEGREE);
@@ -26,7 +25,9 @@ impl<D: Driven> LastTurns<'_, D> {
             speeds = Some(speeds.map_or(its, |all| all.hull(its)));
             // All turns of a cell have the same panels.
             if self.stepper.progress.refined {
-                self.stepper.settle()?;
+                self.stepper
+                    .panels
+                    .cut_failed(self.stepper.dynamics, self.stepper.fine)?;
                 turns.clear();
             } else {
                 turns.push(turn);
@@ -40,35 +41,40 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// True if the energies of a cell around `middle`, J, resolve the loads at all speeds in the range (rad/s).
     fn shows(&self, speeds: Interval, middle: f64) -> bool {
-        let PanelStepper { driven, panels, .. } = &self.stepper;
+        let PanelStepper {
+            dynamics,
+            panels,
+            fine,
+            ..
+        } = &self.stepper;
         let look = NodeCriterion {
             nodes: DEGREE,
-            ellipses: ellipses(DEGREE, self.tail),
-            allowed: self.tail * middle / TAU,
+            ellipses: ellipses(DEGREE, fine.tail),
+            allowed: fine.tail * middle / TAU,
             least: 0.0,
             compares: false,
         };
-        !driven.has_detail()
+        !dynamics.has_detail()
             || panels
+                .panels
                 .iter()
-                .all(|panel| at_speeds(*driven, panel, speeds, look))
+                .all(|panel| resolves_speeds(*dynamics, panel, speeds, look))
     }
 
     /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
     fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
-        self.stepper.gives_up = false;
         let mut speeds: Option<Interval> = None;
-        self.stepper.restart(kinetic);
+        self.stepper.restart(kinetic, false);
         let mut segment = Segment::open();
         loop {
             segment.push(self.stepper.panel()?.panel);
             let here = self.stepper.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
-            if self.stepper.progress.hid {
+            if self.stepper.progress.missed_load {
                 // Panels that end at a position specific to this energy make its turn unlike the others.
                 return Err(NotApplicable::NotSmooth);
             }
-            if self.stepper.at_cycle() {
+            if self.stepper.panels.at_cycle() {
                 break;
             }
         }
@@ -79,15 +85,5 @@ impl<D: Driven> LastTurns<'_, D> {
             work: self.stepper.progress.work,
         };
         Ok(((segment, turn), speeds.unwrap_or_default()))
-    }
-}
-
-impl<D: Driven> PanelStepper<'_, D> {
-    /// Restarts at the start of a cycle with another kinetic energy, J.
-    pub fn restart(&mut self, kinetic: f64) {
-        self.parts.clear();
-        self.guide = None;
-        self.next = 0;
-        self.progress = Progress::at(kinetic, 0.0);
     }
 }

@@ -9,12 +9,12 @@ use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
-use super::driving::work_until;
-use super::progress::Done;
+use super::angle_run::work_until;
+use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{Driven, Driving, Errors, Goal, Resolution, Short};
+use super::{AngleDynamics, AngleRun, EarlyEnd, Errors, Goal};
 use crate::engine::WorkLimit;
-use crate::numeric::angle::Angle;
+use crate::engine::run_in_time::Start;
 
 /// Degree of the interpolation over the energy: a cell costs one turn more than this.
 const DEGREE: usize = 16;
@@ -22,14 +22,12 @@ const DEGREE: usize = 16;
 pub(super) const SINGLE_TURNS: f64 = 3.0 * DEGREE as f64;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
-pub(super) fn run<D: Driven>(
+pub(super) fn run<D: AngleDynamics>(
     stepper: PanelStepper<'_, D>,
     segment: Segment,
-    start: Angle,
-    speed: f64,
     goal: Goal,
-    resolution: Resolution<'_>,
-) -> Result<Driving, NotApplicable> {
+) -> Result<AngleRun, NotApplicable> {
+    let Start { angle, speed, .. } = stepper.start;
     let mark = Mark {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,
@@ -38,12 +36,11 @@ pub(super) fn run<D: Driven>(
         low: [0.0; 2],
     };
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
-    let mut way = LastTurns {
-        tail: resolution.tail,
+    let mut turns = LastTurns {
         width: f64::INFINITY,
         rises: stepper.progress.gain > 0.0,
         lost: (stepper.progress.gain / stepper.progress.turns).abs()
-            * f64::from(stepper.driven.cycle()),
+            * f64::from(stepper.dynamics.cycle()),
         stepper,
         map: Interpolated {
             cells: Vec::new(),
@@ -52,71 +49,68 @@ pub(super) fn run<D: Driven>(
         marks: vec![mark],
         last: Segment::open(),
     };
-    let (last, why) = way.turn_of(goal);
-    let ended = way.last_turns(&last, goal, start, why)?;
-    let evaluations = way.stepper.evaluations;
-    let kinetic = way.stepper.progress.kinetic;
-    let before = last.work + way.stepper.progress.work;
-    let short = match &ended {
+    let (last, why) = turns.turn_of(goal);
+    let ended = turns.last_turns(&last, goal, why)?;
+    let LastTurns { stepper, .. } = turns;
+    let before = last.work + stepper.progress.work;
+    let early_end = match &ended {
         MapEnd::AtGoal(_) => None,
-        MapEnd::Short(why) => {
-            let turns = start.turns + speed.signum() * last.turns;
-            let angle = way.last.last_angle(turns);
-            angle.map(|angle| Short {
+        MapEnd::Early(why) => {
+            let whole = angle.turns + speed.signum() * last.turns;
+            turns.last.last_angle(whole).map(|angle| EarlyEnd {
                 why: *why,
                 angle,
-                kinetic,
+                kinetic: stepper.progress.kinetic,
             })
         }
     };
     let turns = Turns {
-        map: Map::Interpolated(way.map),
-        marks: way.marks,
-        last: way.last,
+        map: Map::Interpolated(turns.map),
+        marks: turns.marks,
+        last: turns.last,
         recent: Recent::default(),
         error: 0.0,
     };
-    let orbit = Orbit::of_turns(start, speed, segment, turns);
+    let orbit = Orbit::of_turns(angle, speed, segment, turns);
     let end = match goal {
-        _ if short.is_some() => orbit.length(),
+        _ if early_end.is_some() => orbit.length(),
         Goal::Time(until) => until,
         Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
     };
     let work = match ended {
-        MapEnd::Short(_) => before,
+        MapEnd::Early(_) => before,
         MapEnd::AtGoal(done) => {
-            let after = end - last.t.0 - last.t.1;
-            before - done.work + work_until(orbit.last_leg(), after, &done.spent)
+            let after = last.until(end);
+            before - done.work + work_until(orbit.last_leg(), after, &done.force)
         }
     };
-    Ok(Driving {
+    Ok(AngleRun {
         orbit,
         end,
         work,
         // Errors grow as in the first turns.
         errors: Errors {
-            late: errors.late * end / first,
-            early: errors.early * end / first,
+            time: errors.time * end / first,
+            advance: errors.advance * end / first,
             ..errors
         },
-        evaluations,
-        short,
+        evaluations: stepper.evaluations,
+        early_end,
     })
 }
 
 /// End of the last turns.
 enum MapEnd {
-    AtGoal(Box<Done>),
-    Short(NotApplicable),
+    AtGoal(Box<SolvedPanel>),
+    Early(NotApplicable),
 }
 
-struct LastTurns<'a, D: Driven> {
+struct LastTurns<'a, D: AngleDynamics> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
-    tail: f64,
     /// Width of the next cell, relative to the energy at its start.
     width: f64,
     /// True if the energy rises from turn to turn.
@@ -125,7 +119,7 @@ struct LastTurns<'a, D: Driven> {
     lost: f64,
 }
 
-impl<D: Driven> LastTurns<'_, D> {
+impl<D: AngleDynamics> LastTurns<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
         let mut mark = self.marks[0];
@@ -151,7 +145,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 },
             };
             let left = match goal {
-                Goal::Time(until) => ((until - mark.t.0) - mark.t.1) / turn.duration,
+                Goal::Time(until) => mark.until(until) / turn.duration,
                 Goal::Turned(way) => (way / TAU - mark.turns) / turn.count,
             };
             let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
@@ -191,6 +185,7 @@ impl<D: Driven> LastTurns<'_, D> {
         let (narrowest, widest) = (1e-7, 0.5);
         // Tail at which the width of the next cell aims, as a fraction of the allowed one.
         let aim = 0.2;
+        let tail = self.stepper.fine.tail;
         self.width = self.width.min(widest);
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
@@ -202,10 +197,10 @@ impl<D: Driven> LastTurns<'_, D> {
             let tried = self.width;
             let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
                 Ok(cell) => {
-                    let share = aim * self.tail / cell.tail();
+                    let share = aim * tail / cell.tail();
                     let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
                     self.width = (factor * tried).min(widest);
-                    if cell.tail() <= self.tail {
+                    if cell.tail() <= tail {
                         let turn = cell.turn(kinetic);
                         self.map.cells.push(cell);
                         return Ok(turn);
@@ -230,11 +225,9 @@ impl<D: Driven> LastTurns<'_, D> {
         &mut self,
         mark: &Mark,
         goal: Goal,
-        start: Angle,
         map_ended: Option<NotApplicable>,
     ) -> Result<MapEnd, NotApplicable> {
-        self.stepper.restart(mark.kinetic);
-        self.stepper.gives_up = true;
+        self.stepper.restart(mark.kinetic, true);
         let most = match map_ended {
             None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
             Some(_) => SINGLE_TURNS,
@@ -248,21 +241,22 @@ impl<D: Driven> LastTurns<'_, D> {
             let done = match self.stepper.panel() {
                 Ok(done) => done,
                 Err(why) if self.last.len() == 0 => return Err(why),
-                Err(why) => return Ok(MapEnd::Short(why)),
+                Err(why) => return Ok(MapEnd::Early(why)),
             };
             let piece = &done.panel.piece;
-            let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
+            let turned =
+                (piece.to - self.stepper.start.angle.rest).abs() + done.panel.turns.abs() * TAU;
             self.last.push(done.panel.clone());
             let passed = match goal {
-                Goal::Time(until) => self.stepper.progress.t.0 > (until - mark.t.0) - mark.t.1,
+                Goal::Time(until) => self.stepper.progress.t.0 > mark.until(until),
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
             };
-            let all = self.stepper.at_cycle() && self.stepper.progress.turns.abs() >= most;
+            let all = self.stepper.panels.at_cycle() && self.stepper.progress.turns.abs() >= most;
             match map_ended {
                 _ if passed => return Ok(MapEnd::AtGoal(done.into())),
                 None if all => return Ok(MapEnd::AtGoal(done.into())),
                 Some(_) if all => {
-                    return Ok(MapEnd::Short(limited.unwrap_or(NotApplicable::TooLong)));
+                    return Ok(MapEnd::Early(limited.unwrap_or(NotApplicable::TooLong)));
                 }
                 _ => {}
             }

@@ -20,7 +20,7 @@ pub struct State<'a, P> {
 }
 
 /// Mechanism as the angle engine sees it.
-pub trait Driven {
+pub trait AngleDynamics {
     /// Data of a position that the loads need.
     type Place: Copy;
 
@@ -43,23 +43,23 @@ pub trait Driven {
     /// Returns the number of turns after which everything that depends on the angle repeats.
     fn cycle(&self) -> u32;
 
-    /// True if there are driven loads: loads evaluated at states, in addition to those of the table.
-    fn is_driven(&self) -> bool;
+    /// True if there are state loads: loads evaluated at states, in addition to those of the table.
+    fn has_state_loads(&self) -> bool;
 
-    /// True if the driven loads depend on time.
+    /// True if the state loads depend on time.
     fn reads_time(&self) -> bool;
 
-    /// Returns the generalized force of the driven loads, N m, in each state.
-    fn drive<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
+    /// Returns the generalized force of the state loads, N m, in each state.
+    fn state_loads<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
 
-    /// True if the driven loads may vary between the points of a panel without a trace in the decay of their series.
+    /// True if the state loads may vary between the points of a panel without a trace in the decay of their series.
     fn has_detail(&self) -> bool;
 
     /// Returns the variation of their generalized force, N m, on a piece and in its Bernstein ellipse, ρ = `ellipse`.
     fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail;
 
-    /// Returns the contribution of the driven loads to the switch.
-    fn drive_switch(&self, at: &State<'_, Self::Place>) -> f64;
+    /// Returns the contribution of the state loads to the switch.
+    fn switch_of_state_loads(&self, at: &State<'_, Self::Place>) -> f64;
 
     /// Returns the angles of a cycle, rad, from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];
