@@ -46,7 +46,7 @@ pub trait AngleDynamics {
     /// True if there are state loads: loads evaluated at states, in addition to those of the table.
     fn has_state_loads(&self) -> bool;
 
-    /// True if the state loads depend on time.
+    /// True if there are state loads that depend on time.
     fn reads_time(&self) -> bool;
 
     /// Returns the generalized force of the state loads, N m, in each state.

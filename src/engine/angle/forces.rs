@@ -12,7 +12,7 @@ pub(super) struct Forces {
     /// Non-conservative forces.
     pub non_conservative: Values,
     /// Speeds, rad/s.
-    speeds: Values,
+    pub speeds: Values,
     /// Times after the start of the panel, s.
     times: Values,
 }
@@ -37,7 +37,13 @@ impl Forces {
         kinetic: &Values,
     ) -> Option<()> {
         let count = panel.rule.degree() + 1;
-        self.clear_from(count);
+        for values in [
+            &mut self.total,
+            &mut self.non_conservative,
+            &mut self.speeds,
+        ] {
+            values[count..].fill(0.0);
+        }
         self.take_speeds(panel, start, kinetic);
         let (push, damping) = (&panel.table.push[..count], &panel.table.damping[..count]);
         let (speeds, non_conservative) =
@@ -83,11 +89,6 @@ impl Forces {
         }
     }
 
-    /// Returns the speeds at the points, rad/s.
-    pub fn speeds(&self) -> &Values {
-        &self.speeds
-    }
-
     /// Returns the range of the speed at the first `count` points, rad/s.
     pub fn speed_range(&self, count: usize) -> Interval {
         let points = self.speeds[..count].iter().copied().map(Interval::point);
@@ -103,17 +104,6 @@ impl Forces {
             *slope = half / speed;
         }
         is_finite(filled).then_some(())
-    }
-
-    /// Sets the values beyond the points to zero.
-    fn clear_from(&mut self, count: usize) {
-        for values in [
-            &mut self.total,
-            &mut self.non_conservative,
-            &mut self.speeds,
-        ] {
-            values[count..].fill(0.0);
-        }
     }
 
     /// Adds the state loads at N points.

@@ -29,7 +29,6 @@ mod stepper;
 mod sweep;
 mod switch;
 mod table;
-mod turn;
 mod undamped;
 
 pub use angle_dynamics::{AngleDynamics, Panels, State};

@@ -49,7 +49,7 @@ pub(super) struct PanelTable<P> {
     /// Rests of the panel after each switching in the last turn.
     pub rests: Vec<Rest>,
     /// Index of this panel among the rests of another one.
-    pub is_rest: Option<usize>,
+    pub rest_index: Option<usize>,
 }
 
 /// Rest of a panel after a switching: guess for the next turn.
@@ -139,7 +139,7 @@ impl<P: Copy> PanelTable<P> {
             factor: SLOW_FACTOR,
             failed: false,
             rests: Vec::new(),
-            is_rest: None,
+            rest_index: None,
         }
     }
 
@@ -163,14 +163,14 @@ impl<P: Copy> PanelTable<P> {
                 panel
             }
         };
-        panel.is_rest = Some(index);
+        panel.rest_index = Some(index);
         Ok(panel)
     }
 
     /// Converts this panel to the rest that it is of another, with its index; none if it is none or is not solved.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
         let (rule, kinetic) = (self.rule, *self.past.last()?);
-        Some((self.is_rest?, Rest { rule, kinetic }))
+        Some((self.rest_index?, Rest { rule, kinetic }))
     }
 
     /// Changes to the other side of the switch.
@@ -297,10 +297,5 @@ impl<P: Copy> PanelTable<P> {
     /// Returns the largest magnitude of the work of the position-dependent forces from the start to a point, J.
     pub fn largest_work(&self) -> f64 {
         largest(&self.work[..=self.rule.degree()])
-    }
-
-    /// Keeps the kinetic energy of this turn for the next.
-    pub fn remember(&mut self, kinetic: &Values) {
-        self.past.remember(kinetic);
     }
 }

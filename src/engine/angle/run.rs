@@ -25,7 +25,7 @@ pub fn run<D: AngleDynamics>(
 ) -> Result<AngleRun, NotApplicable> {
     let mut stepper = PanelStepper::new(dynamics, from, resolution)?;
     let Start { angle, speed, .. } = stepper.start;
-    let reads_time = dynamics.has_state_loads() && dynamics.reads_time();
+    let reads_time = dynamics.reads_time();
     let repeats = !reads_time && stepper.panels.panels[0].table.switch.is_none();
     let mut forecast = forecast(&stepper, goal, reads_time);
     let way = f64::from(dynamics.cycle()) * TAU;

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::super::energy::NotApplicable;
 use super::super::energy::error_bound::off_by_place;
 use super::super::energy::piece::Piece;
-use super::cycle_panels::CyclePanels;
+use super::cycle_panels::{self, CyclePanels};
 use super::guide::Guide;
 use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable};
@@ -13,7 +13,7 @@ use super::progress::{Progress, SolvedPanel};
 use super::solution::PanelSolution;
 use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
 use super::switch::{Switching, begins_beyond, switching};
-use super::{AngleDynamics, Panels, Resolution, turn};
+use super::{AngleDynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::Start;
 use crate::numeric::enclosure::Interval;
@@ -62,7 +62,7 @@ impl<'a, D: AngleDynamics> PanelStepper<'a, D> {
         let shared = dynamics.shared().filter(|_| !resolution.other);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
-            panels = turn::panels(dynamics, angle, fine, cuts)?;
+            panels = cycle_panels::panels(dynamics, angle, fine, cuts)?;
         }
         let first = &panels[0];
         let [here, next, ..] = first.table.inertia;
@@ -153,12 +153,12 @@ impl<'a, D: AngleDynamics> PanelStepper<'a, D> {
                 // Still on the other side after two changes: the switch has no sign.
                 Switching::AtStart => return Ok(self.pass(piece, None)),
                 Switching::Never => {
-                    panel.remember(&solution.kinetic);
+                    panel.past.remember(&solution.kinetic);
                     self.panels.remember_rest();
                     return Ok(self.pass(piece, None));
                 }
                 Switching::At(share) => {
-                    panel.remember(&solution.kinetic);
+                    panel.past.remember(&solution.kinetic);
                     solution.end_at(panel.rule, start, share);
                     let [first, rest] = piece.cut(share);
                     let rest = self.panels.rest(self.dynamics, rest.from, self.fine)?;
@@ -213,7 +213,7 @@ impl<'a, D: AngleDynamics> PanelStepper<'a, D> {
             self.solution.kinetic = kinetic;
             tails.sweeps = SWEEP_ERROR_SHARE * tail;
         } else {
-            let reads_time = dynamics.has_state_loads() && dynamics.reads_time();
+            let reads_time = dynamics.reads_time();
             panel.guess(start.kinetic, reads_time, &mut self.solution.kinetic);
         }
         tails

@@ -56,18 +56,28 @@ pub(super) fn begins_beyond<D: AngleDynamics>(
         return false;
     };
     let speed = start.direction * (start.kinetic * panel.mobility[0]).sqrt();
-    let others = if dynamics.has_state_loads() {
-        dynamics.switch_of_state_loads(&panel.state(start.turns, 0, start.t, speed))
+    let (value, size) = value(dynamics, switch, panel, start, (0, start.t, speed));
+    value < -SHORTEST_PANEL * size
+}
+
+/// Returns the switch at point `j` at a time (s) and a speed (rad/s), positive on the side of the panel, and the
+/// largest magnitude of its parts.
+fn value<D: AngleDynamics>(
+    dynamics: &D,
+    switch: &Switch,
+    panel: &PanelTable<D::Place>,
+    start: PanelStart,
+    (j, t, speed): (usize, f64, f64),
+) -> (f64, f64) {
+    let of_state_loads = if dynamics.has_state_loads() {
+        dynamics.switch_of_state_loads(&panel.state(start.turns, j, t, speed))
     } else {
         0.0
     };
-    let parts = [
-        switch.place[0],
-        switch.rate[0] * speed,
-        switch.square[0] * speed * speed,
-        others,
-    ];
-    panel.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
+    let (rate, square) = (switch.rate[j] * speed, switch.square[j] * speed * speed);
+    let parts = [switch.place[j], rate, square, of_state_loads];
+    let value = panel.side * (switch.place[j] + rate + square + of_state_loads);
+    (value, largest(&parts))
 }
 
 impl PanelSolution {
@@ -92,34 +102,20 @@ fn values<D: AngleDynamics>(
     start: PanelStart,
     solution: &PanelSolution,
 ) -> (Values, f64) {
-    let count = panel.rule.degree() + 1;
-    let speeds = solution.forces.speeds();
-    let mut parts = [[0.0; MAX_DEGREE + 1]; 4];
-    let [place, rate, square, others] = &mut parts;
-    for j in 0..count {
-        let speed = speeds[j];
-        place[j] = switch.place[j];
-        rate[j] = switch.rate[j] * speed;
-        square[j] = switch.square[j] * speed * speed;
-    }
-    if dynamics.has_state_loads() {
-        let times = if dynamics.reads_time() {
-            panel.rule.integrals(&solution.slopes)
-        } else {
-            [0.0; MAX_DEGREE + 1]
-        };
-        for j in 0..count {
-            let at = [start.t + times[j], speeds[j]];
-            others[j] = dynamics.switch_of_state_loads(&panel.state(start.turns, j, at[0], at[1]));
-        }
-    }
-    let size = parts.each_ref().map(|part| largest(part));
+    let times = if dynamics.reads_time() {
+        panel.rule.integrals(&solution.slopes)
+    } else {
+        [0.0; MAX_DEGREE + 1]
+    };
     let mut values = [0.0; MAX_DEGREE + 1];
-    let [place, rate, square, others] = &parts;
-    for j in 0..count {
-        values[j] = panel.side * (place[j] + rate[j] + square[j] + others[j]);
+    let mut size = 0.0f64;
+    for j in 0..=panel.rule.degree() {
+        let (t, speed) = (start.t + times[j], solution.forces.speeds[j]);
+        let largest_part;
+        (values[j], largest_part) = value(dynamics, switch, panel, start, (j, t, speed));
+        size = size.max(largest_part);
     }
-    (values, SUM_ROUNDING * largest(&size))
+    (values, SUM_ROUNDING * size)
 }
 
 /// Returns the first x at which the values fall below zero, by more than `noise`; −1 if they start there.

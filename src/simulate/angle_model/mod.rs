@@ -190,7 +190,7 @@ impl AngleDynamics for AngleModel<'_> {
     }
 
     fn reads_time(&self) -> bool {
-        self.equation.loads().reads().has(Variable::T)
+        self.has_state_loads() && self.equation.loads().reads().has(Variable::T)
     }
 
     fn state_loads<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
