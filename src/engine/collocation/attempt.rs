@@ -26,9 +26,14 @@ pub enum Failed {
     Meets { at: f64, factor: f64 },
 }
 
+impl Failed {
+    /// Rejection of a step with an acceleration that is not finite.
+    pub const NOT_FINITE: Failed = Failed::TooLong(0.25);
+}
+
 /// Requested step.
 #[derive(Clone, Copy, Debug)]
-pub struct Try {
+pub struct Attempt {
     /// Length, s.
     pub h: f64,
     /// Whether the step begins and ends at a corner, where the acceleration may jump.

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use attempt::{Accepted, Failed, Try};
+use attempt::{Accepted, Attempt, Failed};
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
@@ -62,7 +62,7 @@ pub fn run(
         let is_last = state.t + h >= until;
         // The end of the run is no corner: the acceleration there must be that of the step.
         let ends_at_corner = is_last && corner <= settings.t_end;
-        let attempt = Try {
+        let attempt = Attempt {
             h,
             corners: [at_corner, ends_at_corner],
         };

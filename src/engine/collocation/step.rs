@@ -4,7 +4,7 @@ use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
-use super::attempt::{Accepted, Failed, Try};
+use super::attempt::{Accepted, Attempt, Failed};
 use super::newton::Newton;
 use super::state::State;
 use super::tableau::Tableau;
@@ -54,7 +54,7 @@ impl<'a> Collocation<'a> {
     }
 
     /// Tries a step from a state; a step that is too long because of a corner is to end there.
-    pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
+    pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Failed> {
         let result = self.attempt_whole(state, step);
         match result {
             Err(Failed::TooLong(factor)) if self.has_detail => match self.corner(state, step.h) {
@@ -82,24 +82,63 @@ impl<'a> Collocation<'a> {
     fn attempt_whole(
         &mut self,
         state: &State,
-        Try { h, corners }: Try,
+        Attempt { h, corners }: Attempt,
     ) -> Result<Accepted, Failed> {
+        let (sweeps, newton) = self.converge(state, h)?;
+        let coefficients = self.coefficients();
+        let (step, next, alpha) = self.finish(state, h, &coefficients);
+        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
+        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
+        let mut error = self.error(state, h, &coefficients);
+        for (jump, at_corner) in jumps.into_iter().zip(corners) {
+            if !jump.is_finite() {
+                return Err(Failed::NOT_FINITE);
+            } else if !at_corner {
+                error = error.max(self.error_of(state, h, jump, &coefficients));
+            }
+        }
+        // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
+        let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
+        if error > 1.0 {
+            return Err(self.too_long(h, factor));
+        }
+        // Sweeps of a step of suitable length.
+        let few_sweeps = 9;
+        if sweeps > few_sweeps {
+            factor = factor.min(0.9);
+        } else if sweeps == few_sweeps {
+            factor = factor.min(1.0);
+        }
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Failed::Hides(hidden.at));
+        }
+        self.last = Some((h, coefficients));
+        self.alpha = alpha;
+        self.steep = newton.is_some();
+        let next = match newton {
+            Some(newton) if !corners[1] => self.with_loss(next, &step, newton.loss),
+            _ => next,
+        };
+        Ok(Accepted { step, next, factor })
+    }
+
+    /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone do not. Returns the
+    /// number of sweeps and the factors of Newton's method, if it was used.
+    fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Failed> {
+        // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
+        let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
+        // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
+        let (fast, slow, most_sweeps) = (0.3, 0.7, 14);
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
         let mut newton = None;
-        // Sweeps of a step of suitable length, and of one that is not yet too long.
-        let (few_sweeps, most_sweeps) = (9, 14);
-        // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
-        let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
-        // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
-        let (fast, slow) = (0.3, 0.7);
         loop {
             let guess = self.batch.alpha;
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
-                return Err(Failed::TooLong(0.25));
+                return Err(Failed::NOT_FINITE);
             }
             if self.steep && newton.is_none() {
                 newton = Newton::new(self.motion, &self.batch, self.tableau, h);
@@ -111,17 +150,16 @@ impl<'a> Collocation<'a> {
             let rate = change / before;
             // Change that the next sweep would make.
             let left = change * rate.min(1.0);
-            if sweeps > 1 && left <= sweep_error && change < 1.0 {
-                break;
-            }
-            // Smaller changes are rounding.
-            if change <= state_rounding / self.tolerance {
-                break;
+            // The next sweep would change little, or this one changed no more than the rounding.
+            if sweeps > 1 && left <= sweep_error && change < 1.0
+                || change <= state_rounding / self.tolerance
+            {
+                return Ok((sweeps, newton));
             }
             if sweeps > 2 && rate > fast {
                 let noise = self.rounding(state, h, &self.coefficients());
                 if change <= self.in_units(state, h * h * noise, h * noise) {
-                    break;
+                    return Ok((sweeps, newton));
                 }
             }
             if sweeps == most_sweeps || (sweeps > 2 && rate > slow) {
@@ -137,54 +175,21 @@ impl<'a> Collocation<'a> {
             }
             if sweeps == 2 {
                 let error = self.error(state, h, &self.coefficients());
+                // Beyond hope, in units of the tolerance.
                 if error > 1e3 {
                     return Err(Failed::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
                 }
             }
             before = change;
         }
-        let coefficients = self.coefficients();
-        let (step, next, alpha) = self.finish(state, h, &coefficients);
-        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
-        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
-        let mut error = self.error(state, h, &coefficients);
-        for (jump, at_corner) in jumps.into_iter().zip(corners) {
-            if !jump.is_finite() {
-                return Err(Failed::TooLong(0.25));
-            } else if !at_corner {
-                error = error.max(self.error_of(state, h, jump, &coefficients));
-            }
-        }
-        let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
-        if error > 1.0 {
-            return Err(self.too_long(h, factor));
-        }
-        if sweeps > few_sweeps {
-            factor = factor.min(0.9);
-        } else if sweeps == few_sweeps {
-            factor = factor.min(1.0);
-        }
-        if let Some(hidden) = self.hides(state, &step, &coefficients) {
-            return Err(Failed::Hides(hidden.at));
-        }
-        self.last = Some((h, coefficients));
-        self.alpha = alpha;
-        self.steep = newton.is_some();
-        let next = match newton {
-            Some(newton) if !corners[1] => self.settled(next, &step, newton.loss),
-            _ => next,
-        };
-        Ok(Accepted { step, next, factor })
     }
 
     /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
     /// component that the loss would damp at once persists in Gauss methods (A-stable, not L-stable).
-    fn settled(&mut self, next: State, step: &Step, loss: f64) -> State {
-        let settled = next.faster((step.end.alpha - self.alpha) / loss);
-        self.alpha = self
-            .motion
-            .acceleration(settled.t, settled.angle(), settled.omega);
-        settled
+    fn with_loss(&mut self, next: State, step: &Step, loss: f64) -> State {
+        let next = next.faster((step.end.alpha - self.alpha) / loss);
+        self.alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
+        next
     }
 
     /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
