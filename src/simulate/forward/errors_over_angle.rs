@@ -42,11 +42,11 @@ pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> 
 /// Returns the error of the last state and of the worst row of the energy engine.
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
-    driving: &AngleRun,
+    run: &AngleRun,
     arrived: &Arrived,
     wants_rows: bool,
 ) -> Estimate {
-    let (orbit, end) = (&driving.orbit, driving.end);
+    let (orbit, end) = (&run.orbit, run.end);
     let mut error = rounded(task, orbit, arrived.now);
     error.omega_rad_per_s += left_out(task, orbit, arrived.now, arrived.work);
     Estimate {

@@ -40,9 +40,9 @@ pub(super) fn estimate(
     record: &Record,
     wants_rows: bool,
 ) -> Option<Estimate> {
-    match &arrived.driven {
+    match &arrived.angle_piece {
         Some(piece) if piece.engine == Engine::Energy => {
-            Some(by_energy(course.task, &piece.driving, arrived, wants_rows))
+            Some(by_energy(course.task, &piece.run, arrived, wants_rows))
         }
         _ => by_second_run(course, arrived, record, wants_rows),
     }
@@ -56,8 +56,11 @@ fn by_second_run(
     wants_rows: bool,
 ) -> Option<Estimate> {
     let begun = Instant::now();
-    let guide = arrived.driven.as_ref().filter(|_| arrived.is_one_piece());
-    let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
+    let guide = arrived
+        .angle_piece
+        .as_ref()
+        .filter(|_| arrived.is_one_piece());
+    let guide = guide.map(|piece| Guide::new(&piece.run.orbit, course.resolution.tail));
     let t_end = arrived.now.t;
     let over_angle = arrived.over_angle > 0;
     let limit = course.settings.limit;
@@ -116,11 +119,11 @@ fn by_second_run(
         wall_s: begun.elapsed().as_secs_f64(),
     };
     let error = distance(course, arrived, &best, spread);
-    let rows = match (&arrived.driven, &best.driven) {
+    let rows = match (&arrived.angle_piece, &best.angle_piece) {
         _ if !arrived.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
-            let orbits = [one, other].map(|driven| &driven.driving.orbit);
-            worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
+            let orbits = [one, other].map(|piece| &piece.run.orbit);
+            worst_row(one.run.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
         (None, _) => Some(compared.worst(error)),
@@ -231,17 +234,15 @@ impl<'m, 'a> Second<'m, 'a> {
 }
 
 impl Sink for Second<'_, '_> {
-    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
-        let AnglePiece {
-            driving, from, to, ..
-        } = driven;
-        let (angle, speed) = driving.orbit.state(driving.end);
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
+        let AnglePiece { run, from, to, .. } = piece;
+        let (angle, speed) = run.orbit.state(run.end);
         let to = Start {
             t: to.t,
             angle,
             speed,
         };
-        let errors = &driving.errors;
+        let errors = &run.errors;
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
         let unit = STATED_DEVIATIONS * f64::EPSILON;

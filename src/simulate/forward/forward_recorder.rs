@@ -247,19 +247,19 @@ impl Sink for ForwardRecorder<'_> {
         self.recorder.begins(engine, from, why);
     }
 
-    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
         self.recorder.orbit_piece(&mut OrbitPiece {
-            orbit: &driven.driving.orbit,
-            begin: driven.from.t,
-            end: driven.driving.end,
+            orbit: &piece.run.orbit,
+            begin: piece.from.t,
+            end: piece.run.end,
             task: self.task,
         })
     }
 
-    fn keep(&mut self, driven: AnglePiece) {
-        let (from, until) = (driven.from.t, driven.to.t);
+    fn keep(&mut self, piece: AnglePiece) {
+        let (from, until) = (piece.from.t, piece.to.t);
         self.recorder
-            .keep(|| Trajectory::orbit(driven.driving.orbit, from, until));
+            .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
     fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {

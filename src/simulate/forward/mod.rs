@@ -104,8 +104,8 @@ pub(super) fn run(
 
 /// Returns the engine that names a run: one over the angle, if any piece was.
 fn engine(arrived: &Arrived) -> Engine {
-    match &arrived.driven {
-        Some(driven) => driven.engine,
+    match &arrived.angle_piece {
+        Some(piece) => piece.engine,
         None if arrived.over_angle > 0 => Engine::Angle,
         None => Engine::Time,
     }
@@ -133,9 +133,14 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
 /// Adds the dense motion to the run: a motion over the angle as it stands, one on a curve converted to the crank.
 fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Simulation {
     let alone = arrived.is_one_piece();
-    match (arrived.driven, course.curve.into_inner()) {
-        (Some(AnglePiece { driving, to, .. }), _) if alone => {
-            run.trajectory = Some(Trajectory::orbit(driving.orbit, 0.0, to.t));
+    match (arrived.angle_piece, course.curve.into_inner()) {
+        (
+            Some(AnglePiece {
+                run: motion, to, ..
+            }),
+            _,
+        ) if alone => {
+            run.trajectory = Some(Trajectory::orbit(motion.orbit, 0.0, to.t));
         }
         (_, Some(on)) if alone => {
             let seen = on.equation.clone();

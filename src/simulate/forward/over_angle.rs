@@ -42,8 +42,8 @@ impl Pass<'_, '_> {
         }
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
-        let driving = AngleRun::whole(orbit, t, work);
-        self.drove(Engine::Energy, reason, driving, Start { t, angle, speed })?;
+        let run = AngleRun::whole(orbit, t, work);
+        self.add_angle_piece(Engine::Energy, reason, run, Start { t, angle, speed })?;
         Ok(PieceEnd::Ended)
     }
 
@@ -51,28 +51,28 @@ impl Pass<'_, '_> {
     pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let course = self.course;
         let from = self.arrived.now;
-        let driving = match self.drive() {
+        let run = match self.run_over_angle() {
             // Past its limits a crank that does not turn fully is followed from the start.
             Ok(AngleRun {
                 early_end: Some(end),
                 ..
             }) if !course.task.turns_fully() => Err(end.why),
-            driving => driving,
+            run => run,
         };
-        let driving = match driving {
-            Ok(driving) => driving,
+        let run = match run {
+            Ok(run) => run,
             Err(why) => {
                 self.wait *= 2.0;
                 return Ok(PieceEnd::NotApplicable(why));
             }
         };
-        let early_end = driving.early_end;
+        let early_end = run.early_end;
         let t = match (course.extent, early_end) {
             (Extent::Duration(duration), None) => duration,
-            _ => from.t + driving.end,
+            _ => from.t + run.end,
         };
         let (angle, speed) = match early_end {
-            None => driving.orbit.state(driving.end),
+            None => run.orbit.state(run.end),
             Some(end) => {
                 let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
                 let speed = (2.0 * end.kinetic / inertia).sqrt();
@@ -84,11 +84,11 @@ impl Pass<'_, '_> {
             let soon = way < 2.0 * self.wait;
             self.wait = if soon { 2.0 * self.wait } else { course.wait };
         }
-        self.drove(Engine::Angle, reason, driving, Start { t, angle, speed })?;
+        self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
         Ok(early_end.map_or(PieceEnd::Ended, |end| PieceEnd::NotApplicable(end.why)))
     }
 
-    fn drive(&self) -> Result<AngleRun, NotApplicable> {
+    fn run_over_angle(&self) -> Result<AngleRun, NotApplicable> {
         let course = self.course;
         let now = self.arrived.now;
         let goal = match course.extent {
@@ -106,40 +106,40 @@ impl Pass<'_, '_> {
     }
 
     /// Adds a piece over the angle to the pass.
-    fn drove(
+    fn add_angle_piece(
         &mut self,
         engine: Engine,
         reason: Cow<'static, str>,
-        driving: AngleRun,
+        run: AngleRun,
         to: Start,
     ) -> Result<(), Error> {
         self.keep();
         let arrived = &mut self.arrived;
         let from = arrived.now;
-        self.beside += driving.evaluations;
-        arrived.work += driving.work;
-        arrived.steps += driving.orbit.panels() as u64;
+        self.beside += run.evaluations;
+        arrived.work += run.work;
+        arrived.steps += run.orbit.panels() as u64;
         arrived.over_angle += 1;
-        let largest = driving.orbit.largest_kinetic(driving.end);
+        let largest = run.orbit.largest_kinetic(run.end);
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
         (arrived.last, arrived.on_curve) = (None, false);
         arrived.now = to;
-        let driven = AnglePiece {
-            driving,
+        let piece = AnglePiece {
+            run,
             engine,
             from,
             to,
         };
         self.sink.begins(engine, from.t, reason);
-        self.sink.over_angle(&driven)?;
-        arrived.driven = Some(driven);
+        self.sink.over_angle(&piece)?;
+        arrived.angle_piece = Some(piece);
         Ok(())
     }
 
     /// Hands the motion of the last piece over the angle to the sink, as another piece follows.
     pub fn keep(&mut self) {
-        if let Some(driven) = self.arrived.driven.take() {
-            self.sink.keep(driven);
+        if let Some(piece) = self.arrived.angle_piece.take() {
+            self.sink.keep(piece);
         }
     }
 }
