@@ -69,16 +69,16 @@ impl Checkpoints {
 }
 
 /// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
-pub(super) struct Compared<'a> {
+pub(super) struct Comparison<'a> {
     left: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
     /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
     farthest: [f64; 2],
 }
 
-impl<'a> Compared<'a> {
-    pub fn with(checkpoints: &'a Checkpoints) -> Compared<'a> {
+impl<'a> Comparison<'a> {
+    pub fn with(checkpoints: &'a Checkpoints) -> Comparison<'a> {
         let Checkpoints { first, later, .. } = checkpoints;
-        Compared {
+        Comparison {
             left: first.iter().chain(later).peekable(),
             farthest: [0.0; 2],
         }

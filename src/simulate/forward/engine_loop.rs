@@ -39,7 +39,7 @@ pub(super) struct Pass<'a, 'o> {
     pub sink: &'o mut dyn Sink,
     pub arrived: Arrived,
     /// Positions of the angle model evaluated before this pass.
-    places: u64,
+    positions: u64,
     /// Number of evaluations of loads over the angle and along the configuration curve.
     pub beside: u64,
     pub wait: f64,
@@ -56,7 +56,7 @@ impl Course<'_> {
                 now: self.task.first_state(),
                 ..Arrived::default()
             },
-            places: self.model.evaluations(),
+            positions: self.model.evaluations(),
             beside: 0,
             wait: self.wait,
         };
@@ -74,7 +74,7 @@ impl Course<'_> {
 impl<'a> Pass<'a, '_> {
     /// Returns the number of evaluations beside those of `motion`.
     pub fn spent_beside(&self) -> u64 {
-        self.course.model.evaluations() - self.places + self.beside
+        self.course.model.evaluations() - self.positions + self.beside
     }
 
     fn spent(&self) -> u64 {
@@ -123,7 +123,7 @@ impl<'a> Pass<'a, '_> {
                 return Err(stop_reason::refusal(self.course.task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.places = self.course.model.evaluations();
+            self.positions = self.course.model.evaluations();
         }
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),

@@ -14,7 +14,7 @@ use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
-use super::super::second_run::{Compared, MARGIN, collocation_tolerance, same_method_tolerance};
+use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
 use super::arrived::{AnglePiece, Arrived, Sink};
@@ -61,44 +61,16 @@ fn by_second_run(
         .as_ref()
         .filter(|_| arrived.is_one_piece());
     let guide = guide.map(|piece| Guide::new(&piece.run.orbit, course.resolution.tail));
-    let t_end = arrived.now.t;
-    let over_angle = arrived.over_angle > 0;
-    let limit = course.settings.limit;
-    // Evaluations for one of the first run, and for short runs: those of tables over the angle, or of the first steps.
-    let (per_evaluation, at_least) = (20, if over_angle { 200_000 } else { 20_000 });
-    let share = arrived
-        .evaluations
-        .saturating_mul(per_evaluation)
-        .saturating_add(at_least);
-    let plain = Settings {
-        t_end,
-        limit: WorkLimit {
-            evaluations: share.min(limit.evaluations),
-            ..limit
-        },
-        ..course.settings
-    };
-    let tolerance = plain.tolerance;
-    let collocation = Settings {
-        method: Method::Picard,
-        tolerance: collocation_tolerance(tolerance),
-        guide: &record.checkpoints.first,
-        ..plain
-    };
-    // Used where collocation does not reach the end.
-    let again = Settings {
-        tolerance: same_method_tolerance(tolerance),
-        ..plain
+    let first = match arrived.over_angle {
+        0 => Engine::Time,
+        _ => Engine::Angle,
     };
     let mut evaluations = 0;
     let second = |settings| {
         let finer = Course {
-            first: match over_angle {
-                true => Engine::Angle,
-                false => Engine::Time,
-            },
+            first,
             is_second: true,
-            extent: Extent::Duration(t_end),
+            extent: Extent::Duration(arrived.now.t),
             resolution: finer(guide),
             settings,
             // Another part of a turn than in the first run.
@@ -107,13 +79,15 @@ fn by_second_run(
         };
         let forward = CrankMotion(course.task.equation());
         let motion = Counted::new(&forward);
-        let mut seen = Second::new(&finer, &motion, record);
+        let mut seen = SecondRun::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
         evaluations += best.evaluations + seen.rounding.evaluations;
         let arrives = matches!(best.end, End::Done);
         arrives.then_some((best, seen.rounding.spread, seen.compared))
     };
-    let (best, spread, compared) = [collocation, again].into_iter().find_map(second)?;
+    let (best, spread, compared) = second_settings(course, arrived, record)
+        .into_iter()
+        .find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
@@ -133,6 +107,41 @@ fn by_second_run(
         on_the_way: rows,
         cost: Some(cost),
     })
+}
+
+/// Returns the settings of the second run, by collocation and by the method of the run.
+fn second_settings<'a>(
+    course: &Course<'a>,
+    arrived: &Arrived,
+    record: &'a Record,
+) -> [Settings<'a>; 2] {
+    let limit = course.settings.limit;
+    // Evaluations for one of the first run, and in addition those of the first steps, or of tables over the angle.
+    let per_evaluation = 20;
+    let in_addition = match arrived.over_angle {
+        0 => 20_000,
+        _ => 200_000,
+    };
+    let share = arrived
+        .evaluations
+        .saturating_mul(per_evaluation)
+        .saturating_add(in_addition);
+    let again = Settings {
+        t_end: arrived.now.t,
+        limit: WorkLimit {
+            evaluations: share.min(limit.evaluations),
+            ..limit
+        },
+        tolerance: same_method_tolerance(course.settings.tolerance),
+        ..course.settings
+    };
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: collocation_tolerance(course.settings.tolerance),
+        guide: &record.checkpoints.first,
+        ..again
+    };
+    [collocation, again]
 }
 
 /// Returns the distance of two runs at the end, plus the roundoff.
@@ -176,28 +185,32 @@ fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] 
 }
 
 /// Observer of the second run: propagates roundoff and compares with the states of the first.
-struct Second<'m, 'a> {
+struct SecondRun<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: Rounding,
     /// Configuration curve of the last piece in time, if it follows one.
     on: Option<Arc<CurveEquation>>,
-    compared: Compared<'a>,
+    compared: Comparison<'a>,
 }
 
-impl<'m, 'a> Second<'m, 'a> {
-    fn new(course: &'m Course<'_>, motion: &'m Counted<'m>, record: &'a Record) -> Second<'m, 'a> {
+impl<'m, 'a> SecondRun<'m, 'a> {
+    fn new(
+        course: &'m Course<'_>,
+        motion: &'m Counted<'m>,
+        record: &'a Record,
+    ) -> SecondRun<'m, 'a> {
         let Start { t, angle, speed } = course.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         // Panels over the angle state their roundoff themselves.
         let moves = moves && course.first == Engine::Time;
-        Second {
+        SecondRun {
             equation: course.task.equation(),
             motion,
             rounding: Rounding::new(course.settings.method, moves),
             on: None,
-            compared: Compared::with(&record.checkpoints),
+            compared: Comparison::with(&record.checkpoints),
         }
     }
 
@@ -233,7 +246,7 @@ impl<'m, 'a> Second<'m, 'a> {
     }
 }
 
-impl Sink for Second<'_, '_> {
+impl Sink for SecondRun<'_, '_> {
     fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
@@ -262,9 +275,9 @@ impl Sink for Second<'_, '_> {
     }
 }
 
-impl Observer for Second<'_, '_> {
+impl Observer for SecondRun<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
-        let Second {
+        let SecondRun {
             rounding, compared, ..
         } = self;
         match self.on.as_deref().zip(phase) {

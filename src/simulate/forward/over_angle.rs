@@ -51,14 +51,11 @@ impl Pass<'_, '_> {
     pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let course = self.course;
         let from = self.arrived.now;
-        let run = match self.run_over_angle() {
+        let run = self.run_over_angle().and_then(|run| match run.early_end {
             // Past its limits a crank that does not turn fully is followed from the start.
-            Ok(AngleRun {
-                early_end: Some(end),
-                ..
-            }) if !course.task.turns_fully() => Err(end.why),
-            run => run,
-        };
+            Some(end) if !course.task.turns_fully() => Err(end.why),
+            _ => Ok(run),
+        });
         let run = match run {
             Ok(run) => run,
             Err(why) => {
@@ -66,26 +63,22 @@ impl Pass<'_, '_> {
                 return Ok(PieceEnd::NotApplicable(why));
             }
         };
-        let early_end = run.early_end;
-        let t = match (course.extent, early_end) {
-            (Extent::Duration(duration), None) => duration,
-            _ => from.t + run.end,
+        let Some(end) = run.early_end else {
+            let (angle, speed) = run.orbit.state(run.end);
+            let t = match course.extent {
+                Extent::Duration(duration) => duration,
+                Extent::Revolutions(_) => from.t + run.end,
+            };
+            self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
+            return Ok(PieceEnd::Ended);
         };
-        let (angle, speed) = match early_end {
-            None => run.orbit.state(run.end),
-            Some(end) => {
-                let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
-                let speed = (2.0 * end.kinetic / inertia).sqrt();
-                (end.angle.reduced(), from.speed.signum() * speed)
-            }
-        };
-        if early_end.is_some() {
-            let way = angle.minus(from.angle).abs();
-            let soon = way < 2.0 * self.wait;
-            self.wait = if soon { 2.0 * self.wait } else { course.wait };
-        }
+        let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
+        let speed = from.speed.signum() * (2.0 * end.kinetic / inertia).sqrt();
+        let (t, angle) = (from.t + run.end, end.angle.reduced());
+        let soon = angle.minus(from.angle).abs() < 2.0 * self.wait;
+        self.wait = if soon { 2.0 * self.wait } else { course.wait };
         self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
-        Ok(early_end.map_or(PieceEnd::Ended, |end| PieceEnd::NotApplicable(end.why)))
+        Ok(PieceEnd::NotApplicable(end.why))
     }
 
     fn run_over_angle(&self) -> Result<AngleRun, NotApplicable> {
