@@ -63,7 +63,7 @@ pub struct Resolution<'a> {
     /// Largest tail of a resolved series.
     pub tail: f64,
     /// True if panels are cut unevenly once more from the start: another discretization, for comparison.
-    pub other: bool,
+    pub cuts_unevenly: bool,
     /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,
     /// Limit of load evaluations and tabulated positions.

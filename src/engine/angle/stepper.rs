@@ -54,12 +54,12 @@ impl<'a, D: AngleDynamics> PanelStepper<'a, D> {
             speed: from.speed,
         };
         let positions = dynamics.positions();
-        let cuts: &[f64] = if resolution.other {
+        let cuts: &[f64] = if resolution.cuts_unevenly {
             &[0.37, 1.0]
         } else {
             &[1.0]
         };
-        let shared = dynamics.shared().filter(|_| !resolution.other);
+        let shared = dynamics.shared().filter(|_| !resolution.cuts_unevenly);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
             panels = cycle_panels::panels(dynamics, angle, fine, cuts)?;

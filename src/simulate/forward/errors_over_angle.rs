@@ -24,7 +24,7 @@ pub(super) fn worst_row(
 }
 
 /// Largest roundoff of an angle within its turn, rad.
-pub(super) const PLACE_ROUNDING: f64 = 2.0 * f64::EPSILON;
+pub(super) const ANGLE_ROUNDING_IN_TURN: f64 = 2.0 * f64::EPSILON;
 
 /// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
 /// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
@@ -47,8 +47,8 @@ pub(super) fn by_energy(
     wants_rows: bool,
 ) -> Estimate {
     let (orbit, end) = (&run.orbit, run.end);
-    let mut error = rounded(task, orbit, arrived.now);
-    error.omega_rad_per_s += left_out(task, orbit, arrived.now, arrived.work);
+    let mut error = rounding_error(task, orbit, arrived.now);
+    error.omega_rad_per_s += truncation_error(task, orbit, arrived.now, arrived.work);
     Estimate {
         error,
         on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),
@@ -57,16 +57,16 @@ pub(super) fn by_energy(
 }
 
 /// Returns the error of a state from that of its time and from the roundoff of position and energies.
-fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
+fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
     let Start { t, angle, speed } = at;
     let rests = task.speed == 0.0 || orbit.turns_back();
     // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time depends on the
     // force, a difference with more roundoff.
     let roundings = if rests { 4.0 } else { 1.0 };
     let late = orbit.time_error(t) + roundings * f64::EPSILON * t;
-    let place = orbit
-        .rounding(t)
-        .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));
+    let place = orbit.rounding(t).map_or(ANGLE_ROUNDING_IN_TURN, |place| {
+        place.min(ANGLE_ROUNDING_IN_TURN)
+    });
     let mut error = late_by(task, at, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
@@ -79,7 +79,7 @@ fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
 
 /// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
 /// shows it.
-fn left_out(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
+fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
     let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
     let momentum = task.equation().terms(at.angle.rest).inertia.m * at.speed.abs();
     let seen = (MARGIN * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
@@ -89,7 +89,7 @@ fn left_out(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
 /// Returns the error of a row at a time, s.
 fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let (angle, speed) = orbit.state(t);
-    let mut error = rounded(task, orbit, Start { t, angle, speed });
+    let mut error = rounding_error(task, orbit, Start { t, angle, speed });
     error.omega_rad_per_s += orbit.speed_error(t) * speed.abs();
     error
 }

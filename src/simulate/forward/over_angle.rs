@@ -145,7 +145,7 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     };
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
-        other: false,
+        cuts_unevenly: false,
         guide: None,
         limit: task.options.limit(),
     }
@@ -155,7 +155,7 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     Resolution {
         tail: LEAST_TAIL,
-        other: true,
+        cuts_unevenly: true,
         guide,
         limit: WorkLimit::NONE,
     }

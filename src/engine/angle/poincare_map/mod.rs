@@ -36,7 +36,7 @@ pub(super) fn run<D: AngleDynamics>(
         low: [0.0; 2],
     };
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
-    let mut turns = LastTurns {
+    let mut turns = MapRun {
         width: f64::INFINITY,
         rises: stepper.progress.gain > 0.0,
         lost: (stepper.progress.gain / stepper.progress.turns).abs()
@@ -51,7 +51,7 @@ pub(super) fn run<D: AngleDynamics>(
     };
     let (last, why) = turns.turn_of(goal);
     let ended = turns.last_turns(&last, goal, why)?;
-    let LastTurns { stepper, .. } = turns;
+    let MapRun { stepper, .. } = turns;
     let before = last.work + stepper.progress.work;
     let early_end = match &ended {
         MapEnd::AtGoal(_) => None,
@@ -105,7 +105,8 @@ enum MapEnd {
     Early(NotApplicable),
 }
 
-struct LastTurns<'a, D: AngleDynamics> {
+/// Run by the map, from its first turn to the turn with the goal.
+struct MapRun<'a, D: AngleDynamics> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
@@ -119,7 +120,7 @@ struct LastTurns<'a, D: AngleDynamics> {
     lost: f64,
 }
 
-impl<D: AngleDynamics> LastTurns<'_, D> {
+impl<D: AngleDynamics> MapRun<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
         let mut mark = self.marks[0];
