@@ -50,8 +50,8 @@ impl Rounding {
         let end = &step.end;
         let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
-        // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as much
-        // changes the stated errors of 200 random runs by 1 % at most.
+        // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as
+        // much changes the stated errors of 200 random runs by 1 % at most.
         let balanced_within = 0.1;
         if size < balanced_within * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);

@@ -19,7 +19,8 @@ pub struct State<'a, P> {
     pub speed: f64,
 }
 
-/// Mechanism as the angle engine sees it.
+/// Equation of motion over the crank angle: tables of what depends on the position alone, and state loads, which are
+/// evaluated at states.
 pub trait AngleDynamics {
     /// Data of a position that the loads need.
     type Place: Copy;
@@ -43,7 +44,7 @@ pub trait AngleDynamics {
     /// Returns the number of turns after which everything that depends on the angle repeats.
     fn cycle(&self) -> u32;
 
-    /// True if there are state loads: loads evaluated at states, in addition to those of the table.
+    /// True if there are state loads, in addition to the loads of the table.
     fn has_state_loads(&self) -> bool;
 
     /// True if there are state loads that depend on time.

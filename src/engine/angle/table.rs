@@ -19,8 +19,8 @@ pub struct Table<P> {
     pub switch: Option<Box<Switch>>,
 }
 
-/// Switch between two forms of the forces, one on each side of its zero: place + rate·ω + square·ω² + dynamics part. The
-/// forces are continuous at the zero.
+/// Switch between two forms of the forces, one on each side of its zero: place + rate·ω + square·ω² + the part of the
+/// state loads. The forces are continuous at the zero.
 #[derive(Clone, Debug)]
 pub struct Switch {
     /// Force of this side per square of the speed, N m s²/rad².

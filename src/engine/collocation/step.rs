@@ -122,7 +122,7 @@ impl<'a> Collocation<'a> {
         Ok(Accepted { step, next, factor })
     }
 
-    /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone do not. Returns the
+    /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone fail. Returns the
     /// number of sweeps and the factors of Newton's method, if it was used.
     fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Failed> {
         // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.

@@ -229,12 +229,12 @@ impl<D: AngleDynamics> MapRun<'_, D> {
         map_ended: Option<NotApplicable>,
     ) -> Result<MapEnd, NotApplicable> {
         self.stepper.restart(mark.kinetic, true);
-        let most = match map_ended {
-            None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
-            Some(_) => SINGLE_TURNS,
-        };
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
+        let most = match limited {
+            None if map_ended.is_some() => SINGLE_TURNS,
+            _ => 1.0,
+        };
         if limited.is_some() {
             self.stepper.limit = WorkLimit::NONE;
         }
@@ -253,13 +253,11 @@ impl<D: AngleDynamics> MapRun<'_, D> {
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
             };
             let all = self.stepper.panels.at_cycle() && self.stepper.progress.turns.abs() >= most;
-            match map_ended {
-                _ if passed => return Ok(MapEnd::AtGoal(done.into())),
-                None if all => return Ok(MapEnd::AtGoal(done.into())),
-                Some(_) if all => {
-                    return Ok(MapEnd::Early(limited.unwrap_or(NotApplicable::TooLong)));
-                }
-                _ => {}
+            if passed || all && map_ended.is_none() {
+                return Ok(MapEnd::AtGoal(done.into()));
+            }
+            if all {
+                return Ok(MapEnd::Early(limited.unwrap_or(NotApplicable::TooLong)));
             }
         }
     }
