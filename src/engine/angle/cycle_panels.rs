@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::AngleDynamics;
+use super::Dynamics;
 use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
@@ -82,9 +82,9 @@ impl<P: Copy> CyclePanels<P> {
     }
 
     /// Cuts every panel that failed, in all turns.
-    pub fn cut_failed<D: AngleDynamics<Place = P>>(
+    pub fn cut_failed(
         &mut self,
-        dynamics: &D,
+        dynamics: &impl Dynamics<Place = P>,
         fine: Fineness,
     ) -> Result<(), NotApplicable> {
         let mut all = Vec::with_capacity(2 * self.panels.len());
@@ -100,9 +100,9 @@ impl<P: Copy> CyclePanels<P> {
     }
 
     /// Makes the rest of the next panel from an angle (rad) on.
-    pub fn rest<D: AngleDynamics<Place = P>>(
+    pub fn rest(
         &self,
-        dynamics: &D,
+        dynamics: &impl Dynamics<Place = P>,
         from: f64,
         fine: Fineness,
     ) -> Result<PanelTable<P>, NotApplicable> {
@@ -126,7 +126,7 @@ impl<P: Copy> CyclePanels<P> {
 }
 
 /// Makes the panels of one cycle, which end at the corners.
-pub(super) fn panels<D: AngleDynamics>(
+pub(super) fn panels<D: Dynamics>(
     dynamics: &D,
     start: Angle,
     fine: Fineness,
@@ -144,7 +144,7 @@ pub(super) fn panels<D: AngleDynamics>(
 }
 
 /// Makes the panels between corners, cut at fractions `cuts` up to 1; none if one is not resolved at degree `most`.
-fn between<D: AngleDynamics>(
+fn between<D: Dynamics>(
     dynamics: &D,
     corners: &[f64],
     start: Angle,

@@ -26,19 +26,10 @@ impl Errors {
         }
     }
 
-    /// Propagates the errors over a panel of some duration (s), which retains a fraction of them and adds `noise` (J).
-    /// `advance` (s/J) is the integral of dt/2K; `most` is the larger kinetic energy of the two ends, J.
-    pub(super) fn pass(
-        &mut self,
-        retained: f64,
-        noise: f64,
-        advance: f64,
-        duration: f64,
-        most: f64,
-    ) {
-        // The error arises mainly where the energy is large.
-        let added = 0.5 * duration / most;
-        self.time += (self.energy * advance).hypot(noise * added);
+    /// Propagates the errors over a panel that retains a fraction of an energy error and adds `noise`, J. An error at the
+    /// start advances the end by `advance`, the noise by `advance_of_noise`, s/J.
+    pub(super) fn pass(&mut self, retained: f64, noise: f64, advance: f64, advance_of_noise: f64) {
+        self.time += (self.energy * advance).hypot(noise * advance_of_noise);
         self.advance += self.retained * advance;
         self.retained *= retained;
         self.energy = (retained * self.energy).hypot(noise);

@@ -98,18 +98,15 @@ struct CycleGain {
     gain: f64,
 }
 
-/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated.
+/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated; over shorter
+/// ones where the crank does not complete a cycle.
 fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
-    let mut slope = Err(NotApplicable::TooSlow);
-    for part in [2.5e-3, 1e-5, 1e-7] {
-        slope = slope_over(map, kinetic, part);
-        if slope.is_ok() {
-            break;
-        }
-    }
-    slope
+    slope_over(map, kinetic, 2.5e-3)
+        .or_else(|_| slope_over(map, kinetic, 1e-5))
+        .or_else(|_| slope_over(map, kinetic, 1e-7))
 }
 
+/// Computes the slope over distances of `part` of the energy, twice and four times as much.
 fn slope_over(
     map: &mut dyn CycleMap,
     kinetic: f64,

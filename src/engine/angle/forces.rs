@@ -1,6 +1,6 @@
 //! Generalized forces at the points of a panel, from the kinetic energy there.
 
-use super::AngleDynamics;
+use super::Dynamics;
 use super::panel::{PanelStart, PanelTable};
 use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
@@ -29,7 +29,7 @@ impl Forces {
     }
 
     /// Evaluates the forces from the kinetic energy at the points, J. None where they are not finite.
-    pub fn evaluate<D: AngleDynamics>(
+    pub fn evaluate<D: Dynamics>(
         &mut self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,
@@ -107,7 +107,7 @@ impl Forces {
     }
 
     /// Adds the state loads at N points.
-    fn add_state_loads<D: AngleDynamics, const N: usize>(
+    fn add_state_loads<D: Dynamics, const N: usize>(
         &mut self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,
@@ -143,7 +143,7 @@ impl Forces {
     }
 
     /// Returns the derivatives of all forces with respect to the kinetic energy at the points, 1/rad.
-    pub fn rates<D: AngleDynamics>(
+    pub fn rates<D: Dynamics>(
         &self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,

@@ -2,7 +2,7 @@
 
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::solution::PanelSolution;
-use super::{AngleDynamics, State, Table};
+use super::{Dynamics, State, Table};
 use crate::engine::events::ROUNDED;
 use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
 use crate::numeric::angle::Angle;
@@ -11,7 +11,7 @@ use crate::numeric::enclosure::{Detail, Interval, MotionPiece, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Motion on a solved panel.
-struct OnPanel<'a, D: AngleDynamics> {
+struct OnPanel<'a, D: Dynamics> {
     dynamics: &'a D,
     panel: &'a PanelTable<D::Place>,
     start: PanelStart,
@@ -25,7 +25,7 @@ struct OnPanel<'a, D: AngleDynamics> {
 }
 
 /// Returns the fraction at which a solved panel has to end for its points to resolve the loads; none if they do.
-pub(super) fn unresolved_at<D: AngleDynamics>(
+pub(super) fn unresolved_at<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
@@ -63,7 +63,7 @@ pub(super) fn unresolved_at<D: AngleDynamics>(
 }
 
 /// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.
-pub(super) fn resolves_speeds<D: AngleDynamics>(
+pub(super) fn resolves_speeds<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     speed: Interval,
@@ -81,7 +81,7 @@ pub(super) fn resolves_speeds<D: AngleDynamics>(
     })
 }
 
-impl<D: AngleDynamics> OnPanel<'_, D> {
+impl<D: Dynamics> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
         Angle::new(self.start.turns, self.panel.piece.angle(2.0 * at - 1.0))
     }
@@ -95,7 +95,7 @@ impl<D: AngleDynamics> OnPanel<'_, D> {
     }
 }
 
-impl<D: AngleDynamics> Interpolant for OnPanel<'_, D> {
+impl<D: Dynamics> Interpolant for OnPanel<'_, D> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let slope = &self.solution.slope;
         let [about, steep] = self.varies;

@@ -10,9 +10,9 @@
 //! The forces may have two forms, one on each side of a zero of the switch, a function of the state. A panel ends at
 //! the zero, and the rest of it is solved with the other form.
 
-mod angle_dynamics;
 mod angle_run;
 mod cycle_panels;
+mod dynamics;
 mod errors;
 mod fixed_point;
 mod forces;
@@ -31,8 +31,8 @@ mod switch;
 mod table;
 mod undamped;
 
-pub use angle_dynamics::{AngleDynamics, Panels, State};
 pub use angle_run::{AngleRun, EarlyEnd, Goal, Resolution};
+pub use dynamics::{Dynamics, Panels, State};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;

@@ -3,7 +3,7 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
-use super::{AngleDynamics, State, Table};
+use super::{Dynamics, State, Table};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
@@ -21,7 +21,6 @@ pub(super) struct PanelStart {
 }
 
 /// Panel with the tables of all that depends on the position alone, equal in each cycle.
-#[derive(Clone)]
 pub(super) struct PanelTable<P> {
     /// Whole turns to be added to the angles of the piece, in the first cycle.
     pub turns: f64,
@@ -53,7 +52,6 @@ pub(super) struct PanelTable<P> {
 }
 
 /// Rest of a panel after a switching: guess for the next turn.
-#[derive(Clone)]
 pub(super) struct Rest {
     rule: &'static Rule,
     /// Kinetic energy at the points, J.
@@ -81,8 +79,8 @@ pub(super) const FIRST_DEGREE: usize = 24;
 impl<P: Copy> PanelTable<P> {
     /// Makes the panel between two angles (rad); its degree is the least that resolves inertia and forces, after a
     /// trial with the degree `first`.
-    pub fn new<D: AngleDynamics<Place = P>>(
-        dynamics: &D,
+    pub fn new(
+        dynamics: &impl Dynamics<Place = P>,
         turns: f64,
         ends: [f64; 2],
         side: f64,
@@ -96,9 +94,9 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Sets the least degree that resolves inertia and forces, or `most`; true if they are resolved.
-    pub fn resolve<D: AngleDynamics<Place = P>>(
+    pub fn resolve(
         &mut self,
-        dynamics: &D,
+        dynamics: &impl Dynamics<Place = P>,
         fine: Fineness,
         most: usize,
     ) -> Result<bool, NotApplicable> {
@@ -146,9 +144,9 @@ impl<P: Copy> PanelTable<P> {
 
     /// Makes the rest of the panel from an angle (rad) on, after switching number `index`, for the other side; `known`
     /// is the same rest in the last turn.
-    pub fn rest<D: AngleDynamics<Place = P>>(
+    pub fn rest(
         &self,
-        dynamics: &D,
+        dynamics: &impl Dynamics<Place = P>,
         from: f64,
         index: usize,
         known: Option<&Rest>,
@@ -175,43 +173,30 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Changes to the other side of the switch.
-    pub fn turn_over<D: AngleDynamics<Place = P>>(
-        &mut self,
-        dynamics: &D,
-    ) -> Result<(), NotApplicable> {
+    pub fn turn_over(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<(), NotApplicable> {
         self.side = -self.side;
         self.past.forget();
         self.tabulate(dynamics)
     }
 
-    pub fn tabulate<D: AngleDynamics<Place = P>>(
-        &mut self,
-        dynamics: &D,
-    ) -> Result<(), NotApplicable> {
+    pub fn tabulate(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<(), NotApplicable> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
         dynamics.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
-        let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
-        let forces = self.table.force[..count].iter();
-        self.largest_force = forces.fold(0.0, |largest, force| largest.max(force.abs()));
-        for (mobility, inertia) in self
-            .mobility
-            .iter_mut()
-            .zip(&self.table.inertia)
-            .take(count)
-        {
+        self.largest_force = largest(&self.table.force[..count]);
+        let inertias = self.table.inertia[..count].iter();
+        for (mobility, inertia) in self.mobility.iter_mut().zip(inertias) {
             *mobility = 2.0 / inertia;
         }
-        self.damped = self.table.damping[..count]
-            .iter()
-            .any(|damping| *damping != 0.0);
+        let damping = &self.table.damping[..count];
+        self.damped = damping.iter().any(|damping| *damping != 0.0);
         self.fill_work();
-        if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
-            Ok(())
-        } else {
-            Err(NotApplicable::NotFinite)
-        }
+        let table = &self.table;
+        let finite = [&table.inertia, &table.force, &table.push]
+            .iter()
+            .all(|values| values[..count].iter().all(|value| value.is_finite()));
+        finite.then_some(()).ok_or(NotApplicable::NotFinite)
     }
 
     /// Returns the least degree that resolves the speed at constant kinetic energy and the forces relative to that
@@ -240,10 +225,7 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Raises the degree to the next; false if there is none.
-    pub fn raise<D: AngleDynamics<Place = P>>(
-        &mut self,
-        dynamics: &D,
-    ) -> Result<bool, NotApplicable> {
+    pub fn raise(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<bool, NotApplicable> {
         let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
             return Ok(false);
         };
@@ -254,9 +236,9 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Cuts the panel at the fraction `share`; none if it is too short.
-    pub fn parts<D: AngleDynamics<Place = P>>(
+    pub fn parts(
         &self,
-        dynamics: &D,
+        dynamics: &impl Dynamics<Place = P>,
         share: f64,
         fine: Fineness,
     ) -> Result<Option<[Self; 2]>, NotApplicable> {

@@ -73,12 +73,14 @@ impl Progress {
         let misplaced = [&table.table.force, &table.table.push]
             .map(|forces| uncertain(&piece, &forces[..count]));
         let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1]);
-        let (advance, most) = solution.advance(rule);
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;
-        let duration = panel.duration.0;
-        self.errors.pass(retained, noise, advance, duration, most);
+        // The noise arises mainly where the energy is large.
+        let largest = solution.kinetic[0].max(solution.kinetic[rule.degree()]);
+        let advance_of_noise = 0.5 * panel.duration.0 / largest;
+        let advance = solution.advance(rule);
+        self.errors.pass(retained, noise, advance, advance_of_noise);
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
         SolvedPanel { panel, force, work }

@@ -1,11 +1,11 @@
 //! Refinement of panels that were not solved: higher degree or cut.
 
-use super::AngleDynamics;
+use super::Dynamics;
 use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
 
-impl<D: AngleDynamics> PanelStepper<'_, D> {
+impl<D: Dynamics> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, or for all turns if the failure recurs or will.
     pub(super) fn refine(&mut self, why: Unsolved) -> Result<(), NotApplicable> {
         self.progress.refined = true;

@@ -6,7 +6,7 @@ use super::angle_run::work_until;
 use super::poincare_map::{self, SINGLE_TURNS};
 use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{AngleDynamics, AngleRun, EarlyEnd, Goal, Resolution};
+use super::{AngleRun, Dynamics, EarlyEnd, Goal, Resolution};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
@@ -17,7 +17,7 @@ use crate::engine::work_forecast::WorkForecast;
 ///
 /// # Errors
 /// [`NotApplicable`] where the angle cannot be the independent variable at the start.
-pub fn run<D: AngleDynamics>(
+pub fn run<D: Dynamics>(
     dynamics: &D,
     from: Start,
     goal: Goal,
@@ -81,7 +81,7 @@ pub fn run<D: AngleDynamics>(
 }
 
 /// Starts the forecast for a run without a map: will it reach its goal within the limit?
-fn forecast<'a, D: AngleDynamics>(
+fn forecast<'a, D: Dynamics>(
     stepper: &PanelStepper<'a, D>,
     goal: Goal,
     reads_time: bool,
@@ -99,7 +99,7 @@ fn forecast<'a, D: AngleDynamics>(
 }
 
 /// Makes the result of a run that ended before its goal.
-fn ended<D: AngleDynamics>(
+fn ended<D: Dynamics>(
     mut stepper: PanelStepper<'_, D>,
     segment: Segment,
     why: NotApplicable,

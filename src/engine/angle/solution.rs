@@ -67,10 +67,9 @@ impl PanelSolution {
         }
     }
 
-    /// Returns the integral of dt/2K over the panel, s/J, and the larger kinetic energy of the two ends, J.
-    pub fn advance(&self, rule: &Rule) -> (f64, f64) {
+    /// Returns the advance of the end time per error of the kinetic energy at the start, ∫ dt/2K, s/J.
+    pub fn advance(&self, rule: &Rule) -> f64 {
         let advance: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
-        let most = self.kinetic[0].max(self.kinetic[rule.degree()]);
-        (rule.rounded_integral(&advance), most)
+        rule.rounded_integral(&advance)
     }
 }

@@ -13,13 +13,13 @@ use super::progress::{Progress, SolvedPanel};
 use super::solution::PanelSolution;
 use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
 use super::switch::{Switching, begins_beyond, switching};
-use super::{AngleDynamics, Panels, Resolution};
+use super::{Dynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::Start;
 use crate::numeric::enclosure::Interval;
 
 /// State of a run over the angle, with the panels of a cycle.
-pub(super) struct PanelStepper<'a, D: AngleDynamics> {
+pub(super) struct PanelStepper<'a, D: Dynamics> {
     pub(super) dynamics: &'a D,
     pub(super) fine: Fineness,
     pub(super) panels: CyclePanels<D::Place>,
@@ -42,7 +42,7 @@ pub(super) struct PanelStepper<'a, D: AngleDynamics> {
     pub(super) gives_up: bool,
 }
 
-impl<'a, D: AngleDynamics> PanelStepper<'a, D> {
+impl<'a, D: Dynamics> PanelStepper<'a, D> {
     pub fn new(
         dynamics: &'a D,
         from: Start,

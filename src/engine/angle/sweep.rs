@@ -1,6 +1,6 @@
 //! Collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at its points, by Picard iteration and Newton's method.
 
-use super::AngleDynamics;
+use super::Dynamics;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{Rule, Values, largest};
@@ -29,7 +29,7 @@ pub(super) struct Tails {
 }
 
 /// Solves a panel from the guess of the kinetic energy at its points in `solution`.
-pub(super) fn sweep<D: AngleDynamics>(
+pub(super) fn sweep<D: Dynamics>(
     dynamics: &D,
     panel: &mut PanelTable<D::Place>,
     start: PanelStart,
@@ -128,7 +128,7 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 
 impl PanelSolution {
     /// Evaluates the forces at the present kinetic energy.
-    fn evaluate<D: AngleDynamics>(
+    fn evaluate<D: Dynamics>(
         &mut self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,
@@ -140,7 +140,7 @@ impl PanelSolution {
     }
 
     /// Computes the motion in closed form.
-    fn take_undamped<D: AngleDynamics>(
+    fn take_undamped<D: Dynamics>(
         &mut self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,

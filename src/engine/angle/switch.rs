@@ -2,7 +2,7 @@
 
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::solution::PanelSolution;
-use super::{AngleDynamics, Switch};
+use super::{Dynamics, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
@@ -21,7 +21,7 @@ pub(super) enum Switching {
 }
 
 /// Determines the switching of the motion on a panel that was solved for one side.
-pub(super) fn switching<D: AngleDynamics>(
+pub(super) fn switching<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
@@ -47,7 +47,7 @@ pub(super) fn switching<D: AngleDynamics>(
 
 /// True if the motion starts on the other side of the switch, judged at the start alone: under a steep loss the wrong
 /// side produces a transient, which is harder to resolve than the motion.
-pub(super) fn begins_beyond<D: AngleDynamics>(
+pub(super) fn begins_beyond<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
@@ -62,7 +62,7 @@ pub(super) fn begins_beyond<D: AngleDynamics>(
 
 /// Returns the switch at point `j` at a time (s) and a speed (rad/s), positive on the side of the panel, and the
 /// largest magnitude of its parts.
-fn value<D: AngleDynamics>(
+fn value<D: Dynamics>(
     dynamics: &D,
     switch: &Switch,
     panel: &PanelTable<D::Place>,
@@ -95,7 +95,7 @@ impl PanelSolution {
 }
 
 /// Returns the switch at the points, positive on the side of the panel, and its rounding error.
-fn values<D: AngleDynamics>(
+fn values<D: Dynamics>(
     dynamics: &D,
     switch: &Switch,
     panel: &PanelTable<D::Place>,

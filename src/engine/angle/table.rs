@@ -13,7 +13,7 @@ pub struct Table<P> {
     pub push: Values,
     /// Damping coefficient, N m s/rad: the force −damping·ω.
     pub damping: Values,
-    /// Data for [`super::AngleDynamics::state_loads`]; empty if there are no state loads.
+    /// Data for [`super::Dynamics::state_loads`]; empty if there are no state loads.
     pub places: Vec<P>,
     /// Switch between two forms of the forces, if there are two.
     pub switch: Option<Box<Switch>>,

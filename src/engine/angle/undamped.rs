@@ -1,6 +1,6 @@
 //! Motion on a panel without damping and state loads in closed form: K' = b K + F with the integrating factor exp ∫ b.
 
-use super::AngleDynamics;
+use super::Dynamics;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -30,7 +30,7 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// True if the panel has neither damping nor state loads: its motion is known in closed form.
-    pub fn is_in_closed_form<D: AngleDynamics>(&self, dynamics: &D) -> bool {
+    pub fn is_in_closed_form(&self, dynamics: &impl Dynamics) -> bool {
         !self.damped && !dynamics.has_state_loads()
     }
 

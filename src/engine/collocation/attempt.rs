@@ -62,26 +62,7 @@ impl Collocation<'_> {
         };
         self.update(state, h);
     }
-}
 
-/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
-/// without its own polynomial, which is less accurate inside than at its ends.
-fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
-    let past = guide.partition_point(|step| step.end.t < t[0]);
-    let mut steps = guide[past..].iter();
-    let mut step = steps.next()?;
-    let mut alpha = [0.0; NODES];
-    for (alpha, t) in alpha.iter_mut().zip(t) {
-        while step.end.t < *t {
-            step = steps.next()?;
-        }
-        let knows = step.start.t <= *t && step.has_polynomial();
-        *alpha = knows.then(|| step.acceleration_at(*t))?;
-    }
-    Some(alpha)
-}
-
-impl Collocation<'_> {
     /// Scales an error of angle (rad) and speed (rad/s) by the tolerance.
     pub(super) fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
         let angle = angle / (1.0 + state.theta.abs());
@@ -134,4 +115,21 @@ impl Collocation<'_> {
         let n = 2.0 * NODES as f64;
         self.in_units(state, h * h * term / (n * n), h * term / n)
     }
+}
+
+/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
+/// without its own polynomial, which is less accurate inside than at its ends.
+fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
+    let past = guide.partition_point(|step| step.end.t < t[0]);
+    let mut steps = guide[past..].iter();
+    let mut step = steps.next()?;
+    let mut alpha = [0.0; NODES];
+    for (alpha, t) in alpha.iter_mut().zip(t) {
+        while step.end.t < *t {
+            step = steps.next()?;
+        }
+        let knows = step.start.t <= *t && step.has_polynomial();
+        *alpha = knows.then(|| step.acceleration_at(*t))?;
+    }
+    Some(alpha)
 }

@@ -80,13 +80,10 @@ pub fn run(
                 wanted = h * factor.clamp(least_factor, greatest_retry);
             }
             Ok(Accepted { step, next, factor }) => {
-                let whole = length >= way;
                 // A step cut short by a corner says little about the length of the next.
-                wanted = if whole || factor < 1.0 {
-                    length * factor.clamp(least_factor, greatest_factor)
-                } else {
-                    wanted
-                };
+                if length >= way || factor < 1.0 {
+                    wanted = length * factor.clamp(least_factor, greatest_factor);
+                }
                 state = next;
                 last = step;
                 if is_last {
@@ -98,14 +95,8 @@ pub fn run(
                 }
                 at_corner = ends_at_corner;
                 steps += 1;
-                if sink(&last) {
-                    let at_end = state.t >= settings.t_end;
-                    let finish = if at_end {
-                        Finish::AtEnd
-                    } else {
-                        Finish::Stopped
-                    };
-                    return (finish, last, steps);
+                if sink(&last) && state.t < settings.t_end {
+                    return (Finish::Stopped, last, steps);
                 }
             }
         }

@@ -10,7 +10,7 @@ use super::guide_friction::{GuideFriction, GuideGain, Spot};
 use super::marks::{Marks, SAME_ANGLE, in_order};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{AngleDynamics, Panels, State, Table};
+use crate::engine::angle::{Dynamics, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
@@ -127,7 +127,7 @@ impl<'a> AngleModel<'a> {
     }
 }
 
-impl AngleDynamics for AngleModel<'_> {
+impl Dynamics for AngleModel<'_> {
     type Place = Spot;
 
     fn positions(&self) -> u64 {

@@ -6,7 +6,7 @@ use super::super::configuration_curve::Observer;
 use super::super::stick_slip::Phase;
 use super::arrived::Sink;
 use super::engine_loop::Course;
-use crate::engine::angle::AngleDynamics;
+use crate::engine::angle::Dynamics;
 use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::AngleDynamics;
+use super::super::Dynamics;
 use super::super::load_resolution::resolves_speeds;
 use super::super::stepper::PanelStepper;
 use super::{DEGREE, MapRun};
@@ -13,7 +13,7 @@ use crate::engine::sight::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
-impl<D: AngleDynamics> MapRun<'_, D> {
+impl<D: Dynamics> MapRun<'_, D> {
     /// Computes the cell over the energies middle ± half, J.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
         let rule = Rule::of(DEGREE);

@@ -12,7 +12,7 @@ use super::super::energy::{NotApplicable, Orbit};
 use super::angle_run::work_until;
 use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{AngleDynamics, AngleRun, EarlyEnd, Errors, Goal};
+use super::{AngleRun, Dynamics, EarlyEnd, Errors, Goal};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::Start;
 
@@ -22,7 +22,7 @@ const DEGREE: usize = 16;
 pub(super) const SINGLE_TURNS: f64 = 3.0 * DEGREE as f64;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
-pub(super) fn run<D: AngleDynamics>(
+pub(super) fn run<D: Dynamics>(
     stepper: PanelStepper<'_, D>,
     segment: Segment,
     goal: Goal,
@@ -38,9 +38,7 @@ pub(super) fn run<D: AngleDynamics>(
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
     let mut turns = MapRun {
         width: f64::INFINITY,
-        rises: stepper.progress.gain > 0.0,
-        lost: (stepper.progress.gain / stepper.progress.turns).abs()
-            * f64::from(stepper.dynamics.cycle()),
+        gain: stepper.progress.gain / mark.turns * f64::from(stepper.dynamics.cycle()),
         stepper,
         map: Interpolated {
             cells: Vec::new(),
@@ -106,7 +104,7 @@ enum MapEnd {
 }
 
 /// Run by the map, from its first turn to the turn with the goal.
-struct MapRun<'a, D: AngleDynamics> {
+struct MapRun<'a, D: Dynamics> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
     marks: Vec<Mark>,
@@ -114,13 +112,11 @@ struct MapRun<'a, D: AngleDynamics> {
     last: Segment,
     /// Width of the next cell, relative to the energy at its start.
     width: f64,
-    /// True if the energy rises from turn to turn.
-    rises: bool,
-    /// Magnitude of the energy change in the last turn, J.
-    lost: f64,
+    /// Kinetic energy gained in the last turn, J.
+    gain: f64,
 }
 
-impl<D: AngleDynamics> MapRun<'_, D> {
+impl<D: Dynamics> MapRun<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
     fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
         let mut mark = self.marks[0];
@@ -172,8 +168,7 @@ impl<D: AngleDynamics> MapRun<'_, D> {
             if self.stepper.limit.is_reached(0) {
                 return (known, Some(NotApplicable::WorkLimit));
             }
-            self.rises = turn.gain > 0.0;
-            self.lost = turn.gain.abs();
+            self.gain = turn.gain;
             before = mark;
             mark = mark.after(&turn, 1.0);
         }
@@ -190,7 +185,7 @@ impl<D: AngleDynamics> MapRun<'_, D> {
         self.width = self.width.min(widest);
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
-            let (low, high) = if self.rises {
+            let (low, high) = if self.gain > 0.0 {
                 (kinetic - behind, kinetic + ahead)
             } else {
                 (kinetic - ahead, kinetic + behind)
@@ -214,7 +209,7 @@ impl<D: AngleDynamics> MapRun<'_, D> {
                 }
             };
             let narrows = matches!(why, NotApplicable::TooSlow | NotApplicable::NotSmooth);
-            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
+            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.gain.abs();
             if !narrows || !pays || tried <= narrowest {
                 return Err(why);
             }

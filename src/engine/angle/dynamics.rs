@@ -21,7 +21,7 @@ pub struct State<'a, P> {
 
 /// Equation of motion over the crank angle: tables of what depends on the position alone, and state loads, which are
 /// evaluated at states.
-pub trait AngleDynamics {
+pub trait Dynamics {
     /// Data of a position that the loads need.
     type Place: Copy;
 
