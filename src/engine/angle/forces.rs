@@ -115,11 +115,7 @@ impl Forces {
         first: usize,
     ) {
         let state = |j| panel.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
-        let mut at = [state(first); N];
-        for (i, at) in at.iter_mut().enumerate().skip(1) {
-            *at = state(first + i);
-        }
-        let forces = dynamics.state_loads(&at);
+        let forces = dynamics.state_loads(&std::array::from_fn::<_, N, _>(|i| state(first + i)));
         for (non_conservative, force) in self.non_conservative[first..].iter_mut().zip(forces) {
             *non_conservative += force;
         }
