@@ -7,8 +7,8 @@ use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Equation};
 
-/// Standard deviation of one rounding, in units of the last place: 1/√12, for errors spread evenly over half a unit on
-/// either side.
+/// Standard deviation of one rounding, in units of the last place: about 1/√12, for errors spread evenly over half a
+/// unit on either side.
 const ONE_ROUNDING: f64 = 0.3;
 
 /// Roundoff of a run in time.

@@ -73,7 +73,7 @@ pub(super) struct Fineness {
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
 /// Convergence factor above which sweeps give way to Newton's method; also the first estimate of the factor.
 pub(super) const SLOW_FACTOR: f64 = 0.3;
-/// Degree of the series tried first.
+/// Degree of the series tried first: a higher one costs no less than more panels.
 pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> PanelTable<P> {

@@ -36,6 +36,11 @@ pub(super) fn sweep<D: Dynamics>(
     tails: Tails,
     solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
+    solution.evaluations = 0;
+    solution.share = 1.0;
+    if panel.is_in_closed_form(dynamics) {
+        return solution.take_undamped(dynamics, panel, start, tails);
+    }
     // Evaluations of state loads cost more than the sweeps that they spare.
     let has_state_loads = dynamics.has_state_loads();
     let error_share = if has_state_loads {
@@ -51,11 +56,6 @@ pub(super) fn sweep<D: Dynamics>(
     let least_factor = 1e-3;
     // Sweeps that gain the factor SLOW_FACTOR each reach rounding after 30.
     let most_sweeps = 40;
-    solution.evaluations = 0;
-    solution.share = 1.0;
-    if panel.is_in_closed_form(dynamics) {
-        return solution.take_undamped(dynamics, panel, start, tails);
-    }
     let mut newton = false;
     let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
@@ -75,12 +75,13 @@ pub(super) fn sweep<D: Dynamics>(
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
         // the forces depend on the square root of the kinetic energy or on the energy itself.
-        let factor = if linear && !newton && !has_state_loads {
-            largest
-        } else if before.is_finite() {
-            (largest / before).max(least_factor)
-        } else {
-            panel.factor
+        let measured = before
+            .is_finite()
+            .then(|| (largest / before).max(least_factor));
+        let factor = match measured {
+            _ if linear && !newton && !has_state_loads => largest,
+            Some(measured) => measured,
+            None => panel.factor,
         };
         let gains = before.is_finite() && largest < SLOW_FACTOR * before;
         let at_rounding = largest < SUM_ROUNDING && !gains;
@@ -99,9 +100,9 @@ pub(super) fn sweep<D: Dynamics>(
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             solution.end = start.kinetic + solution.gain;
             return Ok(());
-        } else if before.is_finite() {
-            panel.factor = (largest / before).max(least_factor);
-            newton = panel.factor > SLOW_FACTOR;
+        } else if let Some(measured) = measured {
+            panel.factor = measured;
+            newton = measured > SLOW_FACTOR;
         }
         before = largest;
     }
