@@ -43,8 +43,8 @@ impl Slopes {
     pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         // Differences, about the square root of a rounding: of the angle, rad, no more than in the step, as slopes near
-        // a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the time,
-        // relative to the step.
+        // a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
+        // time, relative to the step.
         let (least_angle, most_angle, speed_share) = (1e-9, 1e-7, 1e-7);
         let aside = (end.theta - start.theta)
             .abs()

@@ -26,8 +26,8 @@ impl Errors {
         }
     }
 
-    /// Propagates the errors over a panel that retains a fraction of an energy error and adds `noise`, J. An error at the
-    /// start advances the end by `advance`, the noise by `advance_of_noise`, s/J.
+    /// Propagates the errors over a panel that retains a fraction of an energy error and adds `noise`, J. An error at
+    /// the start advances the end by `advance`, the noise by `advance_of_noise`, s/J.
     pub(super) fn pass(&mut self, retained: f64, noise: f64, advance: f64, advance_of_noise: f64) {
         self.time += (self.energy * advance).hypot(noise * advance_of_noise);
         self.advance += self.retained * advance;

@@ -68,8 +68,8 @@ pub(super) struct Fineness {
 }
 
 /// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end, and a
-/// switch as small there, beside its parts, as zero. Forces are continuous at a switching: the effect is of second order
-/// in this length.
+/// switch as small there, beside its parts, as zero. Forces are continuous at a switching: the effect is of second
+/// order in this length.
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
 /// Convergence factor above which sweeps give way to Newton's method; also the first estimate of the factor.
 pub(super) const SLOW_FACTOR: f64 = 0.3;

@@ -15,8 +15,8 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         if panel.raise(self.dynamics)? {
             return Ok(());
         }
-        // Below this fraction of the largest kinetic energy, and this half length, rad, a crank that seems to stop on the
-        // panel is not followed further: the panels would shrink geometrically, and a step in time passes.
+        // Below this fraction of the largest kinetic energy, and this half length, rad, a crank that seems to stop on
+        // the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
         let (slow_share, short_half) = (0.1, 0.25);
         let slows = kinetic < slow_share * fastest && panel.half().abs() < short_half;
         if self.gives_up && why == Unsolved::Stops && slows {

@@ -24,7 +24,7 @@ pub(super) fn worst_row(
 }
 
 /// Largest roundoff of an angle within its turn, rad.
-pub(super) const ANGLE_ROUNDING_IN_TURN: f64 = 2.0 * f64::EPSILON;
+pub(super) const TURN_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
 /// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
@@ -64,9 +64,9 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimat
     // force, a difference with more roundoff.
     let roundings = if rests { 4.0 } else { 1.0 };
     let late = orbit.time_error(t) + roundings * f64::EPSILON * t;
-    let place = orbit.rounding(t).map_or(ANGLE_ROUNDING_IN_TURN, |place| {
-        place.min(ANGLE_ROUNDING_IN_TURN)
-    });
+    let place = orbit
+        .rounding(t)
+        .map_or(TURN_ROUNDING, |place| place.min(TURN_ROUNDING));
     let mut error = late_by(task, at, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();

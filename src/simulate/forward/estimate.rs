@@ -19,7 +19,7 @@ use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
 use super::arrived::{AnglePiece, Arrived, Sink};
 use super::engine_loop::Course;
-use super::errors_over_angle::{ANGLE_ROUNDING_IN_TURN, by_energy, late_by, row_error, worst_row};
+use super::errors_over_angle::{TURN_ROUNDING, by_energy, late_by, row_error, worst_row};
 use super::over_angle::finer;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
@@ -161,12 +161,7 @@ fn distance(
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(
-            course.task,
-            arrived.now,
-            time_rounding * t,
-            ANGLE_ROUNDING_IN_TURN,
-        ),
+        _ => late_by(course.task, arrived.now, time_rounding * t, TURN_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
