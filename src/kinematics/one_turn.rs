@@ -12,6 +12,9 @@ use crate::mechanism::{Length, Linkage, TorqueSlope};
 use crate::numeric::angle;
 use crate::scene::Scene;
 
+/// Largest number of rows of a turn: more, from an angle between rows of less than 6e-8 rad, are an error of its unit.
+pub const MOST_ROWS_OF_TURN: f64 = 1e8;
+
 /// Quantities to compute beside the kinematics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TurnOptions {

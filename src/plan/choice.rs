@@ -228,18 +228,16 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     why
 }
 
-/// Number of equally spaced crank angles of a turn at which `jams` tests the guide.
-const ANGLES_OF_TURN: u32 = 64;
-
-/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of `ANGLES_OF_TURN` crank angles.
+/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of 64 equally spaced crank angles of a turn.
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
     let mu = guide
         .friction()
         .map_or(0.0, |friction| friction.coefficient);
-    let theta = |i: u32| TAU * f64::from(i) / f64::from(ANGLES_OF_TURN);
-    (0..ANGLES_OF_TURN).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
+    let angles = 64u32;
+    let theta = |i: u32| TAU * f64::from(i) / f64::from(angles);
+    (0..angles).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
 }
 
 /// Returns the first load whose corners are not known as crank angles, and why.

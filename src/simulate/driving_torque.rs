@@ -22,9 +22,6 @@ pub(super) struct Drive<'a> {
     pub end: f64,
 }
 
-/// Largest number of turns that are searched where the loads do not repeat from turn to turn.
-const MOST_TURNS: f64 = 100.0;
-
 impl Drive<'_> {
     fn equation(&self) -> &Equation {
         &self.maker.equation
@@ -115,8 +112,10 @@ impl Drive<'_> {
         let reads = self.equation().loads().reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
         let whole = repeats && self.end >= turn;
-        if !whole && self.end > MOST_TURNS * turn {
-            return Err(NoRange::TooManyTurns(MOST_TURNS));
+        // Bounds the work: turns that differ are all searched.
+        let most_turns = 100.0;
+        if !whole && self.end > most_turns * turn {
+            return Err(NoRange::TooManyTurns(most_turns));
         }
         // A quarter more than a turn: each place of the turn has two neighbours.
         let turned = if whole {

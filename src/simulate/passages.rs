@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::guide_friction::DEAD_CENTRE_WIDTH;
 use super::result::Event;
 use super::row::Row;
 use super::row_writer::RowSource;
@@ -23,7 +24,7 @@ pub(super) struct OrbitPiece<'a> {
 
 /// Returns the angle within which a dead centre counts as reached, rad: far from zero angles are rounded more.
 fn near(way: f64) -> f64 {
-    (8.0 * f64::EPSILON * way).max(1e-12)
+    (8.0 * f64::EPSILON * way).max(DEAD_CENTRE_WIDTH)
 }
 
 /// Lists distance, rad in (0, 2π], and angle of each dead centre ahead in a direction: the start is not passed.

@@ -13,7 +13,7 @@ use std::time::Instant;
 pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::recorder::{Record, Recorder};
+use super::recorder::Recorder;
 use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
@@ -29,9 +29,6 @@ use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
 use contact_follower::{ContactFollower, ContactHistory};
 use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
-
-/// Number of samples of the journal path in a turn; halved again and again in a long run.
-const SAMPLES_IN_A_TURN: f64 = 64.0;
 
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let scene = task.scene.reduced();
@@ -95,13 +92,11 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         let (ended, follower) = self.integrate(Some(recorder), tolerance, self.t_end);
         let ContactFollower { recorder, seen, .. } = follower;
         let last = seen.ends_at.unwrap_or(model.state(&ended.last));
-        let record = match recorder {
-            Some(mut recorder) => {
-                recorder.end_piece(last.t);
-                recorder.finish(|| Some(model.row(&last, ended.phase)))?
-            }
-            None => Record::default(),
-        };
+        let record = recorder.map(|mut recorder| {
+            recorder.end_piece(last.t);
+            recorder.finish(|| Some(model.row(&last, ended.phase)))
+        });
+        let record = record.transpose()?.unwrap_or_default();
         let wall_s = record.wall_s(begun);
         Ok(self.concluded(&ended, &seen, record, &last, wall_s))
     }
@@ -115,7 +110,9 @@ impl<'a, const N: usize> LooseRun<'a, N> {
     ) -> (ContactEnd<N>, ContactFollower<'b, N>) {
         let (model, task, start) = (&self.model, self.model.task, &self.model.start);
         let turn = TAU / start.omega.abs().max(1.0);
-        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
+        // Samples of the journal path in a turn, or in a shorter run; a long run halves their number again and again.
+        let samples = 64.0;
+        let width = (turn / samples).min((self.t_end / samples).max(1e-12));
         let mut follower = ContactFollower {
             model,
             dead_centres: task.dead_centres(),

@@ -18,9 +18,6 @@ use crate::engine::time::{Finish, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
-/// Distance from a change point, in crank lengths, within which the last digits of the lengths decide.
-const NEAR_CHANGE_POINT: f64 = 1e-6;
-
 /// Equation on the configuration curve through the start, and the state of the coordinate at the start.
 #[derive(Clone)]
 pub(super) struct OnCurve {
@@ -35,10 +32,11 @@ pub(super) fn serves(task: &RunSetup<'_>) -> bool {
 
 /// Returns the warning about lengths at or near a change point, if any.
 pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
-    let near = task.equation().linkage().nearness_to_change_point();
+    // In crank lengths; lengths given to six digits do not tell on which side of a change point they are.
+    let (near, as_given) = (task.equation().linkage().nearness_to_change_point(), 1e-6);
     match task.limits.class {
         Class::ChangePoint => Some(Warning::ChangePoint),
-        _ => (near < NEAR_CHANGE_POINT).then_some(Warning::NearChangePoint(near)),
+        _ => (near < as_given).then_some(Warning::NearChangePoint(near)),
     }
 }
 

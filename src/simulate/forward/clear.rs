@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::configuration_curve::Observer;
+use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::Phase;
 use super::arrived::Sink;
 use super::engine_loop::Course;
@@ -10,11 +11,6 @@ use crate::engine::angle::Driven;
 use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
-
-/// Least kinetic energy for a hand-over, as part of the largest since the last turning point.
-const FAST: f64 = 0.25;
-/// Least distance of a hand-over from corners, rad: they may be events.
-const APART: f64 = 1e-6;
 
 /// Observer of a crank in time until it turns safely again.
 pub(super) struct Until<'a, 'o> {
@@ -81,15 +77,18 @@ impl<'a, 'o> Until<'a, 'o> {
             (self.turned, self.since) = (angle, 0.0);
         }
         self.since = self.since.max(kinetic);
+        // Part of the largest energy since then: a slower crank may be near to rest, where the angle does not serve.
+        let fast = 0.25;
         angle.minus(self.turned).abs() >= self.wait
-            && kinetic >= FAST * self.since
+            && kinetic >= fast * self.since
             && self.is_apart(angle)
     }
 
+    /// Whether an angle is apart from all corners, as they may be events.
     fn is_apart(&self, angle: Angle) -> bool {
         let corners = self.course.model.corners_if_light().iter();
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
-            .all(|ahead| ahead.min(TAU - ahead) > APART)
+            .all(|ahead| ahead.min(TAU - ahead) > NEARBY_ANGLE)
     }
 }

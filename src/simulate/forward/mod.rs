@@ -37,9 +37,6 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// Crank rotation in one direction, rad, after which the angle engine resumes.
-const WAIT: f64 = TAU;
-
 /// Runs a free motion, with the model of its mechanism over the crank angle.
 pub(super) fn run(
     task: &RunSetup<'_>,
@@ -56,7 +53,7 @@ pub(super) fn run(
         extent: task.extent,
         resolution: over_angle::plain(task),
         settings: task.settings(),
-        wait: WAIT,
+        wait: TAU,
         curve: OnceCell::new(),
     };
     let forward = CrankMotion(task.equation());

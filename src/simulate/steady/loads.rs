@@ -11,9 +11,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::gauss;
 use crate::scene::{Load, LoadOf, Scene};
 
-/// Number of equal pieces of a turn, in addition to those from dead centres and tables.
-const PIECES: u32 = 16;
-
 /// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
     let Verified { found, check, .. } = verified;
@@ -71,12 +68,14 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
     let corners = corners.into_iter().flatten();
     let mut cuts: Vec<f64> = corners.map(turned).collect();
     let dead_centres = Limits::new(linkage, found.cycle.speed).dead_centres;
+    // Of a turn: adaptive quadrature may miss a narrow part of a formula between its first nodes.
+    let parts = 16u32;
     for turn in 0..found.turns as u32 {
         let before = f64::from(turn) * TAU;
         let ahead = |theta: f64| before + turned(theta).rem_euclid(TAU);
         cuts.extend(dead_centres.iter().map(|dc| ahead(dc.theta)));
-        let part = |i: u32| before + f64::from(i) / f64::from(PIECES) * TAU;
-        cuts.extend((0..PIECES).map(part));
+        let part = |i: u32| before + f64::from(i) / f64::from(parts) * TAU;
+        cuts.extend((0..parts).map(part));
     }
     cuts.push(found.way());
     cuts.sort_by(f64::total_cmp);

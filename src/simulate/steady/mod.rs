@@ -156,9 +156,10 @@ struct Verified {
 
 impl Verified {
     fn new(scene: &Scene, found: PeriodicOrbit, options: &Options) -> Result<Verified, Error> {
+        let rounding = 8.0 * f64::EPSILON;
         Ok(Verified {
             check: periodic_orbit::again(scene, found.cycle.speed, options)?,
-            relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
+            relative: 0.5 * found.cycle.uncertain + rounding,
             found,
         })
     }

@@ -15,14 +15,6 @@ use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Extent, LEAST_TOLERANCE, Scene, Variable};
 
-/// Relative roundoff of speeds and times.
-pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
-/// Energy gain of a turn, as part of its largest energy, up to which it counts as none.
-const NO_GAIN: f64 = 1e-12;
-/// First step of a search in the logarithm of the energy, and of a search near a known motion.
-const FIRST_LOG_STEP: f64 = 0.05;
-const STEP_BESIDE: f64 = 1e-10;
-
 /// Extreme of the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Extreme {
@@ -72,16 +64,19 @@ impl PeriodicOrbit {
 
 /// Finds the periodic motion that a scene's start approaches from a speed, rad/s.
 pub(super) fn find(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
-    let tolerance = LEAST_TOLERANCE;
-    search(scene, speed, options, tolerance, FIRST_LOG_STEP)
+    let first_log_step = 0.05;
+    search(scene, speed, options, LEAST_TOLERANCE, first_log_step)
 }
 
 /// Computes a second time, for comparison, a periodic motion that begins at about this speed, rad/s.
 pub(super) fn again(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
+    // Far above the distance of both motions: one step brackets the second.
+    let first_log_step = 1e-10;
     let tolerance = 10.0 * LEAST_TOLERANCE;
-    search(scene, speed, options, tolerance, STEP_BESIDE)
+    search(scene, speed, options, tolerance, first_log_step)
 }
 
+/// Searches at a tolerance of the runs, from a first step in the logarithm of the energy.
 fn search(
     scene: &Scene,
     speed: f64,
@@ -122,7 +117,9 @@ impl Seeker<'_> {
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         if !by_speed && self.task.maker.guide.is_none() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
-            if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
+            // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
+            let no_gain = 1e-12;
+            if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest {
                 let (what, load) = match cycle.gain > 0.0 {
                     true => ("gains", "brakes"),
                     false => ("loses", "drives the crank"),
