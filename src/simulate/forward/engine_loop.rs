@@ -139,7 +139,7 @@ impl<'a> Pass<'a, '_> {
         })
     }
 
-    fn has_begun(&self) -> bool {
+    pub fn has_begun(&self) -> bool {
         self.arrived.over_angle + self.arrived.in_time > 0
     }
 

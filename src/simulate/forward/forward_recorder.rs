@@ -233,12 +233,7 @@ impl Observer for ForwardRecorder<'_> {
         let at = Start { t, angle, speed };
         let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
         let at = self.on.as_ref().map_or(at, crank);
-        self.recorder.event(Event {
-            kind,
-            t_s: t,
-            theta_rad: at.angle.radians(),
-            omega_rad_per_s: at.speed,
-        });
+        self.recorder.event(Event::new(kind, at));
     }
 }
 

@@ -6,9 +6,10 @@ use std::borrow::Cow;
 use super::super::configuration_curve::{self, CurveRun, End, Observer, OnCurve, Piece};
 use super::super::stop;
 use super::arrived::PieceEnd;
-use super::clear::{Clear, Until};
+use super::clear::Until;
 use super::engine_loop::{Course, Pass};
 use super::stop_reason;
+use crate::engine::Counted;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::plan::Engine;
@@ -25,10 +26,31 @@ impl Pass<'_, '_> {
             true => Some(course.on_curve()?),
             false => None,
         };
-        let (piece, clear) = match on {
-            Some(on) => self.along_curve(on, wait),
-            None => self.of_crank(wait),
+        // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
+        let start = on.filter(|_| !self.has_begun()).map_or(from, |on| on.start);
+        let settings = Settings {
+            limit: match on {
+                Some(_) => self.left(),
+                // The evaluations of `motion` before this piece count as well.
+                None => course.settings.limit.after(self.spent_beside()),
+            },
+            ..course.settings
         };
+        self.sink.begin_in_time(start, on);
+        let mut until = Until::new(course, from, wait, &mut *self.sink);
+        let mut piece = match on {
+            Some(on) => {
+                let limit = course.extent.angle();
+                let turning = limit.map(|limit| (course.task.start(), limit));
+                CurveRun::new(&on.equation, settings, start, turning, &mut until).run()
+            }
+            None => of_crank(self.motion, from, &settings, &mut until),
+        };
+        let clear = until.clear;
+        self.beside += piece.evaluations;
+        if let Some(last) = self.sink.end_in_time(self.motion, &piece.last, &settings) {
+            (piece.last, piece.work, piece.end) = (last, last.end.work, End::Done);
+        }
         let end = &piece.last.end;
         let coordinate = Start {
             t: end.t,
@@ -46,74 +68,42 @@ impl Pass<'_, '_> {
         arrived.impossible = piece.impossible;
         arrived.on_curve = on.is_some();
         arrived.last = Some(piece.last);
-        let back = clear.is_reached && matches!(piece.end, End::Stopped);
+        if clear.is_reached && matches!(piece.end, End::Stopped) {
+            arrived.end = End::Done;
+            arrived.now.angle = arrived.now.angle.reduced();
+            return Ok(PieceEnd::Clear);
+        }
         arrived.end = match (piece.end, course.extent) {
-            (End::Stopped, _) if back => End::Done,
             (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::FAR => {
                 End::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
         };
-        if back {
-            arrived.now.angle = arrived.now.angle.reduced();
-            return Ok(PieceEnd::Clear);
-        }
         Ok(PieceEnd::Ended)
     }
+}
 
-    /// Runs a piece with the crank angle as the coordinate.
-    fn of_crank(&mut self, wait: f64) -> (Piece, Clear) {
-        let from = self.arrived.now;
-        let settings = Settings {
-            // The evaluations of `motion` before this piece count as well.
-            limit: self.course.settings.limit.after(self.spent_beside()),
-            ..self.course.settings
-        };
-        self.sink.begin_in_time(from, None);
-        let mut until = Until::new(self.course, from, wait, &mut *self.sink);
-        let (finish, last, steps) = time::run(self.motion, from, &settings, &mut |step| {
-            until.step(step, None)
-        });
-        let clear = until.clear;
-        let shortened = self.sink.end_in_time(self.motion, &last, &settings);
-        let end = match finish {
-            _ if shortened.is_some() => End::Done,
+/// Runs a piece with the crank angle as the coordinate; its evaluations are those of `motion`.
+fn of_crank(
+    motion: &Counted<'_>,
+    from: Start,
+    settings: &Settings<'_>,
+    until: &mut Until<'_, '_>,
+) -> Piece {
+    let (finish, last, steps) =
+        time::run(motion, from, settings, &mut |step| until.step(step, None));
+    let impossible = motion.impossible();
+    Piece {
+        last,
+        work: last.end.work,
+        steps,
+        evaluations: 0,
+        end: match finish {
             Finish::AtEnd => End::Done,
             Finish::Stopped => End::Stopped,
             finish => End::Integrator(finish),
-        };
-        let last = shortened.unwrap_or(last);
-        let impossible = self.motion.impossible();
-        let piece = Piece {
-            last,
-            work: last.end.work,
-            steps,
-            evaluations: 0,
-            end,
-            impossible: impossible.map(|(t, angle, speed)| Start { t, angle, speed }),
-        };
-        (piece, clear)
-    }
-
-    /// Runs a piece along the configuration curve.
-    fn along_curve(&mut self, on: &OnCurve, wait: f64) -> (Piece, Clear) {
-        let course = self.course;
-        let begins = self.arrived.over_angle + self.arrived.in_time == 0;
-        let settings = Settings {
-            limit: self.left(),
-            ..course.settings
-        };
-        // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
-        let start = if begins { on.start } else { self.arrived.now };
-        let limit = course.extent.angle();
-        let turning = limit.map(|limit| (course.task.start(), limit));
-        self.sink.begin_in_time(start, Some(on));
-        let mut until = Until::new(course, self.arrived.now, wait, &mut *self.sink);
-        let piece = CurveRun::new(&on.equation, settings, start, turning, &mut until).run();
-        let clear = until.clear;
-        self.beside += piece.evaluations;
-        self.sink.end_in_time(self.motion, &piece.last, &settings);
-        (piece, clear)
+        },
+        impossible: impossible.map(|(t, angle, speed)| Start { t, angle, speed }),
     }
 }
 
