@@ -14,7 +14,7 @@ pub(super) const FREE: usize = 9;
 /// drive.
 pub(super) const DRIVEN: usize = 7;
 
-/// Mechanism with scales for the error control; its state has N numbers.
+/// Run of a mechanism, with scales for the error control; its state has N numbers.
 pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
     pub task: &'a RunSetup<'a>,
@@ -27,6 +27,8 @@ pub(super) struct Loose<'a, const N: usize> {
     pub pace: f64,
     /// Size of the mechanism, m.
     pub reach: f64,
+    /// Last time of the run, s.
+    pub t_end: f64,
 }
 
 impl<const N: usize> Loose<'_, N> {
