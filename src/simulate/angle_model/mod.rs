@@ -12,7 +12,7 @@ use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{Detail, MotionPiece};
 use crate::plan::{Engine, cycle_over_angle};
@@ -104,11 +104,7 @@ impl<'a> AngleModel<'a> {
             self.marks_are_corners = true;
         }
         self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
-        let again = |turn: u32| {
-            let before = f64::from(turn) * TAU;
-            dead_centres.iter().map(move |theta| theta + before)
-        };
-        let all = (0..turns).flat_map(again);
+        let all = angle::in_turns(dead_centres, 0..turns.into());
         self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
     }
 

@@ -10,7 +10,7 @@ use super::cycles::{Cycle, Cycles};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Extent, LEAST_TOLERANCE, Scene, Variable};
@@ -176,13 +176,10 @@ impl Seeker<'_> {
     /// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
     fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
-        let grid = self.task.equation().linkage().turn_grid(false);
-        let since = |theta: &f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
-        let again = |turn: u32| {
-            let before = f64::from(turn) * TAU;
-            grid.iter().map(move |theta| since(theta) + before)
-        };
-        let mut ways: Vec<f64> = (0..self.turns).flat_map(again).collect();
+        let grid = self.task.equation().linkage().turn_grid(false).into_iter();
+        let since = |theta: f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
+        let grid: Vec<f64> = grid.map(since).collect();
+        let mut ways: Vec<f64> = angle::in_turns(&grid, 0..self.turns.into()).collect();
         ways.push(0.0);
         ways.sort_by(f64::total_cmp);
         ways.dedup();
