@@ -69,13 +69,13 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// Distance, rad, below which two angles are one but for rounding.
-pub(super) const SAME_ANGLE: f64 = 1e-9;
+/// Distance, rad, below which two corners are one: the rows of a table may be rounded to nine digits.
+pub(super) const SAME_CORNER: f64 = 1e-9;
 
 /// Sorts angles, rad, and merges equal ones: a corner doubled by rounding makes an empty panel.
 pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut angles: Vec<f64> = angles.collect();
     angles.sort_by(f64::total_cmp);
-    angles.dedup_by(|a, b| (*a - *b).abs() < SAME_ANGLE);
+    angles.dedup_by(|a, b| (*a - *b).abs() < SAME_CORNER);
     angles
 }

@@ -7,7 +7,7 @@ use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
 use super::guide_friction::{GuideFriction, GuideGain, Spot};
-use super::marks::{Marks, SAME_ANGLE, in_order};
+use super::marks::{Marks, SAME_CORNER, in_order};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Driven, Panels, State, Table};
@@ -96,7 +96,7 @@ impl<'a> AngleModel<'a> {
         let marks = self.marks.between(0.0, length);
         if turns > 1 {
             // Corners at the start of the cycle belong to the cycle.
-            let before = -SAME_ANGLE;
+            let before = -SAME_CORNER;
             let loads = self.equation.loads();
             self.of_loads = loads.corners_between(before, length + before);
         } else {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::super::bounded_motion::Swing;
 use super::super::configuration_curve::{Observer, OnCurve, crank_state, met};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
-use super::super::marks::SAME_ANGLE;
+use super::super::marks::SAME_CORNER;
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
@@ -87,14 +87,15 @@ impl<'a> ForwardRecorder<'a> {
         let ForwardRecorder {
             task, on, phase, ..
         } = self;
-        let last = || match (arrived.last, on.filter(|_| arrived.on_curve)) {
-            (Some(last), Some(on)) => {
-                let along = AlongCurve::new(&on, phase, &task.maker);
-                along.row(t, last.angle(last.end.theta), last.end.omega)
-            }
-            _ => task.maker.row(t, angle, speed, None),
-        };
-        self.recorder.finish(|| Some(last()))
+        self.recorder.finish(|| {
+            Some(match (arrived.last, on.filter(|_| arrived.on_curve)) {
+                (Some(last), Some(on)) => {
+                    let along = AlongCurve::new(&on, phase, &task.maker);
+                    along.row(t, last.angle(last.end.theta), last.end.omega)
+                }
+                _ => task.maker.row(t, angle, speed, None),
+            })
+        })
     }
 
     /// Records a step of the crank; true ends the run.
@@ -201,7 +202,7 @@ impl<'a> ForwardRecorder<'a> {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
         if let Some(passed) = self.passed.take()
-            && at.minus(passed.angle).abs() < SAME_ANGLE
+            && at.minus(passed.angle).abs() < SAME_CORNER
             && omega * passed.speed > 0.0
         {
             return;

@@ -2,7 +2,6 @@
 //! makes the result, the errors and the energy balance.
 
 mod arrived;
-mod clear;
 mod engine_loop;
 mod errors_over_angle;
 mod estimate;

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
@@ -25,9 +26,7 @@ impl Pass<'_, '_> {
         // A series costs little: it leaves out no more than the last digits, whatever the tolerance.
         let most_tail = 1e-14;
         let tail = (0.1 * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
-        let (orbit, t, stopped) = match until_the_end(task, |until| {
-            Orbit::new(model, task.start(), task.speed, until, tail)
-        }) {
+        let (orbit, t, stopped) = match until_the_end(task, model, tail) {
             Ok(ended) => ended,
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
@@ -167,8 +166,10 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
 /// Computes the motion until its goal, its last time (s), and the reason why the goal is not reached, if any.
 fn until_the_end(
     task: &RunSetup<'_>,
-    mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
+    model: &AngleModel<'_>,
+    tail: f64,
 ) -> Result<(Orbit, f64, Option<stop::Why>), NotApplicable> {
+    let orbit_until = |until: f64| Orbit::new(model, task.start(), task.speed, until, tail);
     let turns = match task.extent {
         Extent::Duration(duration) => {
             let orbit = orbit_until(duration)?;
