@@ -109,13 +109,13 @@ impl CurveRun<'_, '_> {
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
     pub fn singular(&self) -> End {
         let Start { t, angle, speed } = self.now;
-        if let Some(friction) = self.equation.friction() {
-            let free = self.equation.free(t, angle, speed);
-            if free.clear_of_jam(friction.coefficient) < 1e-3 {
-                return self.jam();
-            }
+        // Of 1 − μ |κ|: the acceleration grows a thousandfold towards jamming, which the steps do not follow.
+        let near_jam = 1e-3;
+        let clear = |mu: f64| self.equation.free(t, angle, speed).clear_of_jam(mu);
+        match self.equation.friction() {
+            Some(friction) if clear(friction.coefficient) < near_jam => self.jam(),
+            _ => End::Integrator(Finish::StepTooSmall),
         }
-        End::Integrator(Finish::StepTooSmall)
     }
 
     /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate).
