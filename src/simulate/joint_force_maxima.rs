@@ -13,7 +13,7 @@ use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
 /// Largest number of rows of a search, and of steps that are kept for it: 16 MB of forces.
-pub(super) const MOST_ROWS: usize = 400_000;
+pub(super) const MOST_FORCE_ROWS: usize = 400_000;
 /// Relative difference of the maxima over all rows and over every second row up to which the grid counts as resolved.
 /// Errors fall fourfold as the distance of the rows halves: that of all rows is about a third of the difference.
 const GRID_ERROR: f64 = 0.02;
@@ -38,7 +38,7 @@ pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
             let peak = |k| peak(&way, run, k, &sizes);
             return Some(Peaks::new(std::array::from_fn(peak)));
         }
-        if 2 * way.parameters.len() > MOST_ROWS {
+        if 2 * way.parameters.len() > MOST_FORCE_ROWS {
             return None;
         }
         way.parameters = halved(&way.parameters);
@@ -153,7 +153,7 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<AlongRun<'a>> {
     let step = first_step(scene, &run.summary);
     let rows = (span / step).ceil();
     let time = |index: usize| (index as f64 * step).min(span);
-    (rows <= MOST_ROWS as f64).then(|| AlongRun {
+    (rows <= MOST_FORCE_ROWS as f64).then(|| AlongRun {
         parameters: (0..=rows as usize).map(time).collect(),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),

@@ -132,7 +132,7 @@ fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64)
 }
 
 /// Returns the scene with inertia added to the crank, kg m².
-pub(super) fn with(scene: &Scene, added: f64) -> Scene {
+fn with(scene: &Scene, added: f64) -> Scene {
     let mut scene = scene.clone();
     let crank = scene.crank.get_or_insert_with(Crank::default);
     crank.inertia = (crank.inertia + added).max(0.0);

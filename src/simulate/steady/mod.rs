@@ -214,7 +214,7 @@ impl Verified {
             scene: scene.title.clone().unwrap_or_default(),
             theta_rad: scene.motion.angle,
             omega_rad_per_s: self.relative(|f| f.cycle.speed),
-            cycle_turns: found.turns as u32,
+            cycle_turns: found.turns,
             period_s: self.relative(|f| f.cycle.period),
             omega_mean_rad_per_s: self.mean_speed(),
             slowest: extreme(0),
@@ -248,7 +248,7 @@ impl Verified {
 
     /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
-        let turns = self.found.turns as u32;
+        let turns = self.found.turns;
         let count = fourier::SAMPLES * turns;
         let speed = |k: u32| {
             [&self.found, &self.check].map(|f| f.omega(f64::from(k) * f.way() / f64::from(count)))

@@ -28,7 +28,7 @@ pub(super) struct PeriodicOrbit {
     pub start: Angle,
     pub cycle: Cycle,
     /// Number of turns in a period.
-    pub turns: f64,
+    pub turns: u32,
     /// Least and largest speed, without regard to sign.
     pub extremes: [Extreme; 2],
     /// Floquet multiplier: factor on a small energy deviation over one period.
@@ -48,7 +48,7 @@ impl PeriodicOrbit {
 
     /// Returns the rotation of the crank in a period, rad.
     pub fn way(&self) -> f64 {
-        self.turns * TAU
+        f64::from(self.turns) * TAU
     }
 
     /// Returns the speed, rad/s, where the crank has turned by `turned` (rad) since the start.
@@ -142,29 +142,27 @@ impl Seeker<'_> {
     /// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
     fn found(
         &self,
-        cycle: Cycle,
+        mut cycle: Cycle,
         fixed: Option<(FixedPoint, f64)>,
     ) -> Result<PeriodicOrbit, Error> {
+        if let Some((fixed, noise)) = fixed {
+            cycle.uncertain /= fixed.slope.abs().max(noise);
+        }
+        let fixed = fixed.map(|(fixed, _)| fixed);
         let mut found = PeriodicOrbit {
             start: self.task.start(),
-            turns: f64::from(self.turns),
+            turns: self.turns,
             extremes: [Extreme {
                 turned: 0.0,
                 omega: cycle.speed,
             }; 2],
-            multiplier: 1.0,
-            multiplier_error: 0.0,
-            approached: true,
+            // Motions do not cross: a negative multiplier is rounding.
+            multiplier: fixed.map_or(1.0, |fixed| (1.0 + fixed.slope).max(0.0)),
+            multiplier_error: fixed.map_or(0.0, |fixed| fixed.slope_error),
+            approached: fixed.is_none_or(|fixed| fixed.approached),
             any_speed: fixed.is_none(),
             cycle,
         };
-        if let Some((fixed, noise)) = fixed {
-            found.cycle.uncertain /= fixed.slope.abs().max(noise);
-            // Motions do not cross: a negative multiplier is rounding.
-            found.multiplier = (1.0 + fixed.slope).max(0.0);
-            found.multiplier_error = fixed.slope_error;
-            found.approached = fixed.approached;
-        }
         found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
         let known = found
             .extremes
