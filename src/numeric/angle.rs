@@ -60,7 +60,7 @@ pub fn in_turn(theta: f64) -> f64 {
     theta.rem_euclid(TAU) % TAU
 }
 
-/// Iterates over some angles, rad, in each of some turns.
+/// Iterates over angles of a turn, rad, repeated in each of several turns.
 pub fn in_turns(angles: &[f64], turns: impl Iterator<Item = i64>) -> impl Iterator<Item = f64> {
     turns.flat_map(move |turn| {
         let before = turn as f64 * TAU;

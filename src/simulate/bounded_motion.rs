@@ -46,7 +46,7 @@ impl Swing {
     pub fn turns_at(&mut self, at: Angle) {
         let [low, high] = self.reach;
         let (above, below) = (at.minus(high), low.minus(at));
-        // Least growth of the swing, as part of its range: far above errors of turning points, which differ by them.
+        // Least growth of the swing, as part of its range: far above the errors of turning points.
         let growth = 1e-3;
         if above.max(below) > growth * high.minus(low) {
             self.reach[usize::from(above > 0.0)] = at;

@@ -7,7 +7,7 @@ use super::super::stick_slip::EventIndex::{
 };
 use super::super::stick_slip::{InPhase, Phase, Quantities, Signs, sliding};
 use super::super::stop::Why;
-use super::{End, Observer, Piece, crank_state, met};
+use super::{End, Observer, Piece, crank_state, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -239,7 +239,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         };
         let mut t = change.t;
         if change.index == Turned as usize {
-            t = met(t, step, 2, |t| {
+            t = newton_time(t, step, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
                 let missing = self.quantities.values(t, angle, last.end.omega)[Turned as usize];

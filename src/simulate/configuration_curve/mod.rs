@@ -26,7 +26,7 @@ pub(super) struct OnCurve {
 }
 
 /// Whether a free motion in time follows the configuration curve.
-pub(super) fn serves(task: &RunSetup<'_>) -> bool {
+pub(super) fn is_followed(task: &RunSetup<'_>) -> bool {
     !task.turns_fully() || task.may_stick()
 }
 
@@ -120,7 +120,7 @@ pub(super) struct Piece {
 
 /// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is
 /// missing at a time, and the rate at which it falls.
-pub(super) fn met(
+pub(super) fn newton_time(
     mut t: f64,
     step: &Step,
     most: usize,

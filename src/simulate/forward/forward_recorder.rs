@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{Observer, OnCurve, crank_state, met};
+use super::super::configuration_curve::{Observer, OnCurve, crank_state, newton_time};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
 use super::super::marks::SAME_CORNER;
 use super::super::passages::{OrbitPiece, is_dead_centre};
@@ -149,7 +149,7 @@ impl<'a> ForwardRecorder<'a> {
         };
         let (mut t, by) = self.ends_at?;
         if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
-            t = met(t, step, 3, |t| {
+            t = newton_time(t, step, 3, |t| {
                 let last = until(t, &mut |_| false);
                 let turned = self.turned(&last);
                 [limit.copysign(turned) - turned, last.end.omega]

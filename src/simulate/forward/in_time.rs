@@ -28,7 +28,7 @@ impl Pass<'_, '_> {
         let course = self.course;
         let from = self.arrived.now;
         self.sink.begins(Engine::Time, from.t, reason);
-        let on = match configuration_curve::serves(course.task) {
+        let on = match configuration_curve::is_followed(course.task) {
             true => Some(course.on_curve()?),
             false => None,
         };

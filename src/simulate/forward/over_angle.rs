@@ -23,9 +23,9 @@ impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
     pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let (task, model) = (self.course.task, self.course.model);
-        // A series costs little: it leaves out no more than the last digits, whatever the tolerance.
-        let most_tail = 1e-14;
-        let tail = (0.1 * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
+        // A tenth of the tolerance, but no more than the last digits, as the series cost little.
+        let (share, most_tail) = (0.1, 1e-14);
+        let tail = (share * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
         let (orbit, t, stopped) = match until_the_end(task, model, tail) {
             Ok(ended) => ended,
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
-use super::super::stop::unserved;
+use super::super::stop::why_not_applicable;
 use super::cycles::{Cycle, Cycles};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
@@ -218,7 +218,10 @@ fn unbounded() -> Error {
 
 fn not_computed(why: NotApplicable) -> Error {
     Error::refused(
-        format!("the steady state cannot be computed: {}", unserved(why)),
+        format!(
+            "the steady state cannot be computed: {}",
+            why_not_applicable(why)
+        ),
         "look at the loads; or simulate until the motion repeats",
     )
 }
