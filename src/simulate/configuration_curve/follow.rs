@@ -7,7 +7,7 @@ use super::super::stick_slip::EventIndex::{
 };
 use super::super::stick_slip::{InPhase, Phase, Quantities, Signs, sliding};
 use super::super::stop::Why;
-use super::{End, Observer, Piece, crank_state, newton_time};
+use super::{End, Observer, TimePiece, crank_state, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -24,7 +24,7 @@ pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) observer: &'o mut dyn Observer,
     pub(super) now: Start,
     pub(super) signs: Signs,
-    pub(super) piece: Piece,
+    pub(super) piece: TimePiece,
 }
 
 /// Returns the kind of event of an event function, if it reports one.
@@ -66,7 +66,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             observer,
             now: start,
             signs: Signs::default(),
-            piece: Piece {
+            piece: TimePiece {
                 last: Step::new(angle.turns, node, node),
                 work: 0.0,
                 steps: 0,
@@ -78,7 +78,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     }
 
     /// Runs to the end of the piece.
-    pub fn run(mut self) -> Piece {
+    pub fn run(mut self) -> TimePiece {
         let speed = self.now.speed;
         let end = if speed == 0.0 && self.may_stick() {
             self.leave_rest(None)

@@ -107,7 +107,7 @@ pub(super) enum End {
 }
 
 /// Result of a piece in time: last step, work, counts and end.
-pub(super) struct Piece {
+pub(super) struct TimePiece {
     pub last: Step,
     /// Work of friction and of the loads without potential, J.
     pub work: f64,

@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::super::configuration_curve::{self, CurveRun, End, Observer, OnCurve, Piece};
+use super::super::configuration_curve::{self, CurveRun, End, Observer, OnCurve, TimePiece};
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::Phase;
 use super::super::stop;
@@ -99,11 +99,11 @@ fn of_crank(
     from: Start,
     settings: &Settings<'_>,
     until: &mut Until<'_, '_>,
-) -> Piece {
+) -> TimePiece {
     let (finish, last, steps) =
         time::run(motion, from, settings, &mut |step| until.step(step, None));
     let impossible = motion.impossible();
-    Piece {
+    TimePiece {
         last,
         work: last.end.work,
         steps,

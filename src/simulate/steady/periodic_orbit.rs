@@ -6,7 +6,7 @@ use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
 use super::super::stop::why_not_applicable;
-use super::cycles::{Cycle, Cycles};
+use super::cycles::{CycleRun, Cycles};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -26,7 +26,7 @@ pub(super) struct Extreme {
 
 pub(super) struct PeriodicOrbit {
     pub start: Angle,
-    pub cycle: Cycle,
+    pub cycle: CycleRun,
     /// Number of turns in a period.
     pub turns: u32,
     /// Least and largest speed, without regard to sign.
@@ -142,7 +142,7 @@ impl Seeker<'_> {
     /// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
     fn found(
         &self,
-        mut cycle: Cycle,
+        mut cycle: CycleRun,
         fixed: Option<(FixedPoint, f64)>,
     ) -> Result<PeriodicOrbit, Error> {
         if let Some((fixed, noise)) = fixed {
