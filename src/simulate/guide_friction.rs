@@ -10,7 +10,7 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::scene::{Instant, Scene};
 
-/// Distance from a dead centre, rad, within which the crank is at it and x' has no sign: far above rounding of an angle.
+/// Distance from a dead centre, rad, within which the crank is at it and x' has no sign: far above its rounding.
 pub(super) const DEAD_CENTRE_WIDTH: f64 = 1e-12;
 /// Distance from an angle, rad, at which signs are read and slopes are taken: far above rounding, far below a radian.
 pub(super) const NEARBY_ANGLE: f64 = 1e-6;

@@ -76,8 +76,8 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
 }
 
 impl OrbitPiece<'_> {
-    /// Lists the dead centres passed until a time (s) by a motion that does not turn back: the first, at most `kept`, in
-    /// the time of the orbit.
+    /// Lists the dead centres passed until a time (s) by a motion that does not turn back, in the time of the orbit: the
+    /// first, at most `kept`.
     fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, Start)> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());

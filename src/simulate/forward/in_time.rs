@@ -1,6 +1,6 @@
 //! Pieces in time, with the crank angle as the coordinate where it is smooth and turns fully, otherwise along the
-//! configuration curve, past the limits of a crank and where friction or a dry load may hold it; until the end, or until
-//! a crank that was near to rest turns safely again.
+//! configuration curve, past the limits of a crank and where friction or a dry load may hold it. Such a piece ends with
+//! the run, or where a crank that was near to rest turns safely again.
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;

@@ -80,7 +80,12 @@ pub(super) fn run(
     let now = arrived.now;
     let outcome = Outcome {
         at: now,
-        engine: engine(&arrived),
+        // An engine over the angle names the run, if any piece was over the angle.
+        engine: match &arrived.driven {
+            Some(driven) => driven.engine,
+            None if arrived.over_angle > 0 => Engine::Angle,
+            None => Engine::Time,
+        },
         turned: now.angle.minus(task.start()),
         estimate,
         balance: energy_balance(&course, &arrived, &record),
@@ -96,15 +101,6 @@ pub(super) fn run(
         _ => outcome.with_bounded_speeds(task),
     };
     Ok(with_motion(outcome.conclude(task), course, arrived))
-}
-
-/// Returns the engine that names a run: one over the angle, if any piece was.
-fn engine(arrived: &Arrived) -> Engine {
-    match &arrived.driven {
-        Some(driven) => driven.engine,
-        None if arrived.over_angle > 0 => Engine::Angle,
-        None => Engine::Time,
-    }
 }
 
 fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Balance {
