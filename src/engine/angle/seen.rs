@@ -4,7 +4,7 @@ use super::panel::{Fineness, PanelStart, PanelTable};
 use super::swept::Swept;
 use super::{Driven, State, Table};
 use crate::engine::events::ROUNDED;
-use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
+use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Detail, Interval, MotionPiece, ellipses};
@@ -57,7 +57,7 @@ pub(super) fn hides<D: Driven>(
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
         least: 2.0 * ROUNDED / panel.half().abs(),
-        compares: true,
+        has_interpolant: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)
 }
@@ -95,7 +95,7 @@ impl<D: Driven> OnPanel<'_, D> {
     }
 }
 
-impl<D: Driven> Interpolant for OnPanel<'_, D> {
+impl<D: Driven> ForceAlong for OnPanel<'_, D> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let slope = &self.swept.slope;
         let [about, steep] = self.varies;

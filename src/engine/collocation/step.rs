@@ -234,7 +234,7 @@ impl<'a> Collocation<'a> {
         let allowed = term.max(self.rounding(state, h, coefficients));
         let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
         let look = NodeCriterion {
-            compares: true,
+            has_interpolant: true,
             ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {

@@ -17,7 +17,7 @@ use super::WorkLimit;
 use crate::numeric::enclosure::{Detail, Interval};
 
 pub use accepted_step::AcceptedStep;
-pub use run::{ContactEnd, Finish, run};
+pub use run::{ContactEnd, run};
 
 /// Phase of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,9 +117,9 @@ pub trait Contact<const N: usize> {
     fn receded(&self, start: &[f64; N], end: &[f64; N]) -> [f64; N];
 }
 
-/// Settings of a run.
+/// Settings of a run with contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings<'a> {
+pub struct ContactSettings<'a> {
     /// Tolerance of the local error, relative to the sizes.
     pub tolerance: f64,
     /// Last time, s.

@@ -1,6 +1,6 @@
 //! Resolution test for loads on a step in time.
 
-use super::{Hidden, Interpolant, NodeCriterion, hidden};
+use super::{ForceAlong, Hidden, NodeCriterion, hidden};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Detail, Interval, MotionPiece};
@@ -40,7 +40,7 @@ impl OnStep<'_> {
     }
 }
 
-impl Interpolant for OnStep<'_> {
+impl ForceAlong for OnStep<'_> {
     fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
         let step = self.step;
         let [begin, end] = [from, to].map(|at| self.time(at));

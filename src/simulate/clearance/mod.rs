@@ -21,8 +21,8 @@ use super::schedule::Schedule;
 use super::second_run::{LEAST_TOLERANCE, TOLERANCE_RATIO};
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, ContactEnd, Finish, Settings};
-use crate::engine::time::FAR;
+use crate::engine::contact::{self, ContactEnd, ContactSettings};
+use crate::engine::time::{FAR, Finish};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
@@ -122,7 +122,7 @@ impl<'a, const N: usize> LooseRun<'a, N> {
             recorder,
             seen: ContactHistory::new(width, model.mechanism.energy(start).abs()),
         };
-        let settings = Settings {
+        let settings = ContactSettings {
             tolerance,
             t_end,
             limit: task.options.limit(),
@@ -159,9 +159,11 @@ impl<'a, const N: usize> LooseRun<'a, N> {
                 Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
                 _ => None,
             },
-            Finish::Stopped | Finish::Broken => None,
-            Finish::WorkLimit => Some(self.model.task.limited()),
-            Finish::StepTooSmall => Some(self.too_small(last)),
+            Finish::Stopped => None,
+            Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns => {
+                Some(self.model.task.limited())
+            }
+            Finish::StepTooSmall | Finish::NoStart => Some(self.too_small(last)),
         }
     }
 

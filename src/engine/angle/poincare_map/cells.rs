@@ -45,7 +45,7 @@ impl<D: Driven> LastTurns<'_, D> {
             ellipses: ellipses(DEGREE, self.tail),
             allowed: self.tail * middle / TAU,
             least: 0.0,
-            compares: false,
+            has_interpolant: false,
         };
         !driven.has_detail()
             || panels
