@@ -68,7 +68,7 @@ pub fn run<D: Driven>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
+            let work = march.work - work + work_until(orbit.last_segment(), end, &spent);
             march.leave_panels();
             return Ok(Driving {
                 orbit,

@@ -6,7 +6,7 @@ use super::panel::{Panel, Tried, Uncertain};
 use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, longest_analytic, missing, next_end};
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
-use super::turn_closure::Return;
+use super::turn_closure::TurnEnd;
 
 /// Initial state of a segment.
 #[derive(Clone, Copy, Debug)]
@@ -21,24 +21,16 @@ pub(in crate::engine) struct Begin {
     pub off: f64,
 }
 
-/// Length of a panel that is accepted unresolved, rad: it holds a corner that the profile does not announce.
-const CORNER_PANEL: f64 = 1e-13;
-/// Fraction of the largest kinetic energy below which the sum of the energy over panels has lost digits.
-const NEAR_REST: f64 = 1e-3;
-
 /// Turning point ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Ahead {
     /// Signed distance to the turning point, rad.
     way: f64,
     /// True if the turning point was located from the end of the turn.
-    from_home: bool,
+    from_turn_end: bool,
     /// Residual of the energy balance on the last panel that ended at the turning point, J.
     missed: f64,
 }
-
-/// Rounding floor of the energy balance on a panel that ends at a turning point, in units of rounding.
-const SEEN_UNITS: f64 = 2.0;
 
 /// Improvement to make on a panel.
 enum Better {
@@ -57,7 +49,7 @@ struct Builder<'a> {
     /// Kinetic energy gained per turn, if it is equal for all turns, and its error bound, J.
     gain: Option<f64>,
     gain_error: f64,
-    home: Option<Return<'a>>,
+    turn_end: Option<TurnEnd<'a>>,
     segment: Segment,
     /// Angle at which the next panel begins, rad.
     at: f64,
@@ -92,7 +84,7 @@ impl Segment {
             whole_turn,
             gain: work.map(|(work, _)| begin.direction * work),
             gain_error: work.map_or(0.0, |(_, error)| error),
-            home: Return::new(profile, whole_turn, begin.kinetic),
+            turn_end: TurnEnd::new(profile, whole_turn, begin.kinetic),
             segment: Segment::open(),
             at: begin.start,
             kinetic: begin.kinetic,
@@ -115,7 +107,7 @@ impl Segment {
                 break;
             }
             builder.panel(tolerance)?;
-            if builder.is_home() {
+            if builder.is_turn_complete() {
                 builder.turn(until, most_turns);
             }
         }
@@ -129,13 +121,15 @@ impl Builder<'_> {
         let piece = self.piece();
         let uncertain = self.uncertain(piece.turning);
         let at = piece.from;
-        let short = piece.span().abs() <= CORNER_PANEL * at.abs().max(1.0);
+        // A panel of this length, rad, is accepted unresolved: it holds a corner that the profile does not announce.
+        let shortest = 1e-13 * at.abs().max(1.0);
+        let short = piece.span().abs() <= shortest;
         let accepted = if short { f64::INFINITY } else { tolerance };
         match Panel::attempt(self.profile, piece, self.kinetic, accepted, uncertain)? {
             Tried::Done(panel, off) => match self.better(&panel, uncertain) {
                 Better::None => self.take(*panel, off),
                 Better::Turning(ahead) => self.ahead = Some(ahead),
-                Better::Shorter if self.length <= CORNER_PANEL * at.abs().max(1.0) => {
+                Better::Shorter if self.length <= shortest => {
                     return Err(NotApplicable::NotFinite);
                 }
                 Better::Shorter => {
@@ -145,11 +139,11 @@ impl Builder<'_> {
                 }
             },
             Tried::TurnsAfter(way) if way != 0.0 => {
-                let home = self.home.as_ref();
-                let exact = home.and_then(|again| again.turning_point(at, at + way));
+                let turn_end = self.turn_end.as_ref();
+                let exact = turn_end.and_then(|turn_end| turn_end.turning_point(at, at + way));
                 self.ahead = Some(Ahead {
                     way: exact.map_or(way, |end| end - at),
-                    from_home: exact.is_some(),
+                    from_turn_end: exact.is_some(),
                     missed: f64::INFINITY,
                 });
             }
@@ -201,15 +195,17 @@ impl Builder<'_> {
     /// Returns the error bound of the kinetic energy on the next panel, J; near rest from the integral to the end of
     /// the turn, which keeps the digits.
     fn uncertain(&mut self, turning: Turning) -> Uncertain {
-        if let Some(home) = &self.home
+        if let Some(turn_end) = &self.turn_end
             && turning == Turning::AtEnd
-            && self.ahead.is_some_and(|ahead| ahead.from_home)
+            && self.ahead.is_some_and(|ahead| ahead.from_turn_end)
         {
-            return Uncertain::AtTurn(home.rounding());
+            return Uncertain::AtTurn(turn_end.rounding());
         }
-        if let Some(home) = &self.home
-            && self.kinetic < NEAR_REST * self.largest
-            && let Some(exact) = home.kinetic(self.at)
+        // The sum of smaller energies over panels has lost digits.
+        let near_rest = 1e-3 * self.largest;
+        if let Some(turn_end) = &self.turn_end
+            && self.kinetic < near_rest
+            && let Some(exact) = turn_end.kinetic(self.at)
         {
             self.kinetic = exact;
             let to_go = (self.whole_turn - self.at).abs();
@@ -230,10 +226,9 @@ impl Builder<'_> {
         let Piece {
             from, to, turning, ..
         } = panel.piece;
-        if turning != Turning::AtEnd
-            || missed <= SEEN_UNITS * f64::EPSILON * self.kinetic
-            || missed > 0.5 * ahead.missed
-        {
+        // Two roundings of the energy at the start: as a sum, and as the work back to it.
+        let rounding = 2.0 * f64::EPSILON * self.kinetic;
+        if turning != Turning::AtEnd || missed <= rounding || missed > 0.5 * ahead.missed {
             return Better::None;
         }
         let [first, last] = [from, to].map(|theta| self.profile.inertia_and_force(theta).1);
@@ -271,7 +266,7 @@ impl Builder<'_> {
     }
 
     /// True if a turn is complete that is followed by a turn with the same forces.
-    fn is_home(&self) -> bool {
+    fn is_turn_complete(&self) -> bool {
         self.gain.is_some() && self.at == self.whole_turn && self.segment.after == After::Ends
     }
 

@@ -38,13 +38,13 @@ impl Panel {
         let from = points[index.saturating_sub(1)];
         let to = points[(index + 1).min(self.rule.degree())];
         let bend = self.slope.derivative();
-        // The speed is stretch/slope.
+        // The speed is dθ/dx over dt/dx.
         let rate = |x: f64| {
-            let stretched = match self.piece.stretch_rate() {
+            let bent = match self.piece.d2theta() {
                 0.0 => 0.0,
-                rate => rate * self.slope.value(x),
+                bent => bent * self.slope.value(x),
             };
-            stretched - self.piece.stretch(x) * bend.value(x)
+            bent - self.piece.dtheta(x) * bend.value(x)
         };
         let at_point = sign * self.speed(points[index]).abs();
         // At an extreme the speed is insensitive to the position.
@@ -68,12 +68,12 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme;
     let half = 0.5 * piece.span().abs();
     match piece.turning {
         Turning::Nowhere => extremes_of(&slopes[..=rule.degree()], half),
-        // The speed is stretch/slope, in magnitude.
+        // The speed is |dθ/dx| over dt/dx.
         _ => {
             let mut index = 0;
             let slowness = rule.values(|x| {
                 index += 1;
-                half * slopes[index - 1] / piece.stretch(x).abs()
+                half * slopes[index - 1] / piece.dtheta(x).abs()
             });
             extremes_of(&slowness[..=rule.degree()], half)
         }

@@ -3,7 +3,7 @@
 use super::panel::Tried;
 use super::piece::{Piece, SAME_ANGLE, Turning};
 use super::profile::NotApplicable;
-use crate::numeric::chebyshev::{Rule, Series, Values};
+use crate::numeric::chebyshev::{Rule, Series, Values, range};
 use crate::numeric::{gauss, root};
 
 /// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a
@@ -97,9 +97,6 @@ impl Energy<'_> {
     }
 }
 
-/// Sum of the last two terms of a series due to rounding of its values, in units of that rounding.
-const SEEN_UNITS: f64 = 8.0;
-
 /// Rounding floor of the last terms of series, relative to the largest term.
 pub(super) struct Noise {
     pub force: f64,
@@ -111,16 +108,13 @@ impl Noise {
     /// Estimates the floor on a panel from the rounding of angles, by the ranges of inertia and force, and from the
     /// rounding error of the force itself, N m. The kinetic energy is a force times a distance, which is not rounded.
     pub fn of(energy: &Energy<'_>, inertia: &Values, force: &Values, rounding: f64) -> Noise {
-        let range = |values: &Values| {
-            let none = (f64::INFINITY, f64::NEG_INFINITY);
-            let ends = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
-            values.iter().fold(none, ends)
-        };
         let ((light, heavy), (low, high)) = (range(inertia), range(force));
         let span = energy.piece.span().abs();
-        let units = SEEN_UNITS * f64::EPSILON;
+        // Sum of the last two terms of a series due to rounding of its values, in roundings.
+        let last_terms = 8.0;
+        let units = last_terms * f64::EPSILON;
         let place = units * energy.piece.from.abs() / span;
-        let off = place * (high - low) + SEEN_UNITS * rounding;
+        let off = place * (high - low) + last_terms * rounding;
         let of_energy = match energy.piece.turning {
             Turning::Nowhere => off * span / energy.kinetic,
             _ => off / low.abs().min(high.abs()),

@@ -12,9 +12,6 @@ use super::turns::Turns;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
-/// Turns that are computed one by one before the rest is summed.
-const FIRST_TURNS: f64 = 16.0;
-
 /// Motion known from its energy: angle and speed as functions of time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
@@ -62,29 +59,29 @@ impl Orbit {
             let beside = profile.inertia_and_force(theta + apart).0;
             off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], apart));
         }
+        let begin = Begin {
+            start: theta,
+            direction,
+            kinetic,
+            off,
+        };
         let segment = |direction: f64, until: f64, most_turns: f64| {
-            let begin = Begin {
-                start: theta,
-                direction,
-                kinetic,
-                off,
-            };
+            let begin = Begin { direction, ..begin };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
-        let mut forward = segment(direction, until, FIRST_TURNS)?;
+        // Turns that are computed one by one before the rest is summed.
+        let first_turns = 16.0;
+        let mut forward = segment(direction, until, first_turns)?;
         let mut later = None;
         if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
-            let course = EqualGains {
+            let rest = EqualGains {
                 profile,
-                start: theta,
-                direction,
-                kinetic,
+                begin,
                 gain: direction * work,
                 gain_error,
-                off,
                 tolerance,
             };
-            later = course.turns(FIRST_TURNS, forward.duration, until)?;
+            later = rest.turns(first_turns, forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
                 forward = segment(direction, until, f64::INFINITY)?;
             }
@@ -263,7 +260,7 @@ impl Orbit {
     }
 
     /// Returns the last segment.
-    pub(in crate::engine) fn last_leg(&self) -> &Segment {
+    pub(in crate::engine) fn last_segment(&self) -> &Segment {
         self.later
             .as_ref()
             .map_or(&self.forward, |later| &later.last)

@@ -97,7 +97,7 @@ impl Piece {
     }
 
     /// Returns dθ/dx, rad.
-    pub fn stretch(&self, x: f64) -> f64 {
+    pub fn dtheta(&self, x: f64) -> f64 {
         let share = match self.turning {
             Turning::Nowhere => 0.5,
             Turning::AtStart => 0.5 * (1.0 + x),
@@ -107,7 +107,7 @@ impl Piece {
     }
 
     /// Returns d²θ/dx², rad.
-    pub fn stretch_rate(&self) -> f64 {
+    pub fn d2theta(&self) -> f64 {
         match self.turning {
             Turning::Nowhere => 0.0,
             Turning::AtStart => 0.5 * self.span(),

@@ -1,14 +1,7 @@
 //! Error of the time on a panel due to errors of forces and energies.
 
 use super::piece::{Piece, Turning};
-use crate::numeric::chebyshev::Values;
-
-/// Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel.
-const AVERAGED: f64 = 0.18;
-
-/// Number of rounded factors in kinetic and potential energy: their rounding moves a turning point even where the
-/// energy difference is exact.
-const FACTORS: f64 = 3.0;
+use crate::numeric::chebyshev::{Values, range};
 
 /// Variation and rounding of the force on a panel.
 pub(super) struct TimeSensitivity {
@@ -25,9 +18,9 @@ pub(super) struct TimeSensitivity {
 impl TimeSensitivity {
     /// Computes the sensitivity on a panel; `noise` is the rounding error of the force beyond that of angles, N m.
     pub fn of(piece: &Piece, force: &Values, noise: f64) -> TimeSensitivity {
-        let (low, high) = force.iter().fold((f64::MAX, f64::MIN), |(low, high), f| {
-            (low.min(*f), high.max(*f))
-        });
+        let (low, high) = range(force);
+        // Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel, 1/√33.
+        let averaged = 0.18;
         let place = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
         let [start, .., end] = *force;
         let [at_turn, other] = match piece.turning {
@@ -38,14 +31,16 @@ impl TimeSensitivity {
             at_turn: at_turn.abs(),
             rise: other / at_turn,
             rounding: place * (high - low) / piece.span().abs() + noise,
-            energy: AVERAGED * place * (high - low) + noise * piece.span().abs(),
+            energy: averaged * place * (high - low) + noise * piece.span().abs(),
         }
     }
 
     /// Returns the error of a turning point at the end, rad, due to the error `off` (J) of the energy and to rounding.
     pub fn misplaced(&self, piece: &Piece, off: f64) -> f64 {
+        // Rounded factors of kinetic and potential energy move a turning point even where the energy difference is exact.
+        let factors = 3.0;
         match piece.turning {
-            Turning::AtEnd => (FACTORS * off / self.at_turn).min(piece.span().abs()),
+            Turning::AtEnd => (factors * off / self.at_turn).min(piece.span().abs()),
             _ => 0.0,
         }
     }
