@@ -6,10 +6,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, maximum, root};
 
-/// Largest crank travel between two samples of a step, rad; a step has at least [`PIECES`] pieces. Parabolas between
-/// the samples detect double sign changes.
-const PIECE_TRAVEL: f64 = 0.1;
-
 /// Event functions of time t (s), angle and speed (rad/s), whose sign changes are located.
 pub trait EventFunction<const N: usize> {
     /// Returns the N values.
@@ -36,7 +32,9 @@ pub fn changes<const N: usize>(
     signs: &mut [f64; N],
 ) -> Vec<Change> {
     let travel = (step.end.theta - step.start.theta).abs();
-    let pieces = PIECES.max((travel / PIECE_TRAVEL).ceil() as usize);
+    // Crank travel between two samples, rad: the parabolas between them detect double sign changes.
+    let longest = 0.1;
+    let pieces = PIECES.max((travel / longest).ceil() as usize);
     let rough = sampled(step, watched, pieces);
     let left = |i: usize| {
         let mut inside = rough[1..].iter();
@@ -146,21 +144,15 @@ fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> 
     }
 }
 
-/// Distance of the first and last sample from the ends of a step, as a fraction of its length: steps end at jumps of
-/// loads, and the samples are to show the values inside.
-const BESIDE_END: f64 = 1e-9;
-
-fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
-    let part = (piece as f64 / pieces as f64).clamp(BESIDE_END, 1.0 - BESIDE_END);
-    step.start.t + step.length() * part
-}
-
 fn sampled<const N: usize>(
     step: &Step,
     watched: &dyn EventFunction<N>,
     pieces: usize,
 ) -> Vec<EventValues<N>> {
+    // Steps end at jumps of loads, and the samples show the values inside: not nearer to an end than this fraction.
+    let nearest = 1e-9;
+    let part = |i: usize| (i as f64 / pieces as f64).clamp(nearest, 1.0 - nearest);
     (0..=pieces)
-        .map(|i| look(step, watched, time(step, i, pieces)))
+        .map(|i| look(step, watched, step.start.t + step.length() * part(i)))
         .collect()
 }

@@ -81,7 +81,7 @@ pub struct Batch {
 pub struct Counted<'a> {
     motion: &'a dyn Motion,
     evaluations: Cell<u64>,
-    impossible: Cell<Option<(f64, Angle, f64)>>,
+    singular_state: Cell<Option<(f64, Angle, f64)>>,
 }
 
 impl<'a> Counted<'a> {
@@ -90,7 +90,7 @@ impl<'a> Counted<'a> {
         Counted {
             motion,
             evaluations: Cell::new(0),
-            impossible: Cell::new(None),
+            singular_state: Cell::new(None),
         }
     }
 
@@ -100,8 +100,8 @@ impl<'a> Counted<'a> {
     }
 
     /// Time (s), angle and speed (rad/s) of the last evaluation without a finite acceleration.
-    pub fn impossible(&self) -> Option<(f64, Angle, f64)> {
-        self.impossible.get()
+    pub fn singular_state(&self) -> Option<(f64, Angle, f64)> {
+        self.singular_state.get()
     }
 
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
@@ -113,7 +113,7 @@ impl<'a> Counted<'a> {
         // A non-finite state results from an earlier non-finite evaluation.
         let asked = angle.rest.is_finite() && speed.is_finite();
         if asked && !acceleration.is_finite() {
-            self.impossible.set(Some((t, angle, speed)));
+            self.singular_state.set(Some((t, angle, speed)));
         }
     }
 }

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::guide_friction::BESIDE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
-use crate::engine::events::ROUNDED;
+use crate::engine::events::ANGLE_ROUNDING;
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Detail, MotionPiece};
@@ -174,7 +174,7 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
 /// rounding of the angle, the value `ahead`, a little further on, decides.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
-        let nothing = values[i].abs() <= ROUNDED / BESIDE * ahead[i].abs();
+        let nothing = values[i].abs() <= ANGLE_ROUNDING / BESIDE * ahead[i].abs();
         let value = if nothing { ahead[i] } else { values[i] };
         if value < 0.0 { -1.0 } else { 1.0 }
     });

@@ -16,7 +16,7 @@ fn given_up(ends: Ends<'_>, in_time: bool, way: impl Fn(f64) -> f64) -> bool {
         let turned: f64 = way(t) - before;
         evaluations += (turned.abs() * 20.0) as u64;
         before = way(t);
-        if pace.is_hopeless(evaluations, t, turned).is_some() {
+        if pace.reason_to_stop(evaluations, t, turned).is_some() {
             return true;
         }
     }

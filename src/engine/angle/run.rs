@@ -39,7 +39,7 @@ pub fn run<D: Driven>(
     loop {
         let spent = march.spent();
         let done = march.at_cycle() && leg.len() > 0;
-        if done && forecast.is_hopeless(spent, march.t.0, way).is_some() {
+        if done && forecast.reason_to_stop(spent, march.t.0, way).is_some() {
             let why = NotApplicable::TooManyTurns;
             return Ok(ended(march, leg, (start, speed), why));
         }

@@ -3,7 +3,7 @@
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::swept::Swept;
 use super::{Driven, State, Table};
-use crate::engine::events::ROUNDED;
+use crate::engine::events::ANGLE_ROUNDING;
 use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
@@ -56,7 +56,7 @@ pub(super) fn hides<D: Driven>(
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
-        least: 2.0 * ROUNDED / panel.half().abs(),
+        least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
         has_interpolant: true,
     };
     hidden(&way, look).map(|hidden| hidden.at)

@@ -17,7 +17,7 @@ mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
 pub(in crate::engine) mod piece;
-mod places;
+mod positions;
 mod profile;
 pub(in crate::engine) mod segment;
 mod time_sensitivity;

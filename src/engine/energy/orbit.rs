@@ -238,22 +238,22 @@ impl Orbit {
 
     /// Returns the time (s) at which the crank has turned by `radians` from the start, and its speed there (rad/s).
     pub fn passage(&self, radians: f64) -> Option<(f64, f64)> {
-        let turns = (radians / TAU).floor();
+        let whole = (radians / TAU).floor();
         let angle = |turns: f64| {
             Angle::new(
                 self.direction * turns,
-                self.start.rest + self.direction * (radians - (radians / TAU).floor() * TAU),
+                self.start.rest + self.direction * (radians - whole * TAU),
             )
         };
         if self.rotates() {
             let (after, speed) = self.forward.at(angle(0.0))?;
             let (period, low) = self.forward.duration;
-            let t = turns.mul_add(period, after) + turns * low;
+            let t = whole.mul_add(period, after) + whole * low;
             return Some((t.max(0.0), speed));
         }
-        let early = self.forward.at(angle(turns));
-        let early = early.map(|(t, speed)| (t.max(0.0), speed));
-        early.or_else(|| {
+        let first = self.forward.at(angle(whole));
+        let first = first.map(|(t, speed)| (t.max(0.0), speed));
+        first.or_else(|| {
             let later = self.later.as_ref()?;
             later.passage(radians, self.start.rest, self.direction)
         })

@@ -253,6 +253,18 @@ impl Panel {
         self.piece.dtheta(x) / self.slope.value(x)
     }
 
+    /// Replaces angles (rad) of a panel without turning points by |dt/dθ| there, s/rad.
+    pub fn slowness(&self, angles: &mut [f64]) {
+        let share = 2.0 / self.piece.span();
+        for angle in &mut *angles {
+            *angle = (*angle - self.piece.from) * share - 1.0;
+        }
+        self.slope.values(angles);
+        for slope in angles {
+            *slope *= share.abs();
+        }
+    }
+
     /// Returns the time after the start (s) of an angle (rad), and the speed there (rad/s).
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);

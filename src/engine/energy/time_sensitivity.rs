@@ -19,7 +19,7 @@ impl TimeSensitivity {
     /// Computes the sensitivity on a panel; `noise` is the rounding error of the force beyond that of angles, N m.
     pub fn of(piece: &Piece, force: &Values, noise: f64) -> TimeSensitivity {
         let (low, high) = range(force);
-        // Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel, 1/√33.
+        // Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel, about 1/√33.
         let averaged = 0.18;
         let place = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
         let [start, .., end] = *force;

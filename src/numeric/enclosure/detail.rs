@@ -22,9 +22,6 @@ pub struct Detail {
     pub around: Option<f64>,
 }
 
-/// Least number of nodes: pieces of tables are cubics, which four nodes determine.
-const LEAST_NODES: usize = 4;
-
 impl Detail {
     /// Detail of a function that is constant, or is known by its values alone.
     pub const NONE: Detail = Detail {
@@ -78,7 +75,9 @@ impl Detail {
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
         let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
         let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
-        Some((terms as usize).saturating_add(1).max(LEAST_NODES))
+        // Pieces of tables are cubics, which four nodes determine.
+        let least = 4;
+        Some((terms as usize).saturating_add(1).max(least))
     }
 }
 

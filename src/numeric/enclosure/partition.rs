@@ -13,8 +13,6 @@ pub struct PanelResolution {
 
 /// Halvings of the whole that locate a corner or a jump, to some units of its last place.
 const HALVINGS: usize = 50;
-/// Largest number of pieces.
-const MOST_PIECES: usize = 100_000;
 
 /// Locates the ends between panels inside an interval, in rising order, for a function whose `detail` on an interval
 /// and in an ellipse of some size is given: the nodes of each panel resolve it. A corner or a jump is an end; beside a
@@ -42,9 +40,10 @@ pub fn partition(
     };
     let mut left = vec![over];
     let mut pieces: Vec<(Interval, bool)> = Vec::new();
+    let most_pieces = 100_000;
     while let Some(part) = left.pop() {
         let is_resolved = is_resolved(part);
-        if is_resolved || is_corner(part) || pieces.len() + left.len() >= MOST_PIECES {
+        if is_resolved || is_corner(part) || pieces.len() + left.len() >= most_pieces {
             pieces.push((part, is_resolved));
         } else {
             let middle = part.middle();

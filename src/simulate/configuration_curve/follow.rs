@@ -141,7 +141,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 return End::Integrator(Finish::WorkLimit);
             }
             let travel = self.now.angle.minus(from);
-            if let Some(finish) = forecast.is_hopeless(spent, self.now.t, travel) {
+            if let Some(finish) = forecast.reason_to_stop(spent, self.now.t, travel) {
                 return End::Integrator(finish);
             }
         }
@@ -203,7 +203,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         });
         self.piece.steps += steps;
         self.piece.impossible = motion
-            .impossible()
+            .singular_state()
             .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();

@@ -83,7 +83,7 @@ impl Pass<'_, '_> {
             finish => End::Integrator(finish),
         };
         let last = shortened.unwrap_or(last);
-        let impossible = self.motion.impossible();
+        let impossible = self.motion.singular_state();
         let piece = Piece {
             last,
             work: last.end.work,
