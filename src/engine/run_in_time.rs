@@ -75,7 +75,7 @@ pub struct Start {
 }
 
 /// Last time, s, from which on a run counts as unlimited in time.
-pub const FAR: f64 = 1e9;
+pub const UNLIMITED_TIME: f64 = 1e9;
 
 /// Conditions that end a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

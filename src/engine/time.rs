@@ -11,7 +11,7 @@ use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
 use crate::numeric::angle::Angle;
 
-pub use super::run_in_time::{Ends, FAR, Finish, Method, Settings, Start};
+pub use super::run_in_time::{Ends, Finish, Method, Settings, Start, UNLIMITED_TIME};
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step (angles without the turns) and the number of steps.

@@ -1,6 +1,6 @@
 //! Forecast: will the run exceed its evaluation limit long before its end? Extrapolates the progress per evaluation.
 
-use super::run_in_time::{Ends, FAR, Finish};
+use super::run_in_time::{Ends, Finish, UNLIMITED_TIME};
 
 /// Progress of a run.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ impl<'a> WorkForecast<'a> {
         self.turned += self.net;
         let seconds = t - self.t;
         let turns = self.net.abs() == self.travel;
-        let windows = if ends.t < FAR {
+        let windows = if ends.t < UNLIMITED_TIME {
             (ends.t - t) / seconds
         } else if turns {
             (ends.way - self.turned.abs()) / self.travel
@@ -63,7 +63,7 @@ impl<'a> WorkForecast<'a> {
         let left = ends.limit.evaluations.saturating_sub(evaluations) as f64;
         // Travel per evaluation, rad, below which a run crawls.
         let crawl = 1e-5;
-        let crawls = ends.t < FAR && self.travel < crawl * spent;
+        let crawls = ends.t < UNLIMITED_TIME && self.travel < crawl * spent;
         // A crank that loses less than `spent / left` of its speed per window does not come to rest before the limit.
         let speed = self.travel / seconds;
         let lasts = turns && !self.in_time && speed >= self.speed * (1.0 - spent / left);

@@ -148,13 +148,13 @@ impl CurveEquation {
     /// middle of a range of coordinates (rad): the nodes of a step resolve the linkage.
     pub fn unit_load_effects(&self, q: Interval, c: f64) -> UnitLoadEffects {
         let terms = self.terms(q.middle());
-        let CurveTerms { place, m, a, .. } = terms;
-        let gain = place.dx / m;
+        let CurveTerms { pose, m, a, .. } = terms;
+        let gain = pose.dx / m;
         let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
         let arm = |along: f64, off_guide: f64| along / m + rubbed * (a * along / m - off_guide);
         UnitLoadEffects {
-            torque: arm(place.dtheta, terms.theta_n),
-            force: arm(place.dx, terms.x_n),
+            torque: arm(pose.dtheta, terms.theta_n),
+            force: arm(pose.dx, terms.x_n),
         }
     }
 }

@@ -144,7 +144,7 @@ pub(super) struct Quantities<'a> {
 impl EventFunction<QUANTITIES> for Quantities<'_> {
     fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
         let curve = self.equation.curve();
-        let place = curve.place(angle.rest);
+        let place = curve.pose(angle.rest);
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
                 self.evaluations.update(|before| before + 1);

@@ -9,7 +9,7 @@ use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::run_in_time::{Ends, FAR, Start};
+use crate::engine::run_in_time::{Ends, Start, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
 use crate::numeric::angle::Angle;
 
@@ -90,7 +90,7 @@ fn forecast<'a, D: Driven>(
 ) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
-        Goal::Turned(way) => (FAR, way),
+        Goal::Turned(way) => (UNLIMITED_TIME, way),
     };
     let ends = Ends {
         t,

@@ -26,7 +26,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
         list.push(out_of_reach(theta, &Limits::new(linkage, speed).reach));
         return;
     };
-    let place = curve.place(q.rest);
+    let place = curve.pose(q.rest);
     if place.dtheta.abs() < NO_SPEED && speed != 0.0 {
         list.push(Problem::new(
             "motion.speed",

@@ -22,7 +22,7 @@ use super::second_run::{LEAST_TOLERANCE, TOLERANCE_RATIO};
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, ContactSettings};
-use crate::engine::time::{FAR, Finish};
+use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
@@ -74,7 +74,7 @@ impl<'a, const N: usize> LooseRun<'a, N> {
             },
             t_end: match task.extent {
                 Extent::Duration(duration) => duration,
-                Extent::Revolutions(_) if N == FREE => FAR,
+                Extent::Revolutions(_) if N == FREE => UNLIMITED_TIME,
                 Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
             },
         }
@@ -156,7 +156,9 @@ impl<'a, const N: usize> LooseRun<'a, N> {
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
         match ended.finish {
             Finish::AtEnd => match self.model.task.extent {
-                Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
+                Extent::Revolutions(turns) if last.t >= UNLIMITED_TIME => {
+                    Some(Why::TurnsNeverComplete(turns))
+                }
                 _ => None,
             },
             Finish::Stopped => None,

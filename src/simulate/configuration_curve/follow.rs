@@ -239,7 +239,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
                 let missing = self.quantities.values(t, angle, last.end.omega)[TURNED];
-                let dtheta = self.equation.curve().place(angle.rest).dtheta;
+                let dtheta = self.equation.curve().pose(angle.rest).dtheta;
                 [missing, (dtheta * last.end.omega).abs()]
             });
         }

@@ -49,7 +49,7 @@ impl Pass<'_, '_> {
         let back = clear.is_reached && matches!(piece.end, End::Stopped);
         arrived.end = match (piece.end, course.extent) {
             (End::Stopped, _) if back => End::Done,
-            (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::FAR => {
+            (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::UNLIMITED_TIME => {
                 End::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
