@@ -51,10 +51,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     }
     let mut before = SpeedAt::at(step, step.start.t);
     for i in 1..=PIECES {
-        let t = match i {
-            PIECES => step.end.t,
-            _ => step.start.t + step.length() * i as f64 / PIECES as f64,
-        };
+        let t = part(step, i, PIECES);
         let after = SpeedAt::at(step, t);
         // The speed approaches zero and recedes again.
         let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;

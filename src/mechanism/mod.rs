@@ -28,7 +28,6 @@ mod plane;
 mod positions;
 mod reactions;
 mod rocker;
-mod rounding;
 mod sensitivity;
 mod singularity;
 mod sizing;

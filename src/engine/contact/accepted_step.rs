@@ -1,7 +1,7 @@
 //! Accepted step: acceptance, and the view of the observer of a run on it.
 
+use super::dop853::{Dense, Stages};
 use super::run::{Halt, Runner};
-use super::step::{Dense, Stages};
 use super::{Contact, Phase, Sample};
 use crate::engine::run_in_time::Finish;
 use crate::numeric::root;

@@ -1,8 +1,8 @@
 //! Contact phase: its start and end with the square root of the depth as independent variable, the middle in time.
 
+use super::dop853::Stages;
 use super::flight::{END_CORRECTION, depth};
 use super::run::{Halt, Runner, growth};
-use super::step::Stages;
 use super::{Contact, Phase};
 use crate::numeric::root;
 
@@ -115,15 +115,15 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         while s != to {
             self.check_work()?;
             let near = self.near;
-            let along = |s: f64, y: &[f64; N]| {
+            let slope = 2.0 * s / self.now.depth_rate;
+            let first = self.now.rates.map(|each| each * slope);
+            let (s0, length) = (s, ds);
+            let mut rates = |c: f64, y: &[f64; N]| {
+                let s = s0 + c * length;
                 let sample = model.sample(&near, phase, Some(s * s), y);
                 let slope = 2.0 * s / sample.depth_rate;
                 sample.rates.map(|each| each * slope)
             };
-            let slope = 2.0 * s / self.now.depth_rate;
-            let first = self.now.rates.map(|each| each * slope);
-            let (s0, length) = (s, ds);
-            let mut rates = |c: f64, y: &[f64; N]| along(s0 + c * length, y);
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;
             let error = stages.error(&scale, self.counted);

@@ -1,7 +1,7 @@
 //! Phases without force: free flight until the gap closes, and release from an indentation.
 
+use super::dop853::{Dense, Stages};
 use super::run::{Halt, Runner};
-use super::step::{Dense, Stages};
 use super::{Contact, Phase, Sample};
 use crate::engine::PIECES;
 use crate::numeric::root;

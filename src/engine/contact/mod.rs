@@ -11,7 +11,6 @@ mod discontinuities;
 mod dop853;
 mod flight;
 mod run;
-mod step;
 
 use super::WorkLimit;
 use crate::numeric::enclosure::{Detail, Interval};

@@ -1,7 +1,7 @@
 //! Loop of a run over its phases, with step-size control.
 
 use super::discontinuities::Breaks;
-use super::step::Stages;
+use super::dop853::Stages;
 use super::{AcceptedStep, Contact, ContactSettings, Phase, Sample};
 use crate::engine::run_in_time::Finish;
 

@@ -57,7 +57,8 @@ impl EulerMaclaurinCell {
         gain: f64,
         turn: OneTurn,
     ) -> Option<EulerMaclaurinCell> {
-        let (half, rule) = (0.5 * width, Rule::of(24));
+        let degree = 24;
+        let (half, rule) = (0.5 * width, Rule::of(degree));
         let middle = low + half;
         let usual = turn.duration(middle);
         let differences = rule.values(|x| turn.duration(middle + half * x) - usual);

@@ -66,22 +66,14 @@ impl Panel {
 /// Returns the slowest and the fastest point, from dt/dx at the points.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
     let half = 0.5 * piece.span().abs();
-    match piece.turning {
-        Turning::Nowhere => extremes_of(&slopes[..=rule.degree()], half),
-        // The speed is |dθ/dx| over dt/dx.
-        _ => {
-            let mut index = 0;
-            let slowness = rule.values(|x| {
-                index += 1;
-                half * slopes[index - 1] / piece.dtheta(x).abs()
-            });
-            extremes_of(&slowness[..=rule.degree()], half)
+    // Time, s, for half the piece at the speed of each point: |dθ/dx| over dt/dx.
+    let mut slowness = *slopes;
+    if piece.turning != Turning::Nowhere {
+        for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
+            *slowness = half * *slowness / piece.dtheta(*x).abs();
         }
     }
-}
-
-/// Returns the extremes of the speed; `slowness` is the time (s) for half the piece at the speed of each point.
-fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
+    let slowness = &slowness[..=rule.degree()];
     let (mut slow, mut fast) = (0, 0);
     for (j, here) in slowness.iter().enumerate() {
         if *here > slowness[slow] {

@@ -20,7 +20,6 @@ pub(in crate::engine) mod piece;
 mod positions;
 mod profile;
 pub(in crate::engine) mod segment;
-mod time_sensitivity;
 mod turn_closure;
 mod turning_points;
 pub(in crate::engine) mod turns;

@@ -2,10 +2,9 @@
 //! usual engine to rounding.
 
 use super::extreme::{Extreme, extremes};
-use super::kinetic::{Energy, Noise};
+use super::kinetic::{Energy, Noise, TimeSensitivity};
 use super::piece::{Piece, Turning};
 use super::profile::{NotApplicable, Profile};
-use super::time_sensitivity::TimeSensitivity;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
 /// Piece of the crank angle with the series of the time on it.
