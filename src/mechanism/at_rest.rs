@@ -61,7 +61,7 @@ impl AtRest<'_> {
     /// Bounds the change of [`AtRest::margin`] between two times (s), N or N m, from enclosures of the loads.
     pub fn margin_change(&self, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
         let loads = self.equation.loads();
-        if !loads.have_detail() {
+        if !loads.vary_between_nodes() {
             return 0.0;
         }
         let piece = MotionPiece {
@@ -79,11 +79,11 @@ impl AtRest<'_> {
             force: terms.pose.dx,
         };
         // Only the range of a load on the interval is used: any size of the ellipse serves.
-        let detail = loads.detail(&state, effects, 2.0);
+        let variation = loads.variation(&state, effects, 2.0);
         let (arm, x_n) = (terms.pose.dx.abs(), terms.x_n.abs());
         // A change of Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
-        let change = (detail.change - self.rounding(from)).max(0.0) * most;
+        let change = (variation.change - self.rounding(from)).max(0.0) * most;
         match loads.are_dry() {
             true => change,
             false if arm > 0.0 => change / arm,

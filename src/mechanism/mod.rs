@@ -9,7 +9,6 @@ mod clearance;
 mod configuration_curve;
 mod curve_equation;
 mod curve_pose;
-mod detail;
 mod enclosed_state;
 mod equivalent;
 mod extremes;
@@ -34,6 +33,7 @@ mod sizing;
 mod solid;
 mod statics;
 mod torque_slope;
+mod variation;
 mod virtual_displacement;
 
 pub use at_rest::{AtRest, Held};

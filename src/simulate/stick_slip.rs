@@ -8,7 +8,7 @@ use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ANGLE_ROUNDING;
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
 
 /// Indices of the event functions, in the order of their values.
@@ -105,20 +105,20 @@ impl Motion for InPhase<'_> {
         self.equation.loads().next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let Phase::Sliding { c, .. } = self.phase else {
-            return Detail::NONE;
+            return Variation::NONE;
         };
         let loads = self.equation.loads();
         let seen = self
             .equation
             .curve()
             .enclosed_state(reach, loads.meet_slider());
-        loads.detail(
+        loads.variation(
             &seen,
             self.equation.unit_load_effects(reach.angle, c),
             ellipse,

@@ -7,7 +7,7 @@ use crate::engine::PIECES;
 use crate::engine::run_in_time::Finish;
 use crate::engine::runge_kutta::RungeKutta;
 use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
-use crate::numeric::enclosure::{Detail, Interval};
+use crate::numeric::enclosure::{Interval, Variation};
 use crate::numeric::root;
 
 /// Changes of law in a run.
@@ -117,7 +117,7 @@ struct StepParabola<'a, M: Contact<N>, const N: usize> {
 
 impl<M: Contact<N>, const N: usize> ForceAlong for StepParabola<'_, M, N> {
     /// Encloses the parabola, widened by its bend.
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation {
         let h = self.end[0] - self.start[0];
         let reach = std::array::from_fn(|i| {
             let straight = h * self.first[i];
@@ -126,14 +126,14 @@ impl<M: Contact<N>, const N: usize> ForceAlong for StepParabola<'_, M, N> {
             let width = to - from;
             Interval::between(at(from), at(to)).widened(bend.abs() * width * width)
         });
-        self.model.detail(&reach, ellipse)
+        self.model.variation(&reach, ellipse)
     }
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Returns the length (s) a step to this state may have for its stages to resolve the loads; none if they do.
     pub(super) fn hides(&self, end: &[f64; N]) -> Option<f64> {
-        if !self.model.has_detail() {
+        if !self.model.varies_between_nodes() {
             return None;
         }
         let h = end[0] - self.y[0];

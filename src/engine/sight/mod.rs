@@ -4,14 +4,14 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Detail, ellipses, resolved};
+use crate::numeric::enclosure::{Variation, ellipses, resolved};
 
 pub use steps::{OnStep, hides};
 
 /// Force along a panel or a step, over the normalized position from 0 to 1, with its interpolant through the nodes.
 pub trait ForceAlong {
     /// Returns the variation of the force between two positions, and in the Bernstein ellipse of ρ = `ellipse`.
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail;
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation;
 
     /// Returns the first known corner of the force between two positions.
     fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
@@ -83,18 +83,18 @@ pub fn hidden(force: &impl ForceAlong, look: NodeCriterion) -> Option<Hidden> {
 }
 
 impl NodeCriterion {
-    /// Returns the detail of the force on a piece, and the number of nodes that resolve it, if at most [`Self::nodes`].
-    fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Detail, Option<usize>) {
-        self.nodes_for(|ellipse| force.detail(from, to, ellipse))
+    /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most [`Self::nodes`].
+    fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Variation, Option<usize>) {
+        self.nodes_for(|ellipse| force.variation(from, to, ellipse))
     }
 
-    fn nodes_for(&self, detail: impl Fn(f64) -> Detail) -> (Detail, Option<usize>) {
-        resolved(detail, self.ellipses, self.allowed, self.nodes)
+    fn nodes_for(&self, variation: impl Fn(f64) -> Variation) -> (Variation, Option<usize>) {
+        resolved(variation, self.ellipses, self.allowed, self.nodes)
     }
 
-    /// True if the nodes resolve a force whose detail is given as a function of the ellipse parameter.
-    pub fn shows(&self, detail: impl Fn(f64) -> Detail) -> bool {
-        self.nodes_for(detail).1.is_some()
+    /// True if the nodes resolve a force whose variation is given as a function of the ellipse parameter.
+    pub fn shows(&self, variation: impl Fn(f64) -> Variation) -> bool {
+        self.nodes_for(variation).1.is_some()
     }
 
     /// Returns the fraction that may be cut off at an end for a corner there, to cover the rounding error of its position:
@@ -102,8 +102,8 @@ impl NodeCriterion {
     fn end(&self, force: &impl ForceAlong, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
-            let detail = force.detail(from, to, self.ellipses[0]);
-            detail.change * end <= CORNER_SHARE * self.allowed
+            let variation = force.variation(from, to, self.ellipses[0]);
+            variation.change * end <= CORNER_SHARE * self.allowed
         };
         let parts = [20, 40].map(|halvings| 0.5f64.powi(halvings));
         parts.into_iter().find(little).unwrap_or(0.0)
@@ -154,10 +154,10 @@ impl Search {
                 };
                 return self.place().or((from > self.whole[0]).then_some(here));
             }
-            let (detail, nodes) = self.look.nodes_on(force, from, to);
+            let (varies, nodes) = self.look.nodes_on(force, from, to);
             match nodes {
                 Some(nodes) => self.compare(force, [from, to], nodes),
-                None if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
+                None if self.is_least(&varies, to - from) => self.note_corner(&varies, from, to),
                 None => {
                     let [before, behind] = self.divided(force, from, to);
                     left[count] = [behind, to];
@@ -210,13 +210,14 @@ impl Search {
         Some(Hidden { at, is_corner })
     }
 
-    fn is_least(&self, detail: &Detail, length: f64) -> bool {
-        detail.change * length <= CORNER_SHARE * self.look.allowed || length < 0.5f64.powi(HALVINGS)
+    fn is_least(&self, varies: &Variation, length: f64) -> bool {
+        let allowed = CORNER_SHARE * self.look.allowed;
+        varies.change * length <= allowed || length < 0.5f64.powi(HALVINGS)
     }
 
-    fn note_corner(&mut self, detail: &Detail, from: f64, to: f64) {
+    fn note_corner(&mut self, variation: &Variation, from: f64, to: f64) {
         let is_at_end = from == self.whole[0] || to == self.whole[1];
-        if detail.around.is_none() && !is_at_end {
+        if variation.around.is_none() && !is_at_end {
             self.corner_at(0.5 * (from + to));
         }
     }

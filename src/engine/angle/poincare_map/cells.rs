@@ -47,7 +47,7 @@ impl<D: Driven> LastTurns<'_, D> {
             least: 0.0,
             has_interpolant: false,
         };
-        !driven.has_detail()
+        !driven.varies_between_nodes()
             || panels
                 .iter()
                 .all(|panel| at_speeds(*driven, panel, speeds, look))
