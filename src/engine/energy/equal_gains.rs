@@ -36,8 +36,8 @@ impl EqualGains<'_> {
     }
 
     /// Returns the error bound of the kinetic energy after some turns, J.
-    fn off_after(&self, turns: f64) -> f64 {
-        self.begin.off + f64::EPSILON * self.begin.kinetic + turns * self.gain_error
+    fn energy_error_after(&self, turns: f64) -> f64 {
+        self.begin.energy_error + f64::EPSILON * self.begin.kinetic + turns * self.gain_error
     }
 
     /// Computes the turns from the first `done` turns, which end at the time `t` (s, rounded value and remainder), to
@@ -63,7 +63,7 @@ impl EqualGains<'_> {
                 cell.count
             };
             let whole = if passed { count + 1.0 } else { count };
-            error += cell.error(whole, self.off_after(mark.turns + whole));
+            error += cell.error(whole, self.energy_error_after(mark.turns + whole));
             let end = cell.mark(count);
             last = passed.then(|| cell.turn.segment(end.kinetic));
             marks.push(mark);
@@ -80,7 +80,7 @@ impl EqualGains<'_> {
             None => {
                 let begin = Begin {
                     kinetic: mark.kinetic,
-                    off: self.off_after(mark.turns),
+                    energy_error: self.energy_error_after(mark.turns),
                     ..self.begin
                 };
                 let left = mark.until(until);
@@ -108,7 +108,7 @@ impl EqualGains<'_> {
     fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
         let begin = Begin {
             kinetic,
-            off: 0.0,
+            energy_error: 0.0,
             ..self.begin
         };
         OneTurn::new(self.profile, begin)

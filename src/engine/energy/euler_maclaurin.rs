@@ -162,12 +162,12 @@ impl EulerMaclaurinCell {
         }
     }
 
-    /// Returns the error bound of the duration of `turns` turns, s, for an error `off` of the energies, J.
-    pub fn error(&self, turns: f64, off: f64) -> f64 {
-        let off = off + f64::EPSILON * self.turn.largest_work();
+    /// Returns the error bound of the duration of `turns` turns, s, for an error of the energies, J.
+    pub fn error(&self, turns: f64, energy_error: f64) -> f64 {
+        let energy_error = energy_error + f64::EPSILON * self.turn.largest_work();
         let steepest = [0.0, turns].map(|turns| self.slope.value(self.x(turns)).abs() / self.half);
         let steepest = steepest[0].max(steepest[1]);
-        let left_out = self.tail / self.difference.degree() as f64;
-        turns * steepest * off + (left_out + self.turn.error) * self.time(turns)
+        let truncation = self.tail / self.difference.degree() as f64;
+        turns * steepest * energy_error + (truncation + self.turn.error) * self.time(turns)
     }
 }

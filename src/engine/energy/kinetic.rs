@@ -1,7 +1,7 @@
 //! Kinetic energy on a piece, by integration of the force series, with its rounding floor, and the errors of the time
 //! due to errors of forces and energies.
 
-use super::panel::Tried;
+use super::panel::Attempt;
 use super::piece::{Piece, SAME_ANGLE, Turning};
 use super::profile::NotApplicable;
 use crate::numeric::chebyshev::{Rule, Series, Values, range};
@@ -46,7 +46,7 @@ impl Energy<'_> {
     }
 
     /// Returns the truncation error of the energy due to the force series, J.
-    pub fn left_out(&self) -> f64 {
+    pub fn truncation_error(&self) -> f64 {
         let largest = self.force.largest() * self.piece.span().abs();
         self.force.tail() * largest / self.rule.degree() as f64
     }
@@ -76,10 +76,10 @@ impl Energy<'_> {
     }
 
     /// Locates the turning point just before the point `j`, at which the energy is not positive.
-    pub fn turns_before(&self, j: usize) -> Tried {
+    pub fn turns_before(&self, j: usize) -> Attempt {
         let points = self.rule.points();
         if j == 0 {
-            return Tried::Unresolved;
+            return Attempt::Unresolved;
         }
         let work = self.force.integral();
         let half = 0.5 * self.piece.span();
@@ -92,8 +92,8 @@ impl Energy<'_> {
             points[j],
         );
         match x {
-            Some(x) if x > -1.0 => Tried::TurnsAfter(self.piece.way_to(x)),
-            _ => Tried::Unresolved,
+            Some(x) if x > -1.0 => Attempt::TurnsAfter(self.piece.way_to(x)),
+            _ => Attempt::Unresolved,
         }
     }
 }
@@ -115,13 +115,13 @@ impl Noise {
         let last_terms = 8.0;
         let units = last_terms * f64::EPSILON;
         let place = units * energy.piece.from.abs() / span;
-        let off = place * (high - low) + last_terms * rounding;
+        let force_error = place * (high - low) + last_terms * rounding;
         let of_energy = match energy.piece.turning {
-            Turning::Nowhere => off * span / energy.kinetic,
-            _ => off / low.abs().min(high.abs()),
+            Turning::Nowhere => force_error * span / energy.kinetic,
+            _ => force_error / low.abs().min(high.abs()),
         };
         Noise {
-            force: units + off / low.abs().max(high.abs()),
+            force: units + force_error / low.abs().max(high.abs()),
             slope: (units + place * (heavy - light) / heavy + of_energy).min(units + place),
         }
     }
@@ -159,23 +159,23 @@ impl TimeSensitivity {
         }
     }
 
-    /// Returns the error of a turning point at the end, rad, due to the error `off` (J) of the energy and to rounding.
-    pub fn misplaced(&self, piece: &Piece, off: f64) -> f64 {
+    /// Returns the error of a turning point at the end, rad, due to an error of the energy (J) and to rounding.
+    pub fn turning_point_error(&self, piece: &Piece, energy_error: f64) -> f64 {
         // Rounded factors of kinetic and potential energy move a turning point even where the energy difference is exact.
         let factors = 3.0;
         match piece.turning {
-            Turning::AtEnd => (factors * off / self.at_turn).min(piece.span().abs()),
+            Turning::AtEnd => (factors * energy_error / self.at_turn).min(piece.span().abs()),
             _ => 0.0,
         }
     }
 
-    /// Returns the relative error of the time on a panel with a turning point, for an error `off` (J) of the kinetic
-    /// energy (J) at the other end.
+    /// Returns the relative error of the time on a panel with a turning point, for an error (J) of the kinetic energy (J)
+    /// at the other end.
     ///
     /// The model is a force that grows linearly from the turning point, F = F₀ (1 + (q − 1) u): the time is
     /// arcosh(q)/λ, λ² being the slope of the force over the inertia. Errors are large where q is, next to an unstable
     /// equilibrium. For q ≤ 1 they are at most those under a constant force.
-    pub fn at_turn(&self, piece: &Piece, kinetic: f64, off: f64) -> f64 {
+    pub fn at_turn(&self, piece: &Piece, kinetic: f64, energy_error: f64) -> f64 {
         // A force at the turning point below the rounding of the other is zero.
         let q = self.rise.min(1.0 / f64::EPSILON);
         // Half of the digits of q − 1 have to remain.
@@ -189,10 +189,10 @@ impl TimeSensitivity {
             (0.5, 1.0)
         };
         // The error of the turning point is limited by its distance from the equilibrium.
-        let misplaced = by_force * (self.rounding / self.at_turn).min(2.0);
+        let of_turning_point = by_force * (self.rounding / self.at_turn).min(2.0);
         if piece.turning == Turning::AtStart {
-            return misplaced;
+            return of_turning_point;
         }
-        misplaced.hypot(0.5 * by_energy * off / kinetic)
+        of_turning_point.hypot(0.5 * by_energy * energy_error / kinetic)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::build::Begin;
 use super::panel::Panel;
-use super::piece::{Piece, missing};
+use super::piece::{Piece, turn_remainder};
 use super::profile::Profile;
 use super::segment::{After, Segment};
 use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING, Rule, Values};
@@ -21,7 +21,7 @@ struct Station {
 pub(in crate::engine) struct OneTurn {
     stations: Vec<Station>,
     /// Part of a whole turn that the rounded angles of its ends leave out, rad.
-    missing: f64,
+    turn_remainder: f64,
     /// Bound of the relative error of the duration.
     pub error: f64,
 }
@@ -51,7 +51,7 @@ impl OneTurn {
         });
         Some(OneTurn {
             stations: stations.collect(),
-            missing: missing(begin.start, begin.direction),
+            turn_remainder: turn_remainder(begin.start, begin.direction),
             error: segment.error / segment.duration.0,
         })
     }
@@ -72,7 +72,7 @@ impl OneTurn {
     pub fn duration(&self, kinetic: f64) -> f64 {
         let rule = Rule::of(MAX_DEGREE);
         let first = &self.stations[0];
-        let mut rest = self.missing * (0.5 * first.inertia[0] / kinetic).sqrt();
+        let mut rest = self.turn_remainder * (0.5 * first.inertia[0] / kinetic).sqrt();
         let mut sum = 0.0;
         for station in &self.stations {
             let (duration, lost) = rule.integral(&station.slopes(kinetic));

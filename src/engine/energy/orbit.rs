@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::build::Begin;
 use super::equal_gains::EqualGains;
-use super::error_bound::off_by_place;
+use super::error_bound::energy_error_of_angle;
 use super::kinetic::at_start;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
@@ -22,7 +22,7 @@ pub struct Orbit {
     /// True if the start is a turning point.
     pub(super) from_rest: bool,
     /// Error bound of the kinetic energy at the start, J.
-    pub(super) off: f64,
+    pub(super) energy_error: f64,
     pub(super) forward: Segment,
     /// Segment from the start in the other direction, for motions that turn back.
     pub(super) backward: Option<Segment>,
@@ -53,17 +53,18 @@ impl Orbit {
             speed.signum()
         };
         // The kinetic energy is a product of rounded factors; an angle in the first turn is exact.
-        let mut off = f64::EPSILON * kinetic;
+        let mut energy_error = f64::EPSILON * kinetic;
         if start.turns != 0.0 {
             let apart = f64::EPSILON.sqrt();
             let beside = profile.inertia_and_force(theta + apart).0;
-            off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], apart));
+            let of_angle = energy_error_of_angle(theta, kinetic, [inertia, beside], apart);
+            energy_error = energy_error.hypot(of_angle);
         }
         let begin = Begin {
             start: theta,
             direction,
             kinetic,
-            off,
+            energy_error,
         };
         let segment = |direction: f64, until: f64, most_turns: f64| {
             let begin = Begin { direction, ..begin };
@@ -99,7 +100,7 @@ impl Orbit {
             direction,
             speed,
             from_rest: kinetic == 0.0,
-            off,
+            energy_error,
             forward,
             backward,
             later: later.map(Box::new),
@@ -113,7 +114,7 @@ impl Orbit {
             direction: speed.signum(),
             speed,
             from_rest: false,
-            off: 0.0,
+            energy_error: 0.0,
             forward: segment,
             backward: None,
             later: None,

@@ -130,7 +130,7 @@ impl Piece {
 pub(in crate::engine) const SAME_ANGLE: f64 = 1e-12;
 
 /// Returns the part of a whole turn, rad, that the rounded angles of its ends leave out.
-pub(super) fn missing(start: f64, direction: f64) -> f64 {
+pub(super) fn turn_remainder(start: f64, direction: f64) -> f64 {
     direction * two_sum(start, direction * TAU).1 + TAU_REST
 }
 
