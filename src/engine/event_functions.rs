@@ -39,7 +39,7 @@ pub fn changes<const N: usize>(
     let left = |i: usize| {
         let mut inside = rough[1..].iter();
         follows && has_jumped(&rough, i, signs[i])
-            || inside.any(|look| look.values[i] * signs[i] < 0.0)
+            || inside.any(|sample| sample.values[i] * signs[i] < 0.0)
     };
     let dips = |i: usize| rough.windows(3).any(|w| may_dip(w, i));
     if !(0..N).any(|i| left(i) || dips(i)) {
@@ -50,7 +50,7 @@ pub fn changes<const N: usize>(
     let fine = sampled(step, watched, pieces);
     let mut found = Vec::new();
     for (index, sign) in signs.iter_mut().enumerate() {
-        let value = |t: f64| look(step, watched, t).values[index];
+        let value = |t: f64| values_at(step, watched, t).values[index];
         if follows && has_jumped(&fine, index, *sign) {
             // Just after the start of the step: the run has to advance.
             let t = step.start.t * (1.0 + 4.0 * f64::EPSILON);
@@ -77,24 +77,24 @@ pub fn changes<const N: usize>(
 }
 
 /// True if the function has the opposite sign at the start of the step by more than rounding.
-fn has_jumped<const N: usize>(looks: &[EventValues<N>], index: usize, sign: f64) -> bool {
-    let values = looks.iter().map(|look| look.values[index].abs());
+fn has_jumped<const N: usize>(samples: &[EventValues<N>], index: usize, sign: f64) -> bool {
+    let values = samples.iter().map(|sample| sample.values[index].abs());
     let largest = values.fold(0.0, f64::max);
-    looks[0].values[index] * sign < -SUM_ROUNDING * largest
+    samples[0].values[index] * sign < -SUM_ROUNDING * largest
 }
 
 /// Returns times and values of one function: the samples and the minima of its dips between them.
 fn with_dips<const N: usize>(
-    looks: &[EventValues<N>],
+    samples: &[EventValues<N>],
     index: usize,
     value: impl Fn(f64) -> f64,
 ) -> Vec<(f64, f64)> {
-    let mut all: Vec<_> = looks
+    let mut all: Vec<_> = samples
         .iter()
-        .map(|look| (look.t, look.values[index]))
+        .map(|sample| (sample.t, sample.values[index]))
         .collect();
     let largest = all.iter().fold(0.0f64, |m, (_, value)| m.max(value.abs()));
-    for three in looks.windows(3).filter(|three| may_dip(three, index)) {
+    for three in samples.windows(3).filter(|three| may_dip(three, index)) {
         let sign = three[1].values[index].signum();
         let (t, beyond) = maximum::largest(|t| -sign * value(t), three[0].t, three[2].t);
         if beyond > SUM_ROUNDING * largest {
@@ -136,7 +136,11 @@ struct EventValues<const N: usize> {
     values: [f64; N],
 }
 
-fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> EventValues<N> {
+fn values_at<const N: usize>(
+    step: &Step,
+    watched: &dyn EventFunction<N>,
+    t: f64,
+) -> EventValues<N> {
     let (theta, omega) = step.at(t);
     EventValues {
         t,
@@ -153,6 +157,6 @@ fn sampled<const N: usize>(
     let nearest = 1e-9;
     let part = |i: usize| (i as f64 / pieces as f64).clamp(nearest, 1.0 - nearest);
     (0..=pieces)
-        .map(|i| look(step, watched, step.start.t + step.length() * part(i)))
+        .map(|i| values_at(step, watched, step.start.t + step.length() * part(i)))
         .collect()
 }

@@ -117,8 +117,8 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals: two, or one for
-/// each node of a collocation polynomial, which may oscillate as often as it has nodes.
+/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals: two, or one
+/// for each node of a collocation polynomial, which may oscillate as often as it has nodes.
 fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
     let mut all = [0.0; NODES + 1];
     if step.has_polynomial() {

@@ -93,7 +93,8 @@ impl Linkage {
         }
     }
 
-    /// Returns the enclosed state of a motion over the crank angle; `with_slider`: with x and x', where loads need them.
+    /// Returns the enclosed state of a motion over the crank angle; `with_slider`: with x and x', if loads need
+    /// them.
     pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
         let ranges = with_slider.then(|| self.enclose(piece.angle));
         let [x, dx] = ranges.map_or([Interval::WHOLE; 2], |ranges| [ranges.x, ranges.dx]);

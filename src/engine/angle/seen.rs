@@ -77,7 +77,7 @@ pub(super) fn at_speeds<D: Driven>(
             angle: Interval::point(angle.radians()),
             speed,
         };
-        look.shows(|ellipse| driven.variation(&reach, ellipse))
+        look.resolves(|ellipse| driven.variation(&reach, ellipse))
     })
 }
 

@@ -140,13 +140,14 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let tolerance = self.settings.tolerance;
         // A method of order n counts as n nodes.
         let nodes = RungeKutta::Dop853.order();
-        let look = NodeCriterion::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
+        let criterion =
+            NodeCriterion::at_step([self.y[0], end[0]], nodes, tolerance, tolerance / h);
         let way = StepParabola {
             model: self.model,
             start: &self.y,
             end,
             first: &self.now.rates,
         };
-        hidden(&way, look).map(|hidden| hidden.at * h)
+        hidden(&way, criterion).map(|hidden| hidden.at * h)
     }
 }

@@ -1,6 +1,6 @@
-//! One step of the explicit Runge-Kutta method DOP853 of Dormand and Prince on a state of fixed size: order 8, with error
-//! estimates of orders 5 and 3 and dense output of order 7, with the coefficients of Hairer, Nørsett and Wanner, Solving
-//! Ordinary Differential Equations I, 2nd ed. 1993, II.5 and II.6. Nodes are the row sums.
+//! One step of the explicit Runge-Kutta method DOP853 of Dormand and Prince on a state of fixed size: order 8, with
+//! error estimates of orders 5 and 3 and dense output of order 7, with the coefficients of Hairer, Nørsett and Wanner,
+//! Solving Ordinary Differential Equations I, 2nd ed. 1993, II.5 and II.6. Nodes are the row sums.
 
 /// Stages of one step from `start`, along any independent variable.
 #[derive(Clone, Debug)]

@@ -154,7 +154,7 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     // Bound of the deviation from the cubic, as a multiple of that at the middle of the piece.
     let margin = 4.0;
     let doubt = margin * (off.abs() + 0.25 * turned.abs());
-    // Its rate is three times the differences of the control points; what is off in four parts of a piece changes in one.
+    // Its rate is three times the differences of the control points; what is off in four parts changes in one.
     let narrows = 3.0 * (b - a).max(c - b).max(d - c) < -4.0 * doubt;
     // Fraction of a step in which the rate of the gap is taken to change sign at most once.
     let finest = 1.0 / 1024.0;

@@ -118,8 +118,8 @@ impl EqualGains<'_> {
     fn cell(&self, first: TurnStart) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = here.least(first.kinetic);
-        // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that energy
-        // vanishes. Least width over the largest.
+        // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that
+        // energy vanishes. Least width over the largest.
         let (widest, narrowest) = (1.5, 1e-3);
         let mut share = 1.0;
         while share > narrowest && least > 0.0 {

@@ -86,8 +86,8 @@ impl EulerMaclaurinCell {
         turns.mul_add(self.step, begin)
     }
 
-    /// True if the durations of turns vary too much for the Euler-Maclaurin sum: the first omitted term is below rounding
-    /// for smaller changes of x per turn. They are then added one by one.
+    /// True if the durations of turns vary too much for the Euler-Maclaurin sum: the first omitted term is below
+    /// rounding for smaller changes of x per turn. They are then added one by one.
     fn varies_much(&self) -> bool {
         self.step.abs() > 1.0 / 64.0
     }

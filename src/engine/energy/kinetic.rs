@@ -143,7 +143,7 @@ impl TimeSensitivity {
     /// Computes the sensitivity on a panel; `noise` is the rounding error of the force beyond that of angles, N m.
     pub fn of(piece: &Piece, force: &Values, noise: f64) -> TimeSensitivity {
         let (low, high) = range(force);
-        // Fraction of the rounding error of an angle that remains in the mean over the 33 points of a panel, about 1/√33.
+        // Fraction of the rounding error of an angle in the mean over the 33 points of a panel, about 1/√33.
         let averaged = 0.18;
         let place = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
         let [start, .., end] = *force;
@@ -161,7 +161,7 @@ impl TimeSensitivity {
 
     /// Returns the error of a turning point at the end, rad, due to an error of the energy (J) and to rounding.
     pub fn turning_point_error(&self, piece: &Piece, energy_error: f64) -> f64 {
-        // Rounded factors of kinetic and potential energy move a turning point even where the energy difference is exact.
+        // Rounded factors of both energies move a turning point even where the energy difference is exact.
         let factors = 3.0;
         match piece.turning {
             Turning::AtEnd => (factors * energy_error / self.at_turn).min(piece.span().abs()),
@@ -169,8 +169,8 @@ impl TimeSensitivity {
         }
     }
 
-    /// Returns the relative error of the time on a panel with a turning point, for an error (J) of the kinetic energy (J)
-    /// at the other end.
+    /// Returns the relative error of the time on a panel with a turning point, for an error (J) of the kinetic energy
+    /// (J) at the other end.
     ///
     /// The model is a force that grows linearly from the turning point, F = F₀ (1 + (q − 1) u): the time is
     /// arcosh(q)/λ, λ² being the slope of the force over the inertia. Errors are large where q is, next to an unstable

@@ -71,8 +71,8 @@ impl Panel {
         if !known(&inertia) || !known(&force) {
             return Err(NotApplicable::NotFinite);
         }
-        // Only next to an equilibrium, where panels are short, may forces be small differences of large ones. Half or twice
-        // this length, rad, changes the stated errors of 200 random runs by 12 % at most.
+        // Only next to an equilibrium, where panels are short, may forces be small differences of large ones. Half or
+        // twice this length, rad, changes the stated errors of 200 random runs by 12 % at most.
         let near_balance = 0.1;
         let rounding = if piece.span().abs() < near_balance {
             profile.rounding(piece.from)

@@ -67,12 +67,12 @@ pub struct Hidden {
 }
 
 /// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
-pub fn hidden(force: &impl ForceAlong, look: NodeCriterion) -> Option<Hidden> {
-    if look.nodes_on(force, 0.0, 1.0).1.is_some() {
+pub fn hidden(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<Hidden> {
+    if criterion.nodes_on(force, 0.0, 1.0).1.is_some() {
         return None;
     }
     let search = Search {
-        look,
+        criterion,
         whole: [0.0, 1.0],
         missed: [0.0; 2],
         is_missed: false,
@@ -83,7 +83,8 @@ pub fn hidden(force: &impl ForceAlong, look: NodeCriterion) -> Option<Hidden> {
 }
 
 impl NodeCriterion {
-    /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most [`Self::nodes`].
+    /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most
+    /// [`Self::nodes`].
     fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Variation, Option<usize>) {
         self.nodes_for(|ellipse| force.variation(from, to, ellipse))
     }
@@ -93,12 +94,12 @@ impl NodeCriterion {
     }
 
     /// True if the nodes resolve a force whose variation is given as a function of the ellipse parameter.
-    pub fn shows(&self, variation: impl Fn(f64) -> Variation) -> bool {
+    pub fn resolves(&self, variation: impl Fn(f64) -> Variation) -> bool {
         self.nodes_for(variation).1.is_some()
     }
 
-    /// Returns the fraction that may be cut off at an end for a corner there, to cover the rounding error of its position:
-    /// the larger of two after 20 and 40 halvings, or none.
+    /// Returns the fraction that may be cut off at an end for a corner there, to cover the rounding error of its
+    /// position: the larger of two after 20 and 40 halvings, or none.
     fn end(&self, force: &impl ForceAlong, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
@@ -121,7 +122,7 @@ fn size(missed: f64) -> f64 {
 
 /// State of the search for the first unresolved feature.
 struct Search {
-    look: NodeCriterion,
+    criterion: NodeCriterion,
     /// Interval searched: without corners at the ends.
     whole: [f64; 2],
     /// Integral of |force − interpolant| before the first corner and after it.
@@ -136,10 +137,13 @@ impl Search {
     /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
     fn run(mut self, force: &impl ForceAlong) -> Option<Hidden> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
-        let begin = self.look.end(force, |end| [0.0, end]);
-        let end = self.look.end(force, |end| [1.0 - end, 1.0]);
+        let begin = self.criterion.end(force, |end| [0.0, end]);
+        let end = self.criterion.end(force, |end| [1.0 - end, 1.0]);
         // A corner made up by rounding there would hide the first one inside.
-        self.whole = [begin.max(self.look.least), 1.0 - end.max(self.look.least)];
+        self.whole = [
+            begin.max(self.criterion.least),
+            1.0 - end.max(self.criterion.least),
+        ];
         left[0] = self.whole;
         let (mut count, mut pieces) = (1, 0);
         let most_examined = 400;
@@ -154,7 +158,7 @@ impl Search {
                 };
                 return self.place().or((from > self.whole[0]).then_some(here));
             }
-            let (varies, nodes) = self.look.nodes_on(force, from, to);
+            let (varies, nodes) = self.criterion.nodes_on(force, from, to);
             match nodes {
                 Some(nodes) => self.compare(force, [from, to], nodes),
                 None if self.is_least(&varies, to - from) => self.note_corner(&varies, from, to),
@@ -176,7 +180,7 @@ impl Search {
 
     /// Returns the ends of the two parts of a piece: on either side of a known corner, or at the middle.
     fn divided(&mut self, force: &impl ForceAlong, from: f64, to: f64) -> [f64; 2] {
-        let least = self.look.least;
+        let least = self.criterion.least;
         let inside = |at: &f64| at - least > from && at + least < to;
         let Some(at) = force.corner(from, to).filter(inside) else {
             return [0.5 * (from + to); 2];
@@ -188,16 +192,16 @@ impl Search {
     fn corner_at(&mut self, at: f64) {
         if self.corner.is_none() {
             self.corner = Some(at);
-            self.is_missed |= !self.look.has_interpolant;
+            self.is_missed |= !self.criterion.has_interpolant;
         }
     }
 
     /// True if a corner is so near an end that all nodes lie on one side of it and the other side is missed.
     fn cuts_off(&self) -> bool {
         let [before, behind] = self.missed;
-        let share = 10.0 * CORNER_SHARE * self.look.allowed;
+        let share = 10.0 * CORNER_SHARE * self.criterion.allowed;
         let missed = self.corner.map(|at| if at < 0.5 { before } else { behind });
-        self.look.has_interpolant && missed.is_some_and(|missed| missed > share)
+        self.criterion.has_interpolant && missed.is_some_and(|missed| missed > share)
     }
 
     /// Returns the first corner, or else an end of the first piece with a missed force.
@@ -211,7 +215,7 @@ impl Search {
     }
 
     fn is_least(&self, varies: &Variation, length: f64) -> bool {
-        let allowed = CORNER_SHARE * self.look.allowed;
+        let allowed = CORNER_SHARE * self.criterion.allowed;
         varies.change * length <= allowed || length < 0.5f64.powi(HALVINGS)
     }
 
@@ -226,7 +230,7 @@ impl Search {
         if self.is_missed {
             return;
         }
-        if !self.look.has_interpolant {
+        if !self.criterion.has_interpolant {
             // The stages of a step are about a quarter apart.
             let shortest_shown = 0.2;
             if to - from < shortest_shown {
@@ -238,10 +242,10 @@ impl Search {
         let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
         let missed = (0..nodes).map(|i| size(force.missed(at(i)))).sum::<f64>();
         let integral = missed / nodes as f64 * (to - from);
-        if integral > self.look.allowed * (to - from) && self.first.is_none() {
+        if integral > self.criterion.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
         }
         self.missed[usize::from(self.corner.is_some_and(|at| from >= at))] += integral;
-        self.is_missed = self.missed.iter().sum::<f64>() > self.look.allowed;
+        self.is_missed = self.missed.iter().sum::<f64>() > self.criterion.allowed;
     }
 }

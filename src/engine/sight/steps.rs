@@ -24,13 +24,13 @@ pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) ->
     }
     let (h, nodes) = (step.length(), None);
     let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
-    let look = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
+    let criterion = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
     let way = OnStep {
         motion,
         step,
         nodes,
     };
-    let Hidden { at, .. } = hidden(&way, look)?;
+    let Hidden { at, .. } = hidden(&way, criterion)?;
     Some(step.start.t + at * h)
 }
 

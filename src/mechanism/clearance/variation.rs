@@ -23,8 +23,8 @@ impl LooseMechanism {
         self.loads.as_ref().is_some_and(Loads::vary_between_nodes)
     }
 
-    /// Returns the variation of the accelerations by the loads, each over the size of its speed (1/s), where all numbers
-    /// of the state lie between those of two states, and in an ellipse of this size around that range.
+    /// Returns the variation of the accelerations by the loads, each over the size of its speed (1/s), where all
+    /// numbers of the state lie between those of two states, and in an ellipse of this size around that range.
     pub fn variation(
         &self,
         [low, high]: [&LooseState; 2],

@@ -35,8 +35,8 @@ impl Variation {
         around: None,
     };
 
-    /// Returns the variation of a change and a bound: a change that is NaN counts as infinite, a bound that is not finite
-    /// as none.
+    /// Returns the variation of a change and a bound: a change that is NaN counts as infinite, a bound that is not
+    /// finite as none.
     fn new(change: f64, around: Option<f64>) -> Variation {
         Variation {
             change: if change.is_nan() {
