@@ -3,7 +3,6 @@
 use super::Orbit;
 use super::panel::Panel;
 use super::piece::Turning;
-use super::segment::Segment;
 
 /// Returns the error bound (J) of the initial kinetic energy (J) due to the rounded angle (rad): next to a limit
 /// position the inertia is steep. `inertias`: at the angle, and at a distance `beside` from it, rad.
@@ -73,19 +72,7 @@ impl Orbit {
         if self.later.is_some() && t > self.forward.duration.0 {
             return None;
         }
-        let (_, after) = self.split(t);
-        if !self.turns_back() {
-            return self.forward.panel_at(after);
-        }
-        let there = 2.0 * self.forward.duration.0;
-        match &self.backward {
-            Some(back) if after > there => to_and_fro(back, after - there),
-            _ => to_and_fro(&self.forward, after % there),
-        }
+        let (segment, at, _) = self.located(self.split(t).1);
+        segment.panel_at(at)
     }
-}
-
-/// Returns the panel of a segment that is traversed to and fro, and the time since its start, s.
-fn to_and_fro(segment: &Segment, since: f64) -> Option<(&Panel, f64)> {
-    segment.panel_at(since.min(2.0 * segment.duration.0 - since))
 }

@@ -16,22 +16,6 @@ pub(super) struct Extreme {
 }
 
 impl Panel {
-    /// Returns the largest sign·|speed| among the points, rad/s; `sign` is +1 or −1.
-    pub fn extreme_at_points(&self, sign: f64) -> f64 {
-        sign * self.extremes[usize::from(sign > 0.0)].speed
-    }
-
-    /// Returns an upper bound of sign·|speed| on the panel, rad/s.
-    pub fn extreme_bound(&self, sign: f64) -> f64 {
-        self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
-    }
-
-    /// Returns the largest sign·|speed| on the panel, rad/s.
-    pub fn extreme(&self, sign: f64) -> f64 {
-        let index = self.extremes[usize::from(sign > 0.0)].point;
-        self.extreme_near(self.rule.points(), index, sign)
-    }
-
     /// Returns the largest sign·|speed| near one of some points, rad/s: at the point, or beside it where the derivative
     /// of the speed vanishes.
     fn extreme_near(&self, points: &[f64], index: usize, sign: f64) -> f64 {
@@ -96,13 +80,16 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme;
     })
 }
 
-/// Returns the largest sign·|speed| on panels, rad/s; only panels whose bound admits it are searched between points.
+/// Returns the largest sign·|speed| on panels, rad/s; `sign` is +1 or −1. Only panels whose bound admits it are
+/// searched between points.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
-    let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
+    let of = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
+    let at_points = panels.iter().map(|panel| sign * of(panel).speed);
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
     for panel in panels {
-        if panel.extreme_bound(sign) > best {
-            best = best.max(panel.extreme(sign));
+        let Extreme { point, speed, step } = of(panel);
+        if sign * speed + step > best {
+            best = best.max(panel.extreme_near(panel.rule.points(), point, sign));
         }
     }
     best

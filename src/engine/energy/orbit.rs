@@ -180,14 +180,15 @@ impl Orbit {
             return (Angle { turns, ..angle }, speed);
         }
         let (turns, after) = self.split(t);
-        let (angle, speed) = self.within(after);
+        let (segment, at, sense) = self.located(after);
+        let (angle, speed) = segment.state(at);
         let turns = if self.rotates() {
             self.direction * turns
         } else {
             0.0
         };
         let angle = Angle::new(self.start.turns + turns + angle.turns, angle.rest);
-        (angle, speed)
+        (angle, sense * speed)
     }
 
     /// Returns the number of whole periods before t, and the remaining time, s.
@@ -209,27 +210,25 @@ impl Orbit {
         }
     }
 
-    /// Returns the state within the first period.
-    pub(super) fn within(&self, t: f64) -> (Angle, f64) {
-        let there = self.forward.duration.0;
-        if t <= there || self.forward.after != After::TurnsBack {
-            return self.forward.state(t);
+    /// Returns the segment on which the motion is at a time (s) of the first period, the time since its start (s), and
+    /// the sense in which it is traversed, +1 or −1.
+    pub(super) fn located(&self, t: f64) -> (&Segment, f64, f64) {
+        let there_and_back = 2.0 * self.forward.duration.0;
+        if !self.turns_back() {
+            return (&self.forward, t, 1.0);
         }
-        let mirrored = |segment: &Segment, t: f64| {
-            let (angle, speed) = segment.state(t);
-            (angle, -speed)
+        let (segment, since) = if t <= there_and_back {
+            (&self.forward, t)
+        } else {
+            let back = self.backward.as_ref().unwrap_or(&self.forward);
+            (back, t - there_and_back)
         };
-        if t <= 2.0 * there {
-            return mirrored(&self.forward, 2.0 * there - t);
+        let end = segment.duration.0;
+        if since <= end {
+            (segment, since, 1.0)
+        } else {
+            (segment, 2.0 * end - since, -1.0)
         }
-        let Some(back) = &self.backward else {
-            return self.forward.state(t - 2.0 * there);
-        };
-        let since = t - 2.0 * there;
-        if since <= back.duration.0 {
-            return back.state(since);
-        }
-        mirrored(back, 2.0 * back.duration.0 - since)
     }
 
     /// Returns the time at which the crank has turned by `radians` from the start, s.
