@@ -158,7 +158,7 @@ impl GuideFriction {
         if dx.abs() < DEAD_CENTRE_WIDTH * crank {
             // At a dead centre x' is taken just before it, at the start of the run just after it.
             let way = NEARBY_ANGLE.copysign(if t == 0.0 { omega } else { -omega });
-            dx = self.equation.curve().place(angle.rest + way).dx;
+            dx = self.equation.curve().pose(angle.rest + way).dx;
         }
         let sgn_v = (dx * omega).signum();
         free.sliding(free.opposing(self.mu, sgn_v))

@@ -134,14 +134,18 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     // The time of a place costs more than all else: it is computed only where a load reads it.
     let timed = maker.equation.loads().reads().has(Variable::T);
     let reactions = move |at: f64| {
-        let (angle, speed) = orbit.state_at_place(at)?;
-        let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
+        let (angle, speed) = orbit.state_at_position(at)?;
+        let t = if timed {
+            orbit.time_of_position(at)?
+        } else {
+            0.0
+        };
         maker.row(t, angle, speed, None).reactions
     };
     Some(AlongRun {
-        parameters: orbit.places(end)?,
+        parameters: orbit.positions(end)?,
         sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
-        time: Box::new(move |at| orbit.time_of_place(at).unwrap_or(end)),
+        time: Box::new(move |at| orbit.time_of_position(at).unwrap_or(end)),
     })
 }
 

@@ -7,10 +7,10 @@ use EventIndex::{Clear, Crank, DeadCentre, Limit, Normal, Speed, Turned};
 use super::guide_friction::NEARBY_ANGLE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
-use crate::engine::events::ROUNDED;
+use crate::engine::events::ANGLE_ROUNDING;
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
 
 /// Index of an event function of a motion on the configuration curve.
@@ -121,20 +121,20 @@ impl Motion for InPhase<'_> {
         self.equation.loads().next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let Phase::Sliding { c, .. } = self.phase else {
-            return Detail::NONE;
+            return Variation::NONE;
         };
         let loads = self.equation.loads();
         let seen = self
             .equation
             .curve()
             .enclosed_state(reach, loads.meet_slider());
-        loads.detail(
+        loads.variation(
             &seen,
             self.equation.unit_load_effects(reach.angle, c),
             ellipse,
@@ -160,7 +160,7 @@ pub(super) struct Quantities<'a> {
 impl EventFunction<{ EventIndex::ALL.len() }> for Quantities<'_> {
     fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
         let curve = self.equation.curve();
-        let place = curve.place(angle.rest);
+        let place = curve.pose(angle.rest);
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
                 self.evaluations.update(|before| before + 1);
@@ -190,7 +190,7 @@ impl EventFunction<{ EventIndex::ALL.len() }> for Quantities<'_> {
 /// rounding of the angle, the value `ahead`, a little further on, decides.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
-        let nothing = values[i].abs() <= ROUNDED / NEARBY_ANGLE * ahead[i].abs();
+        let nothing = values[i].abs() <= ANGLE_ROUNDING / NEARBY_ANGLE * ahead[i].abs();
         let value = if nothing { ahead[i] } else { values[i] };
         if value < 0.0 { -1.0 } else { 1.0 }
     });

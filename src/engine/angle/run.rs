@@ -9,7 +9,7 @@ use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::run_in_time::{Ends, FAR, Start};
+use crate::engine::run_in_time::{Ends, Start, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
 use crate::numeric::angle::Angle;
 
@@ -39,7 +39,7 @@ pub fn run<D: Driven>(
     loop {
         let spent = march.spent();
         let done = march.at_cycle() && leg.len() > 0;
-        if done && forecast.is_hopeless(spent, march.t.0, way).is_some() {
+        if done && forecast.reason_to_stop(spent, march.t.0, way).is_some() {
             let why = NotApplicable::TooManyTurns;
             return Ok(ended(march, leg, (start, speed), why));
         }
@@ -68,7 +68,7 @@ pub fn run<D: Driven>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = march.work - work + work_until(orbit.last_leg(), end, &spent);
+            let work = march.work - work + work_until(orbit.last_segment(), end, &spent);
             march.leave_panels();
             return Ok(Driving {
                 orbit,
@@ -90,7 +90,7 @@ fn forecast<'a, D: Driven>(
 ) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
-        Goal::Turned(way) => (FAR, way),
+        Goal::Turned(way) => (UNLIMITED_TIME, way),
     };
     let ends = Ends {
         t,

@@ -23,7 +23,7 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
         list.push(out_of_reach(theta, &Limits::new(linkage, speed).reach));
         return;
     };
-    let place = curve.place(q.rest);
+    let place = curve.pose(q.rest);
     // Largest |dθ/dq| that rounding alone makes differ from zero.
     let rounding = 1e-12;
     if place.dtheta.abs() < rounding && speed != 0.0 {

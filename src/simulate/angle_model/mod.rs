@@ -14,7 +14,7 @@ use crate::engine::angle::{Driven, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 
@@ -200,11 +200,11 @@ impl Driven for AngleModel<'_> {
         forces
     }
 
-    fn has_detail(&self) -> bool {
-        self.is_driven() && self.equation.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        self.is_driven() && self.equation.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let loads = self.equation.loads();
         let seen = self
             .equation
@@ -212,7 +212,7 @@ impl Driven for AngleModel<'_> {
             .enclosed_state(reach, loads.meet_slider());
         let rubbed = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
         let arms = seen.unit_load_effects().plus(rubbed.unwrap_or_default());
-        loads.detail_of_state(&seen, arms, ellipse)
+        loads.variation_with_state(&seen, arms, ellipse)
     }
 
     fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {

@@ -21,8 +21,8 @@ use super::schedule::Schedule;
 use super::second_run::{LEAST_TOLERANCE, TOLERANCE_RATIO};
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, ContactEnd, Finish, Settings};
-use crate::engine::time::FAR;
+use crate::engine::contact::{self, ContactEnd, ContactSettings};
+use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
@@ -64,7 +64,7 @@ impl<'a, const N: usize> Loose<'a, N> {
             reach: geometry.crank + geometry.rod,
             t_end: match task.extent {
                 Extent::Duration(duration) => duration,
-                Extent::Revolutions(_) if N == FREE => FAR,
+                Extent::Revolutions(_) if N == FREE => UNLIMITED_TIME,
                 Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
             },
         }
@@ -112,7 +112,7 @@ impl<'a, const N: usize> Loose<'a, N> {
             recorder,
             seen: ContactHistory::new(width, self.mechanism.energy(start).abs()),
         };
-        let settings = Settings {
+        let settings = ContactSettings {
             tolerance,
             t_end,
             limit: task.options.limit(),
@@ -146,12 +146,16 @@ impl<'a, const N: usize> Loose<'a, N> {
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
         match ended.finish {
             Finish::AtEnd => match self.task.extent {
-                Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
+                Extent::Revolutions(turns) if last.t >= UNLIMITED_TIME => {
+                    Some(Why::TurnsNeverComplete(turns))
+                }
                 _ => None,
             },
-            Finish::Stopped | Finish::Broken => None,
-            Finish::WorkLimit => Some(self.task.limited()),
-            Finish::StepTooSmall => Some(self.too_small(last)),
+            Finish::Stopped => None,
+            Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns => {
+                Some(self.task.limited())
+            }
+            Finish::StepTooSmall | Finish::NoStart => Some(self.too_small(last)),
         }
     }
 

@@ -123,7 +123,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 return End::Integrator(Finish::WorkLimit);
             }
             let travel = self.now.angle.minus(from);
-            if let Some(finish) = forecast.is_hopeless(spent, self.now.t, travel) {
+            if let Some(finish) = forecast.reason_to_stop(spent, self.now.t, travel) {
                 return End::Integrator(finish);
             }
         }
@@ -207,7 +207,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         });
         self.piece.steps += steps;
         self.piece.impossible = motion
-            .impossible()
+            .singular_state()
             .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();
@@ -243,7 +243,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
                 let missing = self.quantities.values(t, angle, last.end.omega)[Turned as usize];
-                let dtheta = self.equation.curve().place(angle.rest).dtheta;
+                let dtheta = self.equation.curve().pose(angle.rest).dtheta;
                 [missing, (dtheta * last.end.omega).abs()]
             });
         }

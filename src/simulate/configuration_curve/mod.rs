@@ -46,7 +46,7 @@ impl OnCurve {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
         let speed = match task.speed {
             0.0 => 0.0,
-            speed => speed / curve.place(angle.rest).dtheta,
+            speed => speed / curve.pose(angle.rest).dtheta,
         };
         let start = Start {
             t: 0.0,
@@ -141,6 +141,6 @@ pub(super) fn crank_state(curve: &Curve, at: Start) -> Start {
     Start {
         t: at.t,
         angle: curve.crank_angle(at.angle),
-        speed: curve.place(at.angle.rest).dtheta * at.speed,
+        speed: curve.pose(at.angle.rest).dtheta * at.speed,
     }
 }

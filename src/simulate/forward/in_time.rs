@@ -84,7 +84,7 @@ impl Pass<'_, '_> {
             return Ok(PieceEnd::Clear);
         }
         arrived.end = match (piece.end, course.extent) {
-            (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::FAR => {
+            (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::UNLIMITED_TIME => {
                 End::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
@@ -102,7 +102,7 @@ fn of_crank(
 ) -> TimePiece {
     let (finish, last, steps) =
         time::run(motion, from, settings, &mut |step| until.step(step, None));
-    let impossible = motion.impossible();
+    let impossible = motion.singular_state();
     TimePiece {
         last,
         work: last.end.work,

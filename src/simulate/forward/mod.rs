@@ -135,7 +135,7 @@ fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Sim
                 let curve = seen.curve();
                 (
                     curve.crank_angle(angle),
-                    curve.place(angle.rest).dtheta * speed,
+                    curve.pose(angle.rest).dtheta * speed,
                 )
             };
             run.trajectory = run

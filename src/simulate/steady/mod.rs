@@ -249,7 +249,7 @@ impl Verified {
     /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
         let turns = self.found.turns;
-        let count = fourier::SAMPLES * turns;
+        let count = fourier::SAMPLES_PER_TURN * turns;
         let speed = |k: u32| {
             [&self.found, &self.check].map(|f| f.omega(f64::from(k) * f.way() / f64::from(count)))
         };
@@ -271,6 +271,6 @@ impl Verified {
                 },
             }
         };
-        (1..=fourier::HIGHEST * turns).map(order).collect()
+        (1..=fourier::HIGHEST_ORDER * turns).map(order).collect()
     }
 }
