@@ -57,17 +57,19 @@ pub fn fit<T: Real>(
         squares: Vec::new(),
     };
     let mut norm = now.iter().fold(zero, |sum, q| sum + *q * *q).root();
+    // Points that a thread takes at a time.
+    let size = 1 << 14;
     for degree in 0..t.len() {
         if norm.value() == 0.0 {
             break;
         }
         let inverse = T::from(1.0) / norm;
-        let pieces = now.chunks_mut(PIECE).zip(s.chunks(PIECE));
-        let pieces = pieces.zip(rest.chunks(PIECE));
+        let pieces = now.chunks_mut(size).zip(s.chunks(size));
+        let pieces = pieces.zip(rest.chunks(size));
         let [centre, coefficient] = summed(pieces, |((q, s), rest)| project(q, s, rest, inverse));
         let by = [centre, coefficient, norm];
-        let pieces = now.chunks_mut(PIECE).zip(before.chunks_mut(PIECE));
-        let pieces = pieces.zip(s.chunks(PIECE)).zip(rest.chunks_mut(PIECE));
+        let pieces = now.chunks_mut(size).zip(before.chunks_mut(size));
+        let pieces = pieces.zip(s.chunks(size)).zip(rest.chunks_mut(size));
         let [square, next] = summed(pieces, |(((q, p), s), rest)| advance(q, p, s, rest, by));
         fit.norms.push(norm);
         fit.centres.push(centre);
@@ -80,9 +82,6 @@ pub fn fit<T: Real>(
     }
     fit
 }
-
-/// Points that a thread takes at a time.
-const PIECE: usize = 1 << 14;
 
 /// Returns two sums over pieces.
 fn summed<T: Real, P: Send>(

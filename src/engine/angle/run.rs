@@ -10,7 +10,7 @@ use super::{Driven, Driving, Errors, Goal, Resolution, Short};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::run_in_time::{Ends, FAR, Start};
+use crate::engine::run_in_time::{Ends, Start, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
 use crate::numeric::angle::Angle;
 
@@ -42,7 +42,7 @@ pub fn run<D: Driven>(
         let done = stepper.at_cycle() && segment.len() > 0;
         if done
             && forecast
-                .is_hopeless(spent, stepper.progress.t.0, way)
+                .reason_to_stop(spent, stepper.progress.t.0, way)
                 .is_some()
         {
             let why = NotApplicable::TooManyTurns;
@@ -73,7 +73,7 @@ pub fn run<D: Driven>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = stepper.progress.work - work + work_until(orbit.last_leg(), end, &spent);
+            let work = stepper.progress.work - work + work_until(orbit.last_segment(), end, &spent);
             stepper.leave_panels();
             return Ok(Driving {
                 orbit,
@@ -95,7 +95,7 @@ fn forecast<'a, D: Driven>(
 ) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
-        Goal::Turned(way) => (FAR, way),
+        Goal::Turned(way) => (UNLIMITED_TIME, way),
     };
     let ends = Ends {
         t,

@@ -1,7 +1,7 @@
 //! Stepper over the angle: solves panel after panel and accumulates time, energy, work and errors.
 
 use super::super::energy::NotApplicable;
-use super::super::energy::error_bound::off_by_place;
+use super::super::energy::error_bound::energy_error_of_angle;
 use super::super::energy::piece::Piece;
 use super::guide::Guide;
 use super::panel::{Fineness, PanelStart, PanelTable};
@@ -77,7 +77,7 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         let first = &panels[0];
         let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
         let [here, next, ..] = first.table.inertia;
-        let off = off_by_place(start.rest, kinetic, [here, next], beside);
+        let off = energy_error_of_angle(start.rest, kinetic, [here, next], beside);
         Ok(PanelStepper {
             driven,
             fine,

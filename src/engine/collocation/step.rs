@@ -28,7 +28,7 @@ pub struct Collocation<'a> {
     pub(super) tolerance: f64,
     /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
-    has_detail: bool,
+    varies_between_nodes: bool,
     has_power: bool,
     pub(super) batch: Batch,
     /// Length (s) and Legendre coefficients of the acceleration (rad/s²) of the last step.
@@ -48,7 +48,7 @@ impl<'a> Collocation<'a> {
             tableau: Tableau::get(),
             tolerance: settings.tolerance,
             guide: settings.guide,
-            has_detail: motion.has_detail(),
+            varies_between_nodes: motion.varies_between_nodes(),
             has_power: motion.has_power(),
             batch: Batch::default(),
             last: None,
@@ -68,10 +68,12 @@ impl<'a> Collocation<'a> {
     pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
         let result = self.attempt_whole(state, step);
         match result {
-            Err(Failed::TooLong(factor)) if self.has_detail => match self.corner(state, step.h) {
-                Some(at) => Err(Failed::Meets { at, factor }),
-                None => result,
-            },
+            Err(Failed::TooLong(factor)) if self.varies_between_nodes => {
+                match self.corner(state, step.h) {
+                    Some(at) => Err(Failed::Meets { at, factor }),
+                    None => result,
+                }
+            }
             _ => result,
         }
     }
@@ -226,7 +228,7 @@ impl<'a> Collocation<'a> {
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
     fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
-        if !self.has_detail {
+        if !self.varies_between_nodes {
             return None;
         }
         let h = step.length();
@@ -234,7 +236,7 @@ impl<'a> Collocation<'a> {
         let allowed = term.max(self.rounding(state, h, coefficients));
         let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
         let look = NodeCriterion {
-            compares: true,
+            has_interpolant: true,
             ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {

@@ -5,57 +5,39 @@
 
 use super::build::Begin;
 use super::euler_maclaurin::EulerMaclaurinCell;
-use super::interpolated_turns::Mark;
+use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
 
-/// Most turns computed one by one after the last cell.
-const LAST_TURNS: f64 = 256.0;
-/// Largest width of a cell, relative to the least kinetic energy in its first turn: the nearest singularity of T is
-/// where that energy vanishes.
-const WIDEST: f64 = 1.5;
-/// Least width of a cell, relative to the largest.
-const NARROWEST: f64 = 1e-3;
-
 /// Initial state of the turns, and the gain of each.
 pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
-    /// Crank angle at the start of each turn, rad.
-    pub start: f64,
-    /// Sign of the speed.
-    pub direction: f64,
-    /// Kinetic energy before the first turn, J.
-    pub kinetic: f64,
+    /// State before the first turn.
+    pub begin: Begin,
     /// Kinetic energy gained per turn, J.
     pub gain: f64,
     /// Error bound of the gain, J.
     pub gain_error: f64,
-    /// Error bound of the kinetic energy at the start beyond its own rounding, J.
-    pub off: f64,
     /// Largest tail of a resolved series.
     pub tolerance: f64,
 }
 
 impl EqualGains<'_> {
-    fn kinetic_after(&self, turns: f64) -> f64 {
-        turns.mul_add(self.gain, self.kinetic)
-    }
-
-    /// Returns the error bound of [`Self::kinetic_after`], J.
-    fn off_after(&self, turns: f64) -> f64 {
-        self.off + f64::EPSILON * self.kinetic + turns * self.gain_error
-    }
-
-    fn mark(&self, turns: f64, t: (f64, f64)) -> Mark {
-        Mark {
+    /// Returns the start of the turn after the first `turns`, at the time `t` (s, rounded value and remainder).
+    fn mark(&self, turns: f64, t: (f64, f64)) -> TurnStart {
+        TurnStart {
             turns,
             t,
-            kinetic: self.kinetic_after(turns),
-            work: 0.0,
-            low: [0.0; 2],
+            kinetic: turns.mul_add(self.gain, self.begin.kinetic),
+            ..TurnStart::default()
         }
+    }
+
+    /// Returns the error bound of the kinetic energy after some turns, J.
+    fn energy_error_after(&self, turns: f64) -> f64 {
+        self.begin.energy_error + f64::EPSILON * self.begin.kinetic + turns * self.gain_error
     }
 
     /// Computes the turns from the first `done` turns, which end at the time `t` (s, rounded value and remainder), to
@@ -81,9 +63,9 @@ impl EqualGains<'_> {
                 cell.count
             };
             let whole = if passed { count + 1.0 } else { count };
-            error += cell.error(whole, self.off_after(mark.turns + whole));
+            error += cell.error(whole, self.energy_error_after(mark.turns + whole));
             let end = cell.mark(count);
-            last = passed.then(|| cell.segment(end.kinetic));
+            last = passed.then(|| cell.turn.segment(end.kinetic));
             marks.push(mark);
             mark = if passed {
                 end
@@ -97,14 +79,15 @@ impl EqualGains<'_> {
             Some(segment) => segment,
             None => {
                 let begin = Begin {
-                    start: self.start,
-                    direction: self.direction,
                     kinetic: mark.kinetic,
-                    off: self.off_after(mark.turns),
+                    energy_error: self.energy_error_after(mark.turns),
+                    ..self.begin
                 };
                 let left = mark.until(until);
+                // More turns after the last cell are not computed one by one.
+                let most_turns = 256.0;
                 let segment =
-                    Segment::build(self.profile, begin, left, self.tolerance, LAST_TURNS)?;
+                    Segment::build(self.profile, begin, left, self.tolerance, most_turns)?;
                 if segment.after != After::Ends || cells.is_empty() {
                     return Ok(None);
                 }
@@ -123,22 +106,29 @@ impl EqualGains<'_> {
     }
 
     fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
-        let (start, direction) = (self.start, self.direction);
-        OneTurn::new(self.profile, start, direction, kinetic)
+        let begin = Begin {
+            kinetic,
+            energy_error: 0.0,
+            ..self.begin
+        };
+        OneTurn::new(self.profile, begin)
     }
 
     /// Computes the cell that begins with a turn; none if the crank is too near rest.
-    fn cell(&self, first: Mark) -> Option<EulerMaclaurinCell> {
+    fn cell(&self, first: TurnStart) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = here.least(first.kinetic);
+        // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that
+        // energy vanishes. Least width over the largest.
+        let (widest, narrowest) = (1.5, 1e-3);
         let mut share = 1.0;
-        while share > NARROWEST && least > 0.0 {
+        while share > narrowest && least > 0.0 {
             let made = if self.gain >= 0.0 {
-                let width = share * WIDEST * least;
+                let width = share * widest * least;
                 EulerMaclaurinCell::new(first, first.kinetic, width, self.gain, here.clone())
             } else {
                 // The width has the same ratio to the least energy at the other end of the cell.
-                let width = share * least * WIDEST / (1.0 + WIDEST);
+                let width = share * least * widest / (1.0 + widest);
                 self.one_turn(first.kinetic - width).and_then(|turn| {
                     EulerMaclaurinCell::new(first, first.kinetic - width, width, self.gain, turn)
                 })

@@ -1,11 +1,11 @@
 //! One turn at any kinetic energy, from tabulated inertia and work.
 
 use super::build::Begin;
-use super::panel::{DEGREE, Panel};
-use super::piece::{Piece, missing};
+use super::panel::Panel;
+use super::piece::{Piece, turn_remainder};
 use super::profile::Profile;
 use super::segment::{After, Segment};
-use crate::numeric::chebyshev::{ROUNDING, Rule, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING, Rule, Values};
 use crate::numeric::exact::two_sum;
 
 /// Panel with inertia (kg m²) and work since the start of the turn (J) at its points.
@@ -21,36 +21,28 @@ struct Station {
 pub(in crate::engine) struct OneTurn {
     stations: Vec<Station>,
     /// Part of a whole turn that the rounded angles of its ends leave out, rad.
-    missing: f64,
+    turn_remainder: f64,
     /// Bound of the relative error of the duration.
     pub error: f64,
 }
 
 impl OneTurn {
-    /// Makes the turn for the kinetic energy `kinetic` (J) at its start; none if the crank does not complete it, or
-    /// only just.
-    pub fn new(profile: &dyn Profile, start: f64, direction: f64, kinetic: f64) -> Option<OneTurn> {
-        let until = f64::INFINITY;
-        let begin = Begin {
-            start,
-            direction,
-            kinetic,
-            off: 0.0,
-        };
+    /// Makes the turn from a state; none if the crank does not complete it, or only just.
+    pub fn new(profile: &dyn Profile, begin: Begin) -> Option<OneTurn> {
         // Truncation errors add up over the turns.
-        let segment = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
+        let segment = Segment::build(profile, begin, f64::INFINITY, ROUNDING, 1.0).ok()?;
         if segment.after != After::GoesOn {
             return None;
         }
-        let rule = Rule::of(DEGREE);
+        let rule = Rule::of(MAX_DEGREE);
         let mut done = 0.0;
         let stations = segment.pieces().map(|piece| {
-            let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+            let (mut inertia, mut force) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
             let angles = rule.values(|x| piece.angle(x));
-            profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
+            profile.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
             let half = 0.5 * piece.span();
             let work = rule.integrals(&force).map(|work| done + half * work);
-            done = work[DEGREE];
+            done = work[MAX_DEGREE];
             Station {
                 piece,
                 inertia,
@@ -59,7 +51,7 @@ impl OneTurn {
         });
         Some(OneTurn {
             stations: stations.collect(),
-            missing: missing(start, direction),
+            turn_remainder: turn_remainder(begin.start, begin.direction),
             error: segment.error / segment.duration.0,
         })
     }
@@ -78,9 +70,9 @@ impl OneTurn {
 
     /// Returns the duration of the turn, s.
     pub fn duration(&self, kinetic: f64) -> f64 {
-        let rule = Rule::of(DEGREE);
+        let rule = Rule::of(MAX_DEGREE);
         let first = &self.stations[0];
-        let mut rest = self.missing * (0.5 * first.inertia[0] / kinetic).sqrt();
+        let mut rest = self.turn_remainder * (0.5 * first.inertia[0] / kinetic).sqrt();
         let mut sum = 0.0;
         for station in &self.stations {
             let (duration, lost) = rule.integral(&station.slopes(kinetic));
@@ -109,9 +101,9 @@ impl Station {
     }
 
     fn panel(&self, kinetic: f64) -> Panel {
-        let rule = Rule::of(DEGREE);
+        let rule = Rule::of(MAX_DEGREE);
         let slopes = self.slopes(kinetic);
-        let end = kinetic + self.work[DEGREE];
+        let end = kinetic + self.work[MAX_DEGREE];
         Panel::from_slopes(self.piece, rule, &slopes, rule.series(&slopes), 0.0, end)
     }
 }

@@ -97,7 +97,7 @@ impl Piece {
     }
 
     /// Returns dθ/dx, rad.
-    pub fn stretch(&self, x: f64) -> f64 {
+    pub fn dtheta(&self, x: f64) -> f64 {
         let share = match self.turning {
             Turning::Nowhere => 0.5,
             Turning::AtStart => 0.5 * (1.0 + x),
@@ -107,7 +107,7 @@ impl Piece {
     }
 
     /// Returns d²θ/dx², rad.
-    pub fn stretch_rate(&self) -> f64 {
+    pub fn d2theta(&self) -> f64 {
         match self.turning {
             Turning::Nowhere => 0.0,
             Turning::AtStart => 0.5 * self.span(),
@@ -130,7 +130,7 @@ impl Piece {
 pub(in crate::engine) const SAME_ANGLE: f64 = 1e-12;
 
 /// Returns the part of a whole turn, rad, that the rounded angles of its ends leave out.
-pub(super) fn missing(start: f64, direction: f64) -> f64 {
+pub(super) fn turn_remainder(start: f64, direction: f64) -> f64 {
     direction * two_sum(start, direction * TAU).1 + TAU_REST
 }
 

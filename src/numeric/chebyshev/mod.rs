@@ -33,6 +33,14 @@ pub fn largest(values: &[f64]) -> f64 {
     most.into_iter().fold(of_rest, larger)
 }
 
+/// Returns the least and the greatest of some values.
+pub fn range(values: &[f64]) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    values
+        .iter()
+        .fold(none, |(low, high), v| (low.min(*v), high.max(*v)))
+}
+
 /// 1/(2k), factor of Tₖ₋₁ − Tₖ₊₁ in the integral.
 const HALF_RECIPROCALS: Values = {
     let mut all = [0.0; MAX_DEGREE + 1];

@@ -37,10 +37,10 @@ impl Rule {
 
     /// Returns the rule of one of the degrees [`Self::DEGREES`]; the rule of the largest for any other.
     pub fn of(degree: usize) -> &'static Rule {
-        const COUNT: usize = Rule::DEGREES.len();
-        static RULES: [OnceLock<Box<Rule>>; COUNT] = [const { OnceLock::new() }; COUNT];
+        static RULES: [OnceLock<Box<Rule>>; Rule::DEGREES.len()] =
+            [const { OnceLock::new() }; Rule::DEGREES.len()];
         let index = Rule::DEGREES.iter().position(|d| *d == degree);
-        let index = index.unwrap_or(COUNT - 1);
+        let index = index.unwrap_or(RULES.len() - 1);
         RULES[index].get_or_init(|| Box::new(Rule::new(Rule::DEGREES[index])))
     }
 

@@ -73,7 +73,7 @@ fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
         .rounding(t)
         .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));
     let mut error = late_by(task, at, late, place);
-    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    error.theta_rad = error.theta_rad.hypot(orbit.turning_point_error(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
     // At rest: not a number.
     let kinetic = 0.5 * momentum * speed.abs();

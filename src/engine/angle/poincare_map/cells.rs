@@ -8,7 +8,7 @@ use super::super::seen::at_speeds;
 use super::super::stepper::PanelStepper;
 use super::{DEGREE, LastTurns};
 use crate::engine::energy::NotApplicable;
-use crate::engine::energy::interpolated_turns::{Cell, Turn};
+use crate::engine::energy::interpolated_turns::{Cell, Cycle};
 use crate::engine::energy::segment::Segment;
 use crate::engine::sight::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
@@ -46,16 +46,16 @@ impl<D: Driven> LastTurns<'_, D> {
             ellipses: ellipses(DEGREE, self.tail),
             allowed: self.tail * middle / TAU,
             least: 0.0,
-            compares: false,
+            has_interpolant: false,
         };
-        !driven.has_detail()
+        !driven.varies_between_nodes()
             || panels
                 .iter()
                 .all(|panel| at_speeds(*driven, panel, speeds, look))
     }
 
     /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
-    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
+    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Cycle), Interval), NotApplicable> {
         self.stepper.gives_up = false;
         let mut speeds: Option<Interval> = None;
         self.stepper.restart(kinetic);
@@ -72,7 +72,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 break;
             }
         }
-        let turn = Turn {
+        let turn = Cycle {
             count: self.stepper.progress.turns.abs(),
             duration: self.stepper.progress.t.0,
             gain: self.stepper.progress.gain,

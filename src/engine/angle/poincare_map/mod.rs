@@ -4,7 +4,7 @@ mod cells;
 
 use std::f64::consts::TAU;
 
-use super::super::energy::interpolated_turns::{Interpolated, Mark, Turn};
+use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
@@ -36,7 +36,7 @@ pub(super) fn run<D: Driven>(
     goal: Goal,
     resolution: Resolution<'_>,
 ) -> Result<Driving, NotApplicable> {
-    let mark = Mark {
+    let mark = TurnStart {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,
         kinetic: stepper.progress.kinetic,
@@ -92,7 +92,7 @@ pub(super) fn run<D: Driven>(
         MapEnd::Short(_) => before,
         MapEnd::AtGoal(done) => {
             let after = end - last.t.0 - last.t.1;
-            before - done.work + work_until(orbit.last_leg(), after, &done.spent)
+            before - done.work + work_until(orbit.last_segment(), after, &done.spent)
         }
     };
     Ok(Driving {
@@ -119,7 +119,7 @@ enum MapEnd {
 struct LastTurns<'a, D: Driven> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
-    marks: Vec<Mark>,
+    marks: Vec<TurnStart>,
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
     tail: f64,
@@ -132,13 +132,13 @@ struct LastTurns<'a, D: Driven> {
 
 impl<D: Driven> LastTurns<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
-    fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
+    fn turn_of(&mut self, goal: Goal) -> (TurnStart, Option<NotApplicable>) {
         let mut mark = self.marks[0];
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
         loop {
-            let turn = match self.map.turn(mark.kinetic) {
+            let turn = match self.map.cycle(mark.kinetic) {
                 Some(turn) => turn,
                 None => match self.extend(mark.kinetic) {
                     Ok(turn) => turn,
@@ -162,7 +162,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 }
                 if left >= 1.0 {
                     self.map.steady = true;
-                    let same = Turn { gain: 0.0, ..turn };
+                    let same = Cycle { gain: 0.0, ..turn };
                     mark = mark.after(&same, left.floor());
                     self.marks.push(mark);
                 }
@@ -187,7 +187,7 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// Adds the cell that begins at this energy, J, and returns the turn from there; an error where the cell would
     /// serve fewer turns than it costs.
-    fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
+    fn extend(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
             let (low, high) = if self.rises {
@@ -202,7 +202,7 @@ impl<D: Driven> LastTurns<'_, D> {
                     let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
                     self.width = (factor * tried).min(WIDEST);
                     if cell.tail() <= self.tail {
-                        let turn = cell.turn(kinetic);
+                        let turn = cell.cycle(kinetic);
                         self.map.cells.push(cell);
                         return Ok(turn);
                     }
@@ -224,7 +224,7 @@ impl<D: Driven> LastTurns<'_, D> {
     /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map.
     fn last_turns(
         &mut self,
-        mark: &Mark,
+        mark: &TurnStart,
         goal: Goal,
         start: Angle,
         map_ended: Option<NotApplicable>,
