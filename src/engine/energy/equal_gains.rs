@@ -3,7 +3,7 @@
 //! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
 //! nW. A million turns take a few dozen cells of the energy.
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::euler_maclaurin::EulerMaclaurinCell;
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
@@ -15,7 +15,7 @@ use super::turns::{Map, Recent, Turns};
 pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
     /// State before the first turn.
-    pub begin: Begin,
+    pub begin: KineticState,
     /// Kinetic energy gained per turn, J.
     pub gain: f64,
     /// Error bound of the gain, J.
@@ -78,7 +78,7 @@ impl EqualGains<'_> {
         let last = match last {
             Some(segment) => segment,
             None => {
-                let begin = Begin {
+                let begin = KineticState {
                     kinetic: mark.kinetic,
                     energy_error: self.energy_error_after(mark.turns),
                     ..self.begin
@@ -106,7 +106,7 @@ impl EqualGains<'_> {
     }
 
     fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
-        let begin = Begin {
+        let begin = KineticState {
             kinetic,
             energy_error: 0.0,
             ..self.begin

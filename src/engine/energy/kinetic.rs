@@ -4,7 +4,8 @@
 use super::panel::Attempt;
 use super::piece::{Piece, SAME_ANGLE, Turning};
 use super::profile::NotApplicable;
-use crate::numeric::chebyshev::{Rule, Series, Values, range};
+use crate::numeric::chebyshev::{Rule, Series, Values};
+use crate::numeric::median::range;
 use crate::numeric::{gauss, root};
 
 /// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a

@@ -1,11 +1,11 @@
 //! One turn at any kinetic energy, from tabulated inertia and work.
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::panel::Panel;
 use super::piece::{Piece, turn_remainder};
 use super::profile::Profile;
 use super::segment::{After, Segment};
-use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING, Rule, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, SERIES_ROUNDING, Values};
 use crate::numeric::exact::two_sum;
 
 /// Panel with inertia (kg m²) and work since the start of the turn (J) at its points.
@@ -28,9 +28,9 @@ pub(in crate::engine) struct OneTurn {
 
 impl OneTurn {
     /// Makes the turn from a state; none if the crank does not complete it, or only just.
-    pub fn new(profile: &dyn Profile, begin: Begin) -> Option<OneTurn> {
+    pub fn new(profile: &dyn Profile, begin: KineticState) -> Option<OneTurn> {
         // Truncation errors add up over the turns.
-        let segment = Segment::build(profile, begin, f64::INFINITY, ROUNDING, 1.0).ok()?;
+        let segment = Segment::build(profile, begin, f64::INFINITY, SERIES_ROUNDING, 1.0).ok()?;
         if segment.after != After::GoesOn {
             return None;
         }
@@ -51,7 +51,7 @@ impl OneTurn {
         });
         Some(OneTurn {
             stations: stations.collect(),
-            turn_remainder: turn_remainder(begin.start, begin.direction),
+            turn_remainder: turn_remainder(begin.angle, begin.direction),
             error: segment.error / segment.duration.0,
         })
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::numeric::angle::TAU_REST;
-use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING};
+use crate::numeric::chebyshev::{MAX_DEGREE, SERIES_ROUNDING};
 use crate::numeric::exact::two_sum;
 
 /// Length of the panels tried first, rad: two make a turn.
@@ -14,7 +14,7 @@ pub(in crate::engine) const HALF_TURN: f64 = PI + 1e-9;
 /// ρ⁻ⁿ, ρ the sum of the half axes of the Bernstein ellipse around [−1, 1] through the nearest branch point (Trefethen,
 /// Approximation Theory and Approximation Practice, 2013, theorem 8.1).
 pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: [[f64; 2]; 2]) -> f64 {
-    let rho = ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
+    let rho = SERIES_ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
     let size = 0.5 * (rho + 1.0 / rho);
     // The distances of a point on the ellipse from the panel ends add up to the length times the larger half axis.
     let longest = |[angle, height]: [f64; 2]| {
