@@ -34,7 +34,7 @@ struct Break<const N: usize> {
     /// Time, s.
     t: f64,
     /// State after the change under the law before; none at a kink, where the law stays.
-    soon: Option<[f64; N]>,
+    beyond: Option<[f64; N]>,
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
@@ -75,8 +75,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 false => from,
             });
             let found = match end.filter(|end| kink.is_none_or(|kink| *end <= kink)) {
-                Some(t) => Some(Break { t, soon: Some(y) }),
-                None => kink.map(|t| Break { t, soon: None }),
+                Some(t) => Some(Break { t, beyond: Some(y) }),
+                None => kink.map(|t| Break { t, beyond: None }),
             };
             if found.is_some() {
                 return found;
@@ -88,7 +88,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Changes to the law that holds from here on, if a change is due.
     pub(super) fn change(&mut self) -> Halt {
-        let Some(soon) = self.breaks.due.take().and_then(|due| due.soon) else {
+        let Some(beyond) = self.breaks.due.take().and_then(|due| due.beyond) else {
             return Ok(());
         };
         let (t, before) = self.breaks.last;
@@ -101,7 +101,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
         self.near = self
             .model
-            .change(&self.near, self.phase, &mut self.y, &soon);
+            .change(&self.near, self.phase, &mut self.y, &beyond);
         Ok(())
     }
 }

@@ -8,7 +8,7 @@ use super::piece::{
 };
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
-use super::turn_closure::TurnEnd;
+use super::turn_end::TurnEnd;
 
 /// State of a motion over the crank angle.
 #[derive(Clone, Copy, Debug)]

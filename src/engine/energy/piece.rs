@@ -140,15 +140,15 @@ pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) ->
     let mut end = at + direction * length.min(TAU);
     let near = SAME_ANGLE * at.abs().max(1.0);
     for shift in [-TAU, 0.0, TAU] {
-        let place = |corner: &f64| corner + turn + shift;
+        let unwrapped = |corner: &f64| corner + turn + shift;
         let next = if direction > 0.0 {
-            let passed = corners.partition_point(|corner| place(corner) - at <= near);
+            let passed = corners.partition_point(|corner| unwrapped(corner) - at <= near);
             corners.get(passed)
         } else {
-            let ahead = corners.partition_point(|corner| at - place(corner) > near);
+            let ahead = corners.partition_point(|corner| at - unwrapped(corner) > near);
             corners[..ahead].last()
         };
-        end = match next.map(place) {
+        end = match next.map(unwrapped) {
             Some(corner) if direction * (corner - end) < 0.0 => corner,
             _ => end,
         };

@@ -156,7 +156,7 @@ impl Search {
                     at: from,
                     is_corner: false,
                 };
-                return self.place().or((from > self.whole[0]).then_some(here));
+                return self.found().or((from > self.whole[0]).then_some(here));
             }
             let (varies, nodes) = self.criterion.nodes_on(force, from, to);
             match nodes {
@@ -174,7 +174,7 @@ impl Search {
             }
         }
         (self.is_missed || self.cuts_off())
-            .then(|| self.place())
+            .then(|| self.found())
             .flatten()
     }
 
@@ -205,7 +205,7 @@ impl Search {
     }
 
     /// Returns the first corner, or else an end of the first piece with a missed force.
-    fn place(&self) -> Option<Hidden> {
+    fn found(&self) -> Option<Hidden> {
         let [begin, end] = self.whole;
         let inside = |at: &f64| *at > begin && *at < end;
         let mut ends = self.first.into_iter().flatten();
