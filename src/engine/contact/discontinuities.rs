@@ -4,9 +4,9 @@
 use super::run::{Halt, Runner};
 use super::{AcceptedStep, Contact};
 use crate::engine::PIECES;
+use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
 use crate::engine::run_in_time::Finish;
 use crate::engine::runge_kutta::RungeKutta;
-use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
 use crate::numeric::enclosure::{Interval, Variation};
 use crate::numeric::root;
 
@@ -132,7 +132,7 @@ impl<M: Contact<N>, const N: usize> ForceAlong for StepParabola<'_, M, N> {
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Returns the length (s) a step to this state may have for its stages to resolve the loads; none if they do.
-    pub(super) fn hides(&self, end: &[f64; N]) -> Option<f64> {
+    pub(super) fn unresolved_after(&self, end: &[f64; N]) -> Option<f64> {
         if !self.model.varies_between_nodes() {
             return None;
         }
@@ -148,6 +148,6 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             end,
             first: &self.now.rates,
         };
-        hidden(&way, criterion).map(|hidden| hidden.at * h)
+        unresolved(&way, criterion).map(|unresolved| unresolved.at * h)
     }
 }
