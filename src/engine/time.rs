@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::collocation;
+use super::resolution::unresolved_at;
 use super::runge_kutta;
 use super::runge_kutta::Call;
-use super::sight::hides;
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
@@ -69,14 +69,14 @@ fn in_calls(
     // The result vectors of a library call grow with each step.
     let most_in_call = 256;
     let mut first_step = 0.0;
-    let mut hidden = f64::INFINITY;
+    let mut resolved_until = f64::INFINITY;
     loop {
         let spent = motion.evaluations();
         if settings.limit.is_reached(spent) {
             return (Finish::WorkLimit, last, steps);
         }
-        if hidden <= node.t {
-            hidden = f64::INFINITY;
+        if resolved_until <= node.t {
+            resolved_until = f64::INFINITY;
         }
         let (mut in_call, mut ended_by_sink, mut rejected) = (0, false, None);
         let left = settings.limit.after(spent).evaluations / method.evaluations_in_a_step();
@@ -86,7 +86,10 @@ fn in_calls(
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,
-            t_end: motion.next_corner(node.t).min(settings.t_end).min(hidden),
+            t_end: motion
+                .next_corner(node.t)
+                .min(settings.t_end)
+                .min(resolved_until),
             first_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
@@ -117,7 +120,7 @@ fn in_calls(
         first_step = last.length();
         match rejected {
             Some(Rejected::TooLong(shorter)) => first_step = shorter,
-            Some(Rejected::Hides(until)) => hidden = until,
+            Some(Rejected::Unresolved(until)) => resolved_until = until,
             None => {}
         }
     }
@@ -128,7 +131,7 @@ enum Rejected {
     /// Too long a travel; the length to try, s.
     TooLong(f64),
     /// Load not resolved by the step; the time at which the step has to end, s.
-    Hides(f64),
+    Unresolved(f64),
 }
 
 impl Rejected {
@@ -143,7 +146,7 @@ impl Rejected {
         if travel > 2.0 * TAU {
             return Some(Rejected::TooLong(step.length() * TAU / travel));
         }
-        hides(motion, step, method.order(), tolerance).map(Rejected::Hides)
+        unresolved_at(motion, step, method.order(), tolerance).map(Rejected::Unresolved)
     }
 }
 

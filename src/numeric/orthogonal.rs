@@ -4,7 +4,7 @@
 //! the matrix of powers, one after the other, in time and memory linear in the points.
 
 use super::double_double::Real;
-use super::{LANES, parallel};
+use super::{LANES, median, parallel};
 
 /// Expansion in orthonormal polynomials q_j of s = (t − middle)/half:
 /// norm_{j+1} q_{j+1} = (s − centre_j) q_j − norm_j q_{j−1}, q_0 = 1/norm_0.
@@ -32,11 +32,7 @@ pub fn fit<T: Real>(
     weight: Option<&[f64]>,
     mut go_on: impl FnMut(&[T]) -> bool,
 ) -> Expansion<T> {
-    let (first, last) = t
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
-            (low.min(*t), high.max(*t))
-        });
+    let (first, last) = median::range(t);
     let middle = 0.5 * first + 0.5 * last;
     let half = (0.5 * last - 0.5 * first).max(f64::MIN_POSITIVE);
     let zero = T::from(0.0);

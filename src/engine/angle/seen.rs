@@ -4,7 +4,7 @@ use super::panel::{Fineness, PanelStart, PanelTable};
 use super::solution::PanelSolution;
 use super::{Driven, State, Table};
 use crate::engine::events::ANGLE_ROUNDING;
-use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
+use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation, ellipses};
@@ -59,7 +59,7 @@ pub(super) fn hides<D: Driven>(
         least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
         has_interpolant: true,
     };
-    hidden(&way, look).map(|hidden| hidden.at)
+    unresolved(&way, look).map(|unresolved| unresolved.at)
 }
 
 /// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.

@@ -1,6 +1,6 @@
 //! One collocation step: sweeps to convergence, then error estimate and next length.
 
-use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
+use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
@@ -227,7 +227,7 @@ impl<'a> Collocation<'a> {
     }
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
-    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Unresolved> {
         if !self.varies_between_nodes {
             return None;
         }
@@ -244,7 +244,7 @@ impl<'a> Collocation<'a> {
             step,
             nodes: Some(coefficients),
         };
-        hidden(&way, look)
+        unresolved(&way, look)
     }
 
     /// Returns the step, the state at its end, and the acceleration there, rad/s².

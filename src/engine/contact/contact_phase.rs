@@ -143,8 +143,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 }
                 continue;
             }
-            let hides = self.hides(&end).is_some();
-            if hides || end[0] > self.until || model.pressing(approach, then.depth_rate) < 0.0 {
+            let is_unresolved = self.unresolved_after(&end).is_some();
+            if is_unresolved
+                || end[0] > self.until
+                || model.pressing(approach, then.depth_rate) < 0.0
+            {
                 return Ok(false);
             }
             s = next;

@@ -4,9 +4,9 @@
 use super::run::{Halt, Runner};
 use super::{AcceptedStep, Contact};
 use crate::engine::PIECES;
+use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
 use crate::engine::run_in_time::Finish;
 use crate::engine::runge_kutta::RungeKutta;
-use crate::engine::sight::{ForceAlong, NodeCriterion, hidden};
 use crate::numeric::enclosure::{Interval, Variation};
 use crate::numeric::root;
 
@@ -34,7 +34,7 @@ struct Break<const N: usize> {
     /// Time, s.
     t: f64,
     /// State after the change under the law before; none at a kink, where the law stays.
-    soon: Option<[f64; N]>,
+    beyond: Option<[f64; N]>,
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
@@ -75,8 +75,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 false => from,
             });
             let found = match end.filter(|end| kink.is_none_or(|kink| *end <= kink)) {
-                Some(t) => Some(Break { t, soon: Some(y) }),
-                None => kink.map(|t| Break { t, soon: None }),
+                Some(t) => Some(Break { t, beyond: Some(y) }),
+                None => kink.map(|t| Break { t, beyond: None }),
             };
             if found.is_some() {
                 return found;
@@ -88,7 +88,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Changes to the law that holds from here on, if a change is due.
     pub(super) fn change(&mut self) -> Halt {
-        let Some(soon) = self.breaks.due.take().and_then(|due| due.soon) else {
+        let Some(beyond) = self.breaks.due.take().and_then(|due| due.beyond) else {
             return Ok(());
         };
         let (t, before) = self.breaks.last;
@@ -101,7 +101,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
         self.near = self
             .model
-            .change(&self.near, self.phase, &mut self.y, &soon);
+            .change(&self.near, self.phase, &mut self.y, &beyond);
         Ok(())
     }
 }
@@ -132,7 +132,7 @@ impl<M: Contact<N>, const N: usize> ForceAlong for StepParabola<'_, M, N> {
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Returns the length (s) a step to this state may have for its stages to resolve the loads; none if they do.
-    pub(super) fn hides(&self, end: &[f64; N]) -> Option<f64> {
+    pub(super) fn unresolved_after(&self, end: &[f64; N]) -> Option<f64> {
         if !self.model.varies_between_nodes() {
             return None;
         }
@@ -148,6 +148,6 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             end,
             first: &self.now.rates,
         };
-        hidden(&way, criterion).map(|hidden| hidden.at * h)
+        unresolved(&way, criterion).map(|unresolved| unresolved.at * h)
     }
 }

@@ -65,14 +65,14 @@ pub trait Contact<const N: usize> {
     /// kink; none if there is a single law with smooth rates.
     fn breaks(&self, near: &Self::Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]>;
 
-    /// Changes to the law of motion that holds after this state; `soon` is a later state under the law before, which
+    /// Changes to the law of motion that holds after this state; `beyond` is a later state under the law before, which
     /// tells the direction of the change.
     fn change(
         &self,
         near: &Self::Near,
         phase: Phase,
         y: &mut [f64; N],
-        soon: &[f64; N],
+        beyond: &[f64; N],
     ) -> Self::Near;
 
     /// Computes rates and depth in a phase; in contact `depth` (m) overrides the less accurate depth of the state.

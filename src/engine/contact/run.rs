@@ -201,7 +201,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let stages = self.try_step(h);
             let error = stages.error(&self.scale(h), self.counted);
             if error <= 1.0 {
-                if let Some(shorter) = self.hides(stages.end()) {
+                if let Some(shorter) = self.unresolved_after(stages.end()) {
                     self.h = shorter;
                     rejected = true;
                     continue;

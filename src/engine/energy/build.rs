@@ -8,13 +8,13 @@ use super::piece::{
 };
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
-use super::turn_closure::TurnEnd;
+use super::turn_end::TurnEnd;
 
-/// Initial state of a segment.
+/// State of a motion over the crank angle.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Begin {
+pub(in crate::engine) struct KineticState {
     /// Crank angle, rad.
-    pub start: f64,
+    pub angle: f64,
     /// Direction of motion, +1 or −1.
     pub direction: f64,
     /// Kinetic energy, J; zero at a turning point.
@@ -45,7 +45,7 @@ enum Improvement {
 /// Segment under construction.
 struct Builder<'a> {
     profile: &'a dyn Profile,
-    begin: Begin,
+    begin: KineticState,
     /// Angle one turn after the start, rad.
     whole_turn: f64,
     /// Kinetic energy gained per turn, if it is equal for all turns, and its error bound, J.
@@ -53,13 +53,10 @@ struct Builder<'a> {
     gain_error: f64,
     turn_end: Option<TurnEnd<'a>>,
     segment: Segment,
-    /// Angle at which the next panel begins, rad.
-    at: f64,
-    /// Kinetic energy at that angle, and the largest so far, J.
-    kinetic: f64,
+    /// State in which the next panel begins.
+    now: KineticState,
+    /// Largest kinetic energy so far, J.
     largest: f64,
-    /// Error bound of the kinetic energy beyond its own rounding, J.
-    energy_error: f64,
     /// Largest length of the next panel, rad.
     length: f64,
     /// True if branch points limit the panels: once a longer panel has failed.
@@ -73,12 +70,12 @@ impl Segment {
     /// tails of their series are below `tolerance`.
     pub fn build(
         profile: &dyn Profile,
-        begin: Begin,
+        begin: KineticState,
         until: f64,
         tolerance: f64,
         most_turns: f64,
     ) -> Result<Segment, NotApplicable> {
-        let whole_turn = begin.start + begin.direction * TAU;
+        let whole_turn = begin.angle + begin.direction * TAU;
         let work = profile.work_of_turn();
         let mut builder = Builder {
             profile,
@@ -88,10 +85,8 @@ impl Segment {
             gain_error: work.map_or(0.0, |(_, error)| error),
             turn_end: TurnEnd::new(profile, whole_turn, begin.kinetic),
             segment: Segment::open(),
-            at: begin.start,
-            kinetic: begin.kinetic,
+            now: begin,
             largest: begin.kinetic,
-            energy_error: begin.energy_error,
             length: HALF_TURN,
             is_cut: false,
             ahead: None,
@@ -127,7 +122,7 @@ impl Builder<'_> {
         let shortest = 1e-13 * at.abs().max(1.0);
         let short = piece.span().abs() <= shortest;
         let accepted = if short { f64::INFINITY } else { tolerance };
-        match Panel::attempt(self.profile, piece, self.kinetic, accepted, known)? {
+        match Panel::attempt(self.profile, piece, self.now.kinetic, accepted, known)? {
             Attempt::Done(panel, energy_error) => match self.improvement(&panel, known) {
                 Improvement::None => self.take(*panel, energy_error),
                 Improvement::Turning(ahead) => self.ahead = Some(ahead),
@@ -163,27 +158,31 @@ impl Builder<'_> {
     }
 
     fn analytic(&self) -> f64 {
-        let direction = self.begin.direction;
-        longest_analytic(self.at, direction, self.profile.branch_points())
+        let branch_points = self.profile.branch_points();
+        longest_analytic(self.now.angle, self.now.direction, branch_points)
     }
 
     fn piece(&self) -> Piece {
-        let direction = self.begin.direction;
+        let KineticState {
+            angle: at,
+            direction,
+            ..
+        } = self.now;
         let length = match self.is_cut {
             true => self.length.min(self.analytic()),
             false => self.length,
         };
-        let mut to = next_end(self.profile.corners(), self.at, direction, length);
-        to = self.profile.corner_between(self.at, to).unwrap_or(to);
+        let mut to = next_end(self.profile.corners(), at, direction, length);
+        to = self.profile.corner_between(at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
             to = self.whole_turn;
         }
-        let at_rest = self.kinetic == 0.0;
+        let at_rest = self.now.kinetic == 0.0;
         let turns = self.ahead.map(|ahead| ahead.way);
-        match turns.filter(|way| direction * (to - self.at - way) >= 0.0) {
+        match turns.filter(|way| direction * (to - at - way) >= 0.0) {
             // A panel cannot have turning points at both ends: the first half ends in the middle.
-            Some(way) if at_rest => to = self.at + 0.5 * way,
-            Some(way) => return Piece::until_turning(self.at, way),
+            Some(way) if at_rest => to = at + 0.5 * way,
+            Some(way) => return Piece::until_turning(at, way),
             None => {}
         }
         let turning = if at_rest {
@@ -191,7 +190,7 @@ impl Builder<'_> {
         } else {
             Turning::Nowhere
         };
-        Piece::between(self.at, to, turning)
+        Piece::between(at, to, turning)
     }
 
     /// Returns the error bound of the kinetic energy on the next panel, J; near rest from the integral to the end of
@@ -206,15 +205,16 @@ impl Builder<'_> {
         // The sum of smaller energies over panels has lost digits.
         let near_rest = 1e-3 * self.largest;
         if let Some(turn_end) = &self.turn_end
-            && self.kinetic < near_rest
-            && let Some(exact) = turn_end.kinetic(self.at)
+            && self.now.kinetic < near_rest
+            && let Some(exact) = turn_end.kinetic(self.now.angle)
         {
-            self.kinetic = exact;
-            let to_go = (self.whole_turn - self.at).abs();
+            self.now.kinetic = exact;
+            let at = self.now.angle;
+            let to_go = (self.whole_turn - at).abs();
             let size = exact.max(self.begin.kinetic);
-            return KnownEnergy::AtStart(f64::EPSILON * size * (1.0 + self.at.abs() / to_go));
+            return KnownEnergy::AtStart(f64::EPSILON * size * (1.0 + at.abs() / to_go));
         }
-        KnownEnergy::AtStart(self.energy_error + f64::EPSILON * self.largest)
+        KnownEnergy::AtStart(self.now.energy_error + f64::EPSILON * self.largest)
     }
 
     /// Returns the improvement to make on a panel. A turning point found on a longer panel is accurate to the rounding
@@ -229,14 +229,14 @@ impl Builder<'_> {
             from, to, turning, ..
         } = panel.piece;
         // Two roundings of the energy at the start: as a sum, and as the work back to it.
-        let rounding = 2.0 * f64::EPSILON * self.kinetic;
+        let rounding = 2.0 * f64::EPSILON * self.now.kinetic;
         if turning != Turning::AtEnd || residual <= rounding || residual > 0.5 * ahead.residual {
             return Improvement::None;
         }
         let [first, last] = [from, to].map(|theta| self.profile.inertia_and_force(theta).1);
         let more = -panel.residual / last;
         let slope = (last - first) / panel.piece.span();
-        if (more * slope).abs() < 0.5 * last.abs() && last * self.begin.direction < 0.0 {
+        if (more * slope).abs() < 0.5 * last.abs() && last * self.now.direction < 0.0 {
             Improvement::Turning(TurningPoint {
                 way: ahead.way + more,
                 residual,
@@ -250,15 +250,15 @@ impl Builder<'_> {
     }
 
     fn take(&mut self, mut panel: Panel, energy_error: f64) {
-        self.energy_error = self.energy_error.hypot(energy_error);
+        self.now.energy_error = self.now.energy_error.hypot(energy_error);
         let piece = panel.piece;
-        self.at = piece.to;
+        self.now.angle = piece.to;
         if let Some(ahead) = &mut self.ahead {
             ahead.way -= piece.span();
         }
-        panel.turns = self.begin.direction * self.turns;
-        self.kinetic = panel.kinetic_at_end;
-        self.largest = self.largest.max(self.kinetic);
+        panel.turns = self.now.direction * self.turns;
+        self.now.kinetic = panel.kinetic_at_end;
+        self.largest = self.largest.max(self.now.kinetic);
         // A corner may have cut this panel short.
         self.length = self.length.max(2.0 * piece.span().abs());
         self.segment.push(panel);
@@ -269,24 +269,27 @@ impl Builder<'_> {
 
     /// True if a turn is complete that is followed by a turn with the same forces.
     fn is_turn_complete(&self) -> bool {
-        self.gain.is_some() && self.at == self.whole_turn && self.segment.after == After::Ends
+        self.gain.is_some()
+            && self.now.angle == self.whole_turn
+            && self.segment.after == After::Ends
     }
 
     fn turn(&mut self, until: f64, most_turns: f64) {
-        let Begin {
-            start, direction, ..
-        } = self.begin;
-        self.segment.complete(turn_remainder(start, direction));
+        let begin = self.begin;
+        self.segment
+            .complete(turn_remainder(begin.angle, begin.direction));
         self.turns += 1.0;
         if self.profile.repeats() {
             self.segment.after = After::Repeats;
         } else if self.turns >= most_turns && self.segment.duration.0 <= until {
             self.segment.after = After::GoesOn;
         } else {
-            self.at = start;
-            self.energy_error = self.turns.mul_add(self.gain_error, self.begin.energy_error);
             let gain = self.gain.unwrap_or_default();
-            self.kinetic = gain.mul_add(self.turns, self.begin.kinetic);
+            self.now = KineticState {
+                kinetic: gain.mul_add(self.turns, begin.kinetic),
+                energy_error: self.turns.mul_add(self.gain_error, begin.energy_error),
+                ..begin
+            };
         }
     }
 }

@@ -3,7 +3,7 @@
 //! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
 //! nW. A million turns take a few dozen cells of the energy.
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::euler_maclaurin::EulerMaclaurinCell;
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
@@ -15,7 +15,7 @@ use super::turns::{Map, Recent, Turns};
 pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
     /// State before the first turn.
-    pub begin: Begin,
+    pub begin: KineticState,
     /// Kinetic energy gained per turn, J.
     pub gain: f64,
     /// Error bound of the gain, J.
@@ -55,30 +55,28 @@ impl EqualGains<'_> {
             let Some(mut cell) = self.cell(mark) else {
                 break;
             };
+            marks.push(mark);
             let after = mark.until(until);
             let passed = cell.count.is_infinite() || cell.time(cell.count) > after;
-            let count = if passed {
-                cell.turn_at(after)
-            } else {
-                cell.count
-            };
-            let whole = if passed { count + 1.0 } else { count };
+            let mut whole = cell.count;
+            if passed {
+                cell.count = cell.turn_at(after);
+                whole = cell.count + 1.0;
+            }
             error += cell.error(whole, self.energy_error_after(mark.turns + whole));
-            let end = cell.mark(count);
-            last = passed.then(|| cell.turn.segment(end.kinetic));
-            marks.push(mark);
+            let end = cell.mark(cell.count);
             mark = if passed {
+                last = Some(cell.turn.segment(end.kinetic));
                 end
             } else {
                 self.mark(end.turns, end.t)
             };
-            cell.count = count;
             cells.push(cell);
         }
         let last = match last {
             Some(segment) => segment,
             None => {
-                let begin = Begin {
+                let begin = KineticState {
                     kinetic: mark.kinetic,
                     energy_error: self.energy_error_after(mark.turns),
                     ..self.begin
@@ -106,7 +104,7 @@ impl EqualGains<'_> {
     }
 
     fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
-        let begin = Begin {
+        let begin = KineticState {
             kinetic,
             energy_error: 0.0,
             ..self.begin
@@ -117,27 +115,22 @@ impl EqualGains<'_> {
     /// Computes the cell that begins with a turn; none if the crank is too near rest.
     fn cell(&self, first: TurnStart) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
-        let least = here.least(first.kinetic);
+        let least = Some(here.least(first.kinetic)).filter(|least| *least > 0.0)?;
         // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that
         // energy vanishes. Least width over the largest.
         let (widest, narrowest) = (1.5, 1e-3);
-        let mut share = 1.0;
-        while share > narrowest && least > 0.0 {
-            let made = if self.gain >= 0.0 {
-                let width = share * widest * least;
-                EulerMaclaurinCell::new(first, first.kinetic, width, self.gain, here.clone())
+        let cell = |share: f64| {
+            let (low, width, turn) = if self.gain >= 0.0 {
+                (first.kinetic, share * widest * least, here.clone())
             } else {
                 // The width has the same ratio to the least energy at the other end of the cell.
                 let width = share * least * widest / (1.0 + widest);
-                self.one_turn(first.kinetic - width).and_then(|turn| {
-                    EulerMaclaurinCell::new(first, first.kinetic - width, width, self.gain, turn)
-                })
+                let low = first.kinetic - width;
+                (low, width, self.one_turn(low)?)
             };
-            if made.is_some() {
-                return made;
-            }
-            share *= 0.5;
-        }
-        None
+            EulerMaclaurinCell::new(first, low, width, self.gain, turn)
+        };
+        let shares = std::iter::successors(Some(1.0), |share| Some(0.5 * share));
+        shares.take_while(|share| *share > narrowest).find_map(cell)
     }
 }

@@ -21,7 +21,7 @@ pub(in crate::engine) struct EulerMaclaurinCell {
     /// Kinetic energy gained per turn, J.
     gain: f64,
     /// Duration T at the middle of the cell, s.
-    usual: f64,
+    middle_duration: f64,
     /// Series of T minus its middle value, s: a small variation of T keeps all its digits.
     difference: Series,
     /// Tail of the series, relative to T.
@@ -60,10 +60,10 @@ impl EulerMaclaurinCell {
         let degree = 24;
         let (half, rule) = (0.5 * width, Rule::of(degree));
         let middle = low + half;
-        let usual = turn.duration(middle);
-        let differences = rule.values(|x| turn.duration(middle + half * x) - usual);
+        let middle_duration = turn.duration(middle);
+        let differences = rule.values(|x| turn.duration(middle + half * x) - middle_duration);
         let difference = rule.series(&differences);
-        let tail = difference.tail() * (difference.largest() / usual);
+        let tail = difference.tail() * (difference.largest() / middle_duration);
         let step = gain / half;
         let count = (2.0 / step.abs()).floor();
         (tail <= SUM_ROUNDING && count >= 1.0).then(|| EulerMaclaurinCell {
@@ -74,7 +74,7 @@ impl EulerMaclaurinCell {
             gain,
             correction: correction(&difference, step),
             slope: difference.derivative(),
-            usual,
+            middle_duration,
             difference,
             tail,
             turn,
@@ -94,7 +94,7 @@ impl EulerMaclaurinCell {
 
     /// Returns the duration of the turn after the first `turns`, s.
     fn duration(&self, turns: f64) -> f64 {
-        self.usual + self.difference.value(self.x(turns))
+        self.middle_duration + self.difference.value(self.x(turns))
     }
 
     /// Returns the total duration of the first `turns` turns, s.
@@ -110,7 +110,7 @@ impl EulerMaclaurinCell {
                 .sum();
             turns * mean + (self.correction.value(to) - self.correction.value(from))
         };
-        turns.mul_add(self.usual, of_difference)
+        turns.mul_add(self.middle_duration, of_difference)
     }
 
     /// Returns the number of turns completed at a time `after` the start of the first one, s.

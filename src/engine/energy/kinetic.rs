@@ -4,7 +4,8 @@
 use super::panel::Attempt;
 use super::piece::{Piece, SAME_ANGLE, Turning};
 use super::profile::NotApplicable;
-use crate::numeric::chebyshev::{Rule, Series, Values, range};
+use crate::numeric::chebyshev::{Rule, Series, Values};
+use crate::numeric::median::range;
 use crate::numeric::{gauss, root};
 
 /// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a
@@ -114,15 +115,16 @@ impl Noise {
         // Sum of the last two terms of a series due to rounding of its values, in roundings.
         let last_terms = 8.0;
         let units = last_terms * f64::EPSILON;
-        let place = units * energy.piece.from.abs() / span;
-        let force_error = place * (high - low) + last_terms * rounding;
+        let angle_rounding = units * energy.piece.from.abs() / span;
+        let force_error = angle_rounding * (high - low) + last_terms * rounding;
         let of_energy = match energy.piece.turning {
             Turning::Nowhere => force_error * span / energy.kinetic,
             _ => force_error / low.abs().min(high.abs()),
         };
         Noise {
             force: units + force_error / low.abs().max(high.abs()),
-            slope: (units + place * (heavy - light) / heavy + of_energy).min(units + place),
+            slope: (units + angle_rounding * (heavy - light) / heavy + of_energy)
+                .min(units + angle_rounding),
         }
     }
 }
@@ -145,7 +147,7 @@ impl TimeSensitivity {
         let (low, high) = range(force);
         // Fraction of the rounding error of an angle in the mean over the 33 points of a panel, about 1/√33.
         let averaged = 0.18;
-        let place = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
+        let angle_rounding = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
         let [start, .., end] = *force;
         let [at_turn, other] = match piece.turning {
             Turning::AtEnd => [end, start],
@@ -154,8 +156,8 @@ impl TimeSensitivity {
         TimeSensitivity {
             at_turn: at_turn.abs(),
             rise: other / at_turn,
-            rounding: place * (high - low) / piece.span().abs() + noise,
-            energy: averaged * place * (high - low) + noise * piece.span().abs(),
+            rounding: angle_rounding * (high - low) / piece.span().abs() + noise,
+            energy: averaged * angle_rounding * (high - low) + noise * piece.span().abs(),
         }
     }
 

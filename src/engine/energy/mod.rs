@@ -20,7 +20,7 @@ pub(in crate::engine) mod piece;
 mod positions;
 mod profile;
 pub(in crate::engine) mod segment;
-mod turn_closure;
+mod turn_end;
 mod turning_points;
 pub(in crate::engine) mod turns;
 

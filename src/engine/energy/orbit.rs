@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::equal_gains::EqualGains;
 use super::error_bound::energy_error_of_angle;
 use super::kinetic::at_start;
@@ -60,14 +60,14 @@ impl Orbit {
             let of_angle = energy_error_of_angle(theta, kinetic, [inertia, beside], apart);
             energy_error = energy_error.hypot(of_angle);
         }
-        let begin = Begin {
-            start: theta,
+        let begin = KineticState {
+            angle: theta,
             direction,
             kinetic,
             energy_error,
         };
         let segment = |direction: f64, until: f64, most_turns: f64| {
-            let begin = Begin { direction, ..begin };
+            let begin = KineticState { direction, ..begin };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
         // Turns that are computed one by one before the rest is summed.

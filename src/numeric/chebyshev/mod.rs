@@ -12,7 +12,7 @@ use super::LANES;
 pub const MAX_DEGREE: usize = 32;
 
 /// Rounding error of the last terms of a series and of an integral by a rule, relative to the largest.
-pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub const SERIES_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Values at the points of a rule, or coefficients; entries beyond its degree are zero.
 pub type Values = [f64; MAX_DEGREE + 1];
@@ -31,14 +31,6 @@ pub fn largest(values: &[f64]) -> f64 {
         }
     }
     most.into_iter().fold(of_rest, larger)
-}
-
-/// Returns the least and the greatest of some values.
-pub fn range(values: &[f64]) -> (f64, f64) {
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    values
-        .iter()
-        .fold(none, |(low, high), v| (low.min(*v), high.max(*v)))
 }
 
 /// 1/(2k), factor of Tₖ₋₁ − Tₖ₊₁ in the integral.

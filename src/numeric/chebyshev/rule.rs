@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::OnceLock;
 
-use super::transform::{HALF, HalfVector, Matrices};
+use super::transform::{HALF_LENGTH, HalfVector, Matrices};
 use super::{MAX_DEGREE, Series, Values};
 use crate::numeric::LANES;
 use crate::numeric::exact::two_sum;
@@ -116,7 +116,7 @@ impl Rule {
                 _ => 0.5 * (t(k + 1) / (k + 1) as f64 - t(k - 1) / (k - 1) as f64),
             }
         };
-        let mut result = [0.0; HALF];
+        let mut result = [0.0; HALF_LENGTH];
         for (i, value) in result.iter_mut().enumerate().take(half + 1) {
             *value = primitive(i) - primitive(half);
         }

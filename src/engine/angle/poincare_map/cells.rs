@@ -10,7 +10,7 @@ use super::{DEGREE, LastTurns};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::interpolated_turns::{Cell, Cycle};
 use crate::engine::energy::segment::Segment;
-use crate::engine::sight::NodeCriterion;
+use crate::engine::resolution::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 

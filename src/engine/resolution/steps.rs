@@ -1,6 +1,6 @@
 //! Resolution test for loads on a step in time.
 
-use super::{ForceAlong, Hidden, NodeCriterion, hidden};
+use super::{ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
@@ -18,7 +18,12 @@ pub struct OnStep<'a> {
 
 /// Returns the time (s) at which a step has to end to resolve the acceleration; none if it does, or cannot be shorter.
 /// A method of order n counts as n nodes.
-pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) -> Option<f64> {
+pub fn unresolved_at(
+    motion: &Counted<'_>,
+    step: &Step,
+    order: usize,
+    tolerance: f64,
+) -> Option<f64> {
     if !motion.varies_between_nodes() {
         return None;
     }
@@ -30,7 +35,7 @@ pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) ->
         step,
         nodes,
     };
-    let Hidden { at, .. } = hidden(&way, criterion)?;
+    let Unresolved { at, .. } = unresolved(&way, criterion)?;
     Some(step.start.t + at * h)
 }
 

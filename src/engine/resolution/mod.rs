@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use crate::numeric::enclosure::{Variation, ellipses, resolved};
 
-pub use steps::{OnStep, hides};
+pub use steps::{OnStep, unresolved_at};
 
 /// Force along a panel or a step, over the normalized position from 0 to 1, with its interpolant through the nodes.
 pub trait ForceAlong {
@@ -59,7 +59,7 @@ impl NodeCriterion {
 
 /// Position at which a panel or a step has to end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hidden {
+pub struct Unresolved {
     /// Position, as a fraction of the length.
     pub at: f64,
     /// True if the force has a corner or a jump there.
@@ -67,7 +67,7 @@ pub struct Hidden {
 }
 
 /// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
-pub fn hidden(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<Hidden> {
+pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<Unresolved> {
     if criterion.nodes_on(force, 0.0, 1.0).1.is_some() {
         return None;
     }
@@ -135,7 +135,7 @@ struct Search {
 
 impl Search {
     /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
-    fn run(mut self, force: &impl ForceAlong) -> Option<Hidden> {
+    fn run(mut self, force: &impl ForceAlong) -> Option<Unresolved> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
         let begin = self.criterion.end(force, |end| [0.0, end]);
         let end = self.criterion.end(force, |end| [1.0 - end, 1.0]);
@@ -152,11 +152,11 @@ impl Search {
             count -= 1;
             pieces += 1;
             if pieces > most_examined {
-                let here = Hidden {
+                let here = Unresolved {
                     at: from,
                     is_corner: false,
                 };
-                return self.place().or((from > self.whole[0]).then_some(here));
+                return self.found().or((from > self.whole[0]).then_some(here));
             }
             let (varies, nodes) = self.criterion.nodes_on(force, from, to);
             match nodes {
@@ -174,7 +174,7 @@ impl Search {
             }
         }
         (self.is_missed || self.cuts_off())
-            .then(|| self.place())
+            .then(|| self.found())
             .flatten()
     }
 
@@ -205,13 +205,13 @@ impl Search {
     }
 
     /// Returns the first corner, or else an end of the first piece with a missed force.
-    fn place(&self) -> Option<Hidden> {
+    fn found(&self) -> Option<Unresolved> {
         let [begin, end] = self.whole;
         let inside = |at: &f64| *at > begin && *at < end;
         let mut ends = self.first.into_iter().flatten();
         let at = self.corner.or_else(|| ends.find(inside))?;
         let is_corner = self.corner.is_some();
-        Some(Hidden { at, is_corner })
+        Some(Unresolved { at, is_corner })
     }
 
     fn is_least(&self, varies: &Variation, length: f64) -> bool {
