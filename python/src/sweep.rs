@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::error::Error;
 use slider_crank::report::{
-    self, MOST_ON_PAGE, SweepSummary, SweepSummaryOptions, SweepWriter, Table,
+    self, MOST_PAGE_DESIGNS, SweepSummary, SweepSummaryOptions, SweepWriter, Table,
 };
 use slider_crank::scene::Varied;
 use slider_crank::simulate::SteadyOptions;
@@ -154,9 +154,9 @@ impl Designs {
     /// The report page; the designs are computed once more.
     fn page(&self, py: Python<'_>) -> PyResult<String> {
         let count = self.sweep.len();
-        if count > MOST_ON_PAGE {
+        if count > MOST_PAGE_DESIGNS {
             return Err(refused(
-                format!("a page shows {MOST_ON_PAGE} designs at most, and these are {count}"),
+                format!("a page shows {MOST_PAGE_DESIGNS} designs at most, and these are {count}"),
                 "use the columns",
             ));
         }

@@ -56,16 +56,15 @@ fn kind(text: &str) -> Result<FitKind, String> {
     found.ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
 }
 
-/// Largest polynomial degree accepted; larger ones are typing errors.
-const HIGHEST: usize = 10_000;
-
 fn size(text: &str) -> Result<FitSize, String> {
     if text == "auto" {
         return Ok(FitSize::Auto);
     }
+    // Larger ones are typing errors.
+    let highest = 10_000;
     match text.parse() {
-        Ok(size) if size <= HIGHEST => Ok(FitSize::Fixed(size)),
-        Ok(_) => Err(format!("the degree is `auto` or at most {HIGHEST}")),
+        Ok(size) if size <= highest => Ok(FitSize::Fixed(size)),
+        Ok(_) => Err(format!("the degree is `auto` or at most {highest}")),
         Err(_) => Err("the degree is a whole number or `auto`".to_owned()),
     }
 }

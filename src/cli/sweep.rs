@@ -147,7 +147,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     let asked = SweepSummaryOptions {
         goals: arguments.goals(),
         percentiles: arguments.percentiles,
-        kept: page.is_some().then_some(report::MOST_ON_PAGE),
+        kept: page.is_some().then_some(report::MOST_PAGE_DESIGNS),
     };
     let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, &asked)?;
     let begun = Instant::now();

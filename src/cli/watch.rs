@@ -15,7 +15,6 @@ use crate::simulate::Stop;
 
 /// Time after which the progress of a computation is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-const BETWEEN_LOOKS: Duration = Duration::from_millis(100);
 
 /// State of the progress display.
 static SHOWN: Mutex<Shown> = Mutex::new(Shown {
@@ -49,10 +48,11 @@ pub(super) fn start(takes_requests: bool) -> Stop {
     let _ = ctrlc::set_handler(interrupted);
     if std::io::stderr().is_terminal() {
         let stop = stop.clone();
+        let between_looks = Duration::from_millis(100);
         thread::spawn(move || {
             thread::sleep(PATIENCE);
             while show(&stop) {
-                thread::sleep(BETWEEN_LOOKS);
+                thread::sleep(between_looks);
             }
         });
     }
@@ -80,8 +80,7 @@ fn shown<T>(with: impl FnOnce(&mut Shown) -> T) -> T {
 
 /// Shows the progress; false if the display has ended.
 fn show(stop: &Stop) -> bool {
-    /// Resolution of the progress of a run.
-    const PARTS: u64 = 1000;
+    let steps_of_run = 1000;
     shown(|shown| {
         if shown.is_over {
             return false;
@@ -92,8 +91,8 @@ fn show(stop: &Stop) -> bool {
                 count,
                 "{bar:30} design {pos} of {len}, {per_sec}, {eta} left",
             ),
-            None if done > 0.0 => (PARTS, "{bar:30} {percent} %, {elapsed}, {eta} left"),
-            None => (PARTS, "{spinner} {elapsed}"),
+            None if done > 0.0 => (steps_of_run, "{bar:30} {percent} %, {elapsed}, {eta} left"),
+            None => (steps_of_run, "{spinner} {elapsed}"),
         };
         let new = || ProgressBar::new(length).with_elapsed(PATIENCE);
         let bar = shown.bar.get_or_insert_with(new);

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicU64, Ordering as Memory};
 
-use super::{AGREEMENT, GAIN, Problem};
+use super::{AGREEMENT, LEAST_IMPROVEMENT, Problem};
 use crate::numeric::stop::Stop;
 use crate::scene::VariedValue;
 use crate::sweep::{Goal, Outcome, Source, Sweep};
@@ -143,10 +143,10 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the least significant difference of the goal: |goal| times the relative error of the motion (speed error
-    /// to fastest speed, angle error to angle travelled) or of the steady fluctuation; at least [`GAIN`] of the scale.
+    /// to fastest speed, angle error to angle travelled) or of the steady fluctuation; at least [`LEAST_IMPROVEMENT`] of the scale.
     pub fn resolution(&self, one: &Candidate) -> f64 {
         let objective = one.objective.map_or(0.0, f64::abs);
-        let least = GAIN * self.goal_scale;
+        let least = LEAST_IMPROVEMENT * self.goal_scale;
         if self.problem.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
             return least;
         }
@@ -167,14 +167,14 @@ impl<'a> Evaluator<'a> {
             .fold(least, f64::max)
     }
 
-    /// Whether `one` beats `other`: by more than `resolution` in goal at equal violation, else [`GAIN`] in violation.
+    /// Whether `one` beats `other`: by more than `resolution` in goal at equal violation, else [`LEAST_IMPROVEMENT`] in violation.
     pub fn improves(&self, one: &Candidate, other: &Candidate, resolution: f64) -> bool {
         if one.order(other) != Ordering::Less {
             return false;
         }
         match (one.objective, other.objective) {
             (Some(a), Some(b)) if one.violation == other.violation => b - a > resolution,
-            _ => other.violation - one.violation > GAIN,
+            _ => other.violation - one.violation > LEAST_IMPROVEMENT,
         }
     }
 }

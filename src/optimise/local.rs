@@ -6,15 +6,6 @@ use cobyla::{RhoBeg, StopTols, minimize};
 
 use super::evaluator::{Candidate, Evaluator};
 
-/// Final trust-region radius of a search, in parts of the ranges between the bounds.
-const LAST_STEP: f64 = 1e-10;
-
-/// Safety margin to each limit, in scales of the figure, for ends of searches to meet limits.
-const KEPT_FROM_LIMITS: f64 = 10.0 * LAST_STEP;
-
-/// Maximum number of designs of a search per key; COBYLA needs a few dozen where no valley is curved.
-const DESIGNS: usize = 300;
-
 /// Result of one local search.
 #[derive(Clone, Debug)]
 pub(super) struct Searched {
@@ -37,6 +28,12 @@ struct Incumbent {
 pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f64) -> Searched {
     let start = from.at.clone();
     let keys = start.len();
+    // COBYLA needs a few dozen designs per key where no valley is curved.
+    let most_designs = 300 * keys;
+    // Final trust radius, in parts of the ranges, and margin to each limit, in scales of the figure, for ends of searches
+    // to meet limits.
+    let last_step = 1e-10;
+    let safety_margin = 10.0 * last_step;
     let seen = RefCell::new(Incumbent {
         last: from.clone(),
         best: from,
@@ -56,15 +53,13 @@ pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f
     let goal = |at: &[f64], _: &mut ()| evaluator.scaled_objective(&look(at), worst);
     let limit = |constraint| {
         let look = &look;
-        move |at: &[f64], _: &mut ()| {
-            evaluator.scaled_margin(&look(at), constraint) - KEPT_FROM_LIMITS
-        }
+        move |at: &[f64], _: &mut ()| evaluator.scaled_margin(&look(at), constraint) - safety_margin
     };
     let limits: Vec<_> = (0..evaluator.problem.constraints.len())
         .map(limit)
         .collect();
     let tolerances = StopTols {
-        xtol_abs: vec![LAST_STEP; keys],
+        xtol_abs: vec![last_step; keys],
         ..StopTols::default()
     };
     // The result is unused: `look` has recorded every evaluated design.
@@ -74,7 +69,7 @@ pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f
         &vec![(0.0, 1.0); keys],
         &limits,
         (),
-        DESIGNS * keys,
+        most_designs,
         RhoBeg::All(step),
         Some(tolerances),
     );

@@ -39,7 +39,7 @@ pub struct Optimum {
     pub sense: &'static str,
     /// Value of the goal figure, in SI units and radians; none if no design has it.
     pub value: Option<f64>,
-    /// Least significant difference of the goal figure: its error, at least [`GAIN`] of its scale in the sample.
+    /// Least significant difference of the goal figure: its error, at least [`LEAST_IMPROVEMENT`] of its scale in the sample.
     pub resolution: f64,
     /// Optimum values of the varied keys.
     pub values: Vec<OptimumValue>,
@@ -129,7 +129,7 @@ pub struct FinalSweeps {
 pub const AGREEMENT: f64 = 1e-6;
 
 /// Least significant improvement of a design, in interquartile ranges of the figure in the sample.
-pub const GAIN: f64 = 1e-9;
+pub const LEAST_IMPROVEMENT: f64 = 1e-9;
 
 /// Finds the best design between the bounds of the varied keys.
 ///
@@ -174,7 +174,7 @@ pub fn optimise(
         }
     }
     let sample = LatinHypercube {
-        count: search::EXPLORED * varied.len() as u64,
+        count: search::DESIGNS_PER_KEY * varied.len() as u64,
         seed: problem.seed,
     };
     let options = SweepOptions {
@@ -222,8 +222,8 @@ fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResul
         bounds: *bounds,
         unit: one.unit(),
         at_bound: match *at {
-            at if at <= GAIN => Some("low"),
-            at if at >= 1.0 - GAIN => Some("high"),
+            at if at <= LEAST_IMPROVEMENT => Some("low"),
+            at if at >= 1.0 - LEAST_IMPROVEMENT => Some("high"),
             _ => None,
         },
     });

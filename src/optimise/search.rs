@@ -12,19 +12,10 @@ use crate::numeric::parallel;
 use crate::sweep::LatinHypercube;
 
 /// Number of designs per key, in the exploration and in each sweep round the best design.
-pub(super) const EXPLORED: u64 = 64;
-
-/// Maximum number of local searches.
-const STARTS: usize = 16;
-
-/// Initial trust radius of a local search from the exploration, in parts of the ranges.
-const FIRST_STEP: f64 = 0.1;
+pub(super) const DESIGNS_PER_KEY: u64 = 64;
 
 /// Half-widths of the boxes round the best design, in parts of the ranges.
 const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-
-/// Maximum number of restarts from a better design of a sweep.
-const IMPROVEMENTS: u32 = 30;
 
 /// Result of the global search, in the unit box.
 pub(super) struct SearchResult {
@@ -51,8 +42,10 @@ pub(super) fn run(
     let scaled = computed.map(|one| evaluator.scaled_objective(one, 0.0));
     let worst = scaled.fold(f64::NEG_INFINITY, f64::max);
     let evaluator = &*evaluator;
+    // Trust radius in parts of the ranges.
+    let first_step = 0.1;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
-        search(evaluator, from, FIRST_STEP, worst)
+        search(evaluator, from, first_step, worst)
     });
     evaluator.stop.reach(0.7);
     // Of equal designs the end of the first search.
@@ -108,7 +101,8 @@ fn starts(sorted: &[Candidate]) -> Vec<Candidate> {
         let one = &sorted[*i];
         one.objective.is_some() && !sorted[..*i].iter().any(|better| near(one, better))
     };
-    let found = (0..sorted.len()).filter(is_start).take(STARTS);
+    let most_starts = 16;
+    let found = (0..sorted.len()).filter(is_start).take(most_starts);
     found.map(|i| sorted[i].clone()).collect()
 }
 
@@ -117,10 +111,11 @@ fn final_sweeps(evaluator: &Evaluator, seed: u64, best: &mut Candidate, worst: f
     let keys = best.at.len() as u64;
     let mut sweeps = FinalSweeps {
         half_widths: HALF_WIDTHS.to_vec(),
-        designs_each: EXPLORED * keys,
+        designs_each: DESIGNS_PER_KEY * keys,
         ..FinalSweeps::default()
     };
-    'rounds: while sweeps.improvements < IMPROVEMENTS {
+    let most_improvements = 30;
+    'rounds: while sweeps.improvements < most_improvements {
         let resolution = evaluator.resolution(best);
         for (round, width) in (1u64..).zip(HALF_WIDTHS) {
             let sample = LatinHypercube {
@@ -144,7 +139,7 @@ fn final_sweeps(evaluator: &Evaluator, seed: u64, best: &mut Candidate, worst: f
             if let Some(better) = better.filter(|one| evaluator.improves(one, best, resolution)) {
                 *best = search(evaluator, better, width, worst).end;
                 sweeps.improvements += 1;
-                let done = f64::from(sweeps.improvements) / f64::from(IMPROVEMENTS);
+                let done = f64::from(sweeps.improvements) / f64::from(most_improvements);
                 evaluator.stop.reach(0.7 + 0.3 * done);
                 continue 'rounds;
             }

@@ -7,9 +7,6 @@ use rayon::prelude::*;
 use super::Output;
 use crate::error::Error;
 
-/// Rows per parallel task of formatting.
-const PIECE: usize = 1 << 12;
-
 /// Cell of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum CsvCell {
@@ -126,8 +123,9 @@ pub(super) fn write_all<Row: Sync>(
         rows.iter().for_each(|row| line(row, &mut text));
         text
     };
-    for rows in rows.chunks(PIECE * rayon::current_num_threads()) {
-        let texts: Vec<Vec<u8>> = rows.par_chunks(PIECE).map(text_of).collect();
+    let rows_of_task = 1 << 12;
+    for rows in rows.chunks(rows_of_task * rayon::current_num_threads()) {
+        let texts: Vec<Vec<u8>> = rows.par_chunks(rows_of_task).map(text_of).collect();
         for text in texts {
             output.write(&text)?;
         }

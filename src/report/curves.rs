@@ -164,10 +164,10 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
     Some(edges.collect())
 }
 
-/// Crank angle between points of a drawn curve, rad: half a degree.
-pub(super) const SPACING: f64 = PI / 360.0;
+/// Crank angle between points of a drawn curve, rad: half a degree, about a pixel of a turn.
+pub(super) const CURVE_STEP: f64 = PI / 360.0;
 
-/// Maximum number of points of a curve, about; curves with more are thinned.
+/// Maximum number of points of a curve, about, several per pixel of a panel; curves with more are thinned.
 pub(super) const CURVE_POINTS: usize = 4000;
 
 /// Thins a curve to about [`CURVE_POINTS`]: keeps the extremes of x and y of each piece.
@@ -195,16 +195,14 @@ fn outlined(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     points.collect()
 }
 
-/// Fraction of the values, at each end of their order, that may belong to poles.
-const POLES_SHARE: f64 = 0.05;
-
-/// Returns the range of the central values, widened by its width on both sides; none unless the full range exceeds
-/// four times that width.
+/// Returns the range of the central values, without those that may belong to poles, widened by its width on both sides;
+/// none unless the full range exceeds four times that width.
 fn bulk(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let mut values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
     values.sort_unstable_by(f64::total_cmp);
     let last = values.len().checked_sub(1)?;
-    let beyond = (POLES_SHARE * last as f64).round() as usize;
+    let share_at_each_end = 0.05;
+    let beyond = (share_at_each_end * last as f64).round() as usize;
     let (low, high) = (values[beyond], values[last - beyond]);
     let room = high - low;
     let whole = values[last] - values[0];

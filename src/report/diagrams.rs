@@ -1,7 +1,7 @@
 //! Standard diagrams of a cycle at constant speed: turning moment, indicator diagram, polar load diagrams of pins and
 //! bearings, orders, first-order balance.
 
-use super::curves::SPACING;
+use super::curves::CURVE_STEP;
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::{Facts, degrees, fact, six};
 use crate::error::Error;
@@ -58,7 +58,7 @@ impl Diagram {
         let Some(diagrams) = &result.diagrams else {
             return Ok(None);
         };
-        let rows: Vec<TurnRow> = result.rows(SPACING).collect();
+        let rows: Vec<TurnRow> = result.rows(CURVE_STEP).collect();
         let figures = match self {
             Diagram::TurningMoment => vec![turning_moment(diagrams, &rows)],
             Diagram::PressureVolume => pressures(scene, &rows),

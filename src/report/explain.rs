@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::key_values::{Facts, degrees, fact, given, six};
-use super::text::NAMES;
+use super::text::NAME_WIDTH;
 use crate::explain::{Explanation, FrictionAt, TermsAt};
 
 /// Returns the explanation as text.
@@ -24,9 +24,10 @@ pub fn explanation(result: &Explanation) -> String {
         for term in terms {
             facts.add(format_args!("  {}", term.name), term.reason.to_string());
         }
-        let _ = write!(text, "{title}\n{}", facts.lines(NAMES));
+        let _ = write!(text, "{title}\n{}", facts.lines(NAME_WIDTH));
     }
-    let _ = write!(text, "computation\n{}", computation(result).lines(NAMES));
+    let computation = computation(result).lines(NAME_WIDTH);
+    let _ = write!(text, "computation\n{computation}");
     if let Some(at) = &result.at {
         text.push_str(&terms_at(at));
     }
@@ -83,7 +84,7 @@ fn terms_at(at: &TermsAt) -> String {
         let value = six(value);
         facts.add(format_args!("  {name}"), format_args!("{value} {unit}"));
     }
-    text.push_str(&facts.lines(NAMES));
+    text.push_str(&facts.lines(NAME_WIDTH));
     for load in &at.loads {
         let _ = writeln!(text, "  Q of {} = {} N m", load.name, six(load.q_nm));
     }
@@ -101,7 +102,7 @@ fn terms_at(at: &TermsAt) -> String {
     if let Some(friction) = &at.friction {
         facts.add("  with friction", holding(friction));
     }
-    text.push_str(&facts.lines(NAMES));
+    text.push_str(&facts.lines(NAME_WIDTH));
     text
 }
 

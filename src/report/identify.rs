@@ -6,9 +6,6 @@ use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
 
-/// Size of correlation between two values above which the text names it.
-const STRONG_CORRELATION: f64 = 0.9;
-
 /// Returns the identified values with 95 % bands, strong correlations, noise and warnings, as text.
 pub fn identification(result: &Identification) -> String {
     let mut facts = Facts::of(&result.scene);
@@ -20,9 +17,10 @@ pub fn identification(result: &Identification) -> String {
     }
     let factor = result.band_factor;
     fact!(facts, "95 % band", "+- {factor:.4} standard errors");
+    let is_strong = |correlation: f64| correlation.abs() > 0.9;
     for (i, row) in result.correlations.iter().enumerate() {
         for (j, value) in row.iter().enumerate().take(i) {
-            if value.abs() > STRONG_CORRELATION {
+            if is_strong(*value) {
                 let [one, other] = [j, i].map(|k| &result.values[k].key);
                 fact!(facts, "correlation", "{value:.4} of {one} and {other}");
             }

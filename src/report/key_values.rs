@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt::{Display, Write};
 
+use crate::scene;
+
 /// Ordered list of names and values; names that belong to the preceding one begin with spaces.
 pub struct Facts(Vec<(String, String)>);
 
@@ -78,14 +80,7 @@ pub(super) fn given(value: f64) -> String {
 
 /// Formats a number with at most `digits` significant digits, without trailing zeros.
 pub(super) fn rounded(value: f64, digits: usize) -> String {
-    let short = format!("{value:.*e}", digits - 1);
-    // Minus zero is zero.
-    let value = short.parse().unwrap_or(value) + 0.0;
-    let size = value.abs();
-    match size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
-        true => format!("{value}"),
-        false => format!("{value:e}"),
-    }
+    scene::rounded(value, digits, 1e-4..1e9)
 }
 
 /// Formats an angle (rad) in degrees.

@@ -8,7 +8,7 @@ mod curves;
 mod decimate;
 mod default_view;
 mod diagrams;
-mod drawing;
+mod dimensions;
 mod explain;
 mod figure;
 mod identify;
@@ -56,8 +56,8 @@ pub use rows::{Preview, RowColumns, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
 pub use statics::{StaticsReport, calibration};
 pub use sweep::{
-    FrontDesign, MOST_ON_PAGE, Spread, SweepExtreme, SweepRange, SweepSummary, SweepSummaryOptions,
-    SweepWriter, VariedKey, merge, sweep_page, sweep_text,
+    FrontDesign, MOST_PAGE_DESIGNS, Spread, SweepExtreme, SweepRange, SweepSummary,
+    SweepSummaryOptions, SweepWriter, VariedKey, merge, sweep_page, sweep_text,
 };
 pub use table::{Cells, Table};
 pub use text::{synthesis, synthesis_scene};

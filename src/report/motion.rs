@@ -6,7 +6,7 @@ use super::curves::View;
 use super::decimate::Decimated;
 use super::figure::{Axis, Figure};
 use super::key_values::Facts;
-use super::rows::{ROWS_KEPT, cells, header};
+use super::rows::{MOST_PLOT_ROWS, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
 use super::{DefaultView, Origin, Report, page};
@@ -27,7 +27,7 @@ impl PlotRows {
         let force = |row: &Row| row.clearance.map_or(0.0, |joint| joint.force);
         PlotRows {
             view,
-            rows: Decimated::weighted(ROWS_KEPT, force),
+            rows: Decimated::weighted(MOST_PLOT_ROWS, force),
         }
     }
 
@@ -99,16 +99,17 @@ impl Report for RunReport<'_> {
         // States inside a step arrive after all rows due in the step, out of order in time.
         rows.sort_by(|one, other| one.t.total_cmp(&other.t));
         let energies = Energies::of(self.scene);
-        let mut table = Table::new(&rows.first().map_or(String::new(), columns));
-        table.stride = self.plot.rows.stride();
-        for row in &rows {
+        let with_derived = |row: &Row| {
             let energies = energies.as_ref().map(|energies| energies.at(row));
             let [kinetic, potential] = energies.unwrap_or([f64::NAN; 2]);
             let mut cells = cells(row);
             cells.extend([kinetic, potential, kinetic + potential]);
             cells.extend(row.clearance.map(|joint| row.x - joint.ideal[0]));
-            table.push(cells);
-        }
+            cells
+        };
+        let header = rows.first().map_or(String::new(), columns);
+        let mut table = Table::filled(&header, rows.iter().map(with_derived));
+        table.stride = self.plot.rows.stride();
         table
     }
 

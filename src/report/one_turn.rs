@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::curves::SPACING;
+use super::curves::CURVE_STEP;
 use super::diagrams::{self, Diagram};
 use super::key_values::{Facts, degrees, fact, given, six};
 use super::rows::{REACTIONS, reactions};
-use super::text::{NAMES, extreme, kinematics};
+use super::text::{NAME_WIDTH, extreme, kinematics};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::kinematics::{Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
@@ -102,9 +102,9 @@ impl Report for TurnReport<'_> {
 
     /// Returns the facts, followed by those of the changed lengths, if given.
     fn text(&self) -> String {
-        let mut text = self.facts().lines(NAMES);
+        let mut text = self.facts().lines(NAME_WIDTH);
         if let Some(changed) = &self.result.changed {
-            let changed = kinematics(changed).lines(NAMES);
+            let changed = kinematics(changed).lines(NAME_WIDTH);
             let _ = write!(text, "\nwith the changed lengths\n{changed}");
         }
         text
@@ -112,11 +112,9 @@ impl Report for TurnReport<'_> {
 
     /// Returns the rows; for changed lengths with their change of the motion and the changed motion (not in CSV).
     fn table(&self) -> Table {
-        let mut table = Table::new(&self.columns());
+        let rows = self.result.rows(self.every).map(|row| values(&row));
+        let mut table = Table::filled(&self.columns(), rows);
         table.plot_only_columns = if self.result.changed.is_some() { 3 } else { 0 };
-        for row in self.result.rows(self.every) {
-            table.push(values(&row));
-        }
         table
     }
 
@@ -145,7 +143,7 @@ impl Report for TurnReport<'_> {
 
     fn figure(&self, view: &View) -> Result<String, Error> {
         let Some(diagram) = self.diagram else {
-            let every = SPACING;
+            let every = CURVE_STEP;
             return view.svg(&TurnReport { every, ..*self }.table(), self.default_view());
         };
         let svg = diagram.svg(self.result, self.scene, view.size)?;

@@ -13,9 +13,6 @@ use crate::error::Error;
 /// Extensions of picture files.
 pub const EXTENSIONS: [&str; 3] = ["svg", "png", "pdf"];
 
-/// Pixels of a PNG per pixel of the figure: sharp in print and on high-resolution screens.
-const SCALE: f32 = 2.0;
-
 /// File to which a figure is drawn.
 #[derive(Debug)]
 pub struct Picture {
@@ -42,7 +39,8 @@ impl Picture {
     /// [`Error::Write`].
     pub fn draw(mut self, svg: &str) -> Result<(), Error> {
         let bytes = match self.ending.as_str() {
-            "png" => pixels(svg, SCALE)?.encode_png().map_err(failed)?,
+            // Two pixels per pixel of the figure are sharp in print and on high-resolution screens.
+            "png" => pixels(svg, 2.0)?.encode_png().map_err(failed)?,
             "pdf" => {
                 let page = svg2pdf::PageOptions {
                     dpi: PIXELS_PER_INCH as f32,

@@ -75,7 +75,7 @@ const KNOWN: [(&str, &str, &str); 16] = [
 ];
 
 /// Prefixes and suffixes of columns that share the panel of their base column.
-const BESIDE: [&str; 6] = [
+const VARIANTS: [&str; 6] = [
     "ideal",
     "first_order",
     "changed",
@@ -99,7 +99,7 @@ impl Quantity {
             Some((name, number)) if number.parse::<u32>().is_ok() => (name, Some(number)),
             _ => (name, None),
         };
-        let beside = BESIDE.iter().find_map(|more| {
+        let beside = VARIANTS.iter().find_map(|more| {
             let (first, last) = (name.strip_prefix(more), name.strip_suffix(more));
             let rest = first.or(last)?.trim_matches('_');
             Some((rest, more.replace('_', " ")))

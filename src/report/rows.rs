@@ -14,8 +14,8 @@ const CLEARANCE: &str =
     "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
 const TORQUE: &str = "crank_torque_nm";
 
-/// Maximum number of rows kept for pictures and pages.
-pub(super) const ROWS_KEPT: usize = 100_000;
+/// Maximum number of rows kept for pictures and pages; a page of so many holds about 20 megabytes.
+pub(super) const MOST_PLOT_ROWS: usize = 100_000;
 
 /// Returns the cells of the columns [`REACTIONS`], N and N m.
 pub(super) fn reactions(forces: &Reactions) -> impl Iterator<Item = f64> {
@@ -113,13 +113,12 @@ pub struct Preview {
     last: Option<Row>,
 }
 
-/// Maximum number of rows in a preview; thinning leaves at least half of them.
-const PREVIEW_ROWS: usize = 24;
-
 impl Default for Preview {
     fn default() -> Preview {
+        // Thinning leaves at least half of them.
+        let most_rows = 24;
         Preview {
-            few: Decimated::new(PREVIEW_ROWS),
+            few: Decimated::new(most_rows),
             last: None,
         }
     }

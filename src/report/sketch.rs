@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::Output;
-use super::drawing::Drawing;
+use super::dimensions::Dimensions;
 use super::figure::escaped;
 use super::picture::{failed, pixels};
 use crate::error::Error;
@@ -13,7 +13,7 @@ use ::gif::{Encoder, Frame, Repeat};
 /// Mechanism of a scene, to be drawn in any pose.
 #[derive(Debug)]
 pub struct Sketch {
-    drawing: Drawing,
+    dimensions: Dimensions,
     title: String,
 }
 
@@ -27,12 +27,12 @@ pub struct Pose {
 }
 
 /// Graphic element: line between two points or circle of centre and radius, m.
-enum Part {
+enum Element {
     Line([f64; 2], [f64; 2]),
     Circle([f64; 2], f64),
 }
 
-/// DXF layer and SVG style of a part.
+/// DXF layer and SVG style of an element.
 type Layer = (&'static str, &'static str);
 /// Guide, path of the crank pin, slider at the dead centres.
 const GROUND: Layer = (
@@ -60,26 +60,22 @@ const CENTRE_OF_GRAVITY: Layer = (
     "fill=\"#d55e00\" stroke=\"#333\" stroke-width=\"1\"",
 );
 
-/// Width of the drawing, pixels.
-const WIDTH: f64 = 640.0;
-
-/// Speed of colour quantisation of a GIF, 1 (finest) to 30; a drawing has few colours.
-const COARSENESS: i32 = 20;
-
 /// Visible rectangle of the plane, m.
 #[derive(Clone, Copy)]
-struct Extent {
+struct Window {
     left: f64,
     right: f64,
     low: f64,
     high: f64,
 }
 
-impl Extent {
-    /// Returns the scale, pixels per metre, and the height of the drawing, pixels.
-    fn scale(self) -> (f64, f64) {
-        let scale = WIDTH / (self.right - self.left);
-        (scale, (scale * (self.high - self.low)).ceil() + 40.0)
+impl Window {
+    /// Returns the scale, pixels per metre, and width and height of the drawing, pixels.
+    fn scale(self) -> (f64, [f64; 2]) {
+        let width = 640.0;
+        let scale = width / (self.right - self.left);
+        let height = (scale * (self.high - self.low)).ceil() + 40.0;
+        (scale, [width, height])
     }
 }
 
@@ -87,20 +83,20 @@ impl Sketch {
     /// Returns the sketch of the mechanism of a scene.
     pub fn of(scene: &Scene) -> Sketch {
         Sketch {
-            drawing: Drawing::of(scene),
+            dimensions: Dimensions::of(scene),
             title: scene.title.clone().unwrap_or_default(),
         }
     }
 
     /// Returns half the height of the slider, m.
     fn size(&self) -> f64 {
-        let Drawing { crank, rod, .. } = self.drawing;
+        let Dimensions { crank, rod, .. } = self.dimensions;
         (0.12 * crank).max(0.03 * (crank + rod))
     }
 
     /// Returns the slider positions at the existing dead centres, m.
     fn dead_centres(&self) -> impl Iterator<Item = f64> {
-        let of = &self.drawing;
+        let of = &self.dimensions;
         let (offset, branch) = (of.offset, of.branch);
         let lengths = [of.rod + of.crank, of.rod - of.crank].into_iter();
         let exist = lengths.filter(move |length| *length > 0.0 && *length >= offset.abs());
@@ -108,14 +104,14 @@ impl Sketch {
     }
 
     /// Returns the rectangle that holds the mechanism in all poses.
-    fn extent(&self, poses: impl Iterator<Item = Pose>) -> Extent {
-        let Drawing { crank, offset, .. } = self.drawing;
+    fn window(&self, poses: impl Iterator<Item = Pose>) -> Window {
+        let Dimensions { crank, offset, .. } = self.dimensions;
         let room = 3.0 * self.size();
         let places = poses.map(|pose| pose.x).chain(self.dead_centres());
         let (left, right) = places.fold((-crank, crank), |(left, right), x| {
             (left.min(x), right.max(x))
         });
-        Extent {
+        Window {
             left: left - room,
             right: right + room,
             low: (-crank).min(-offset) - room,
@@ -124,10 +120,10 @@ impl Sketch {
     }
 
     /// Returns the graphic elements of a pose, in drawing order from back to front.
-    fn parts(&self, pose: Pose, extent: Extent) -> Vec<(Layer, Part)> {
-        let Drawing {
+    fn elements(&self, pose: Pose, window: Window) -> Vec<(Layer, Element)> {
+        let Dimensions {
             crank, rod, offset, ..
-        } = self.drawing;
+        } = self.dimensions;
         let size = self.size();
         let (sin, cos) = pose.theta.sin_cos();
         let (pivot, pin, wrist) = ([0.0, 0.0], [crank * cos, crank * sin], [pose.x, -offset]);
@@ -137,48 +133,48 @@ impl Sketch {
                 let [right, up] = corners[k % 4];
                 [x + right * size, -offset + up * size]
             };
-            (0..4).map(move |k| (layer, Part::Line(corner(k), corner(k + 1))))
+            (0..4).map(move |k| (layer, Element::Line(corner(k), corner(k + 1))))
         };
-        let guide = Part::Line([extent.left, -offset], [extent.right, -offset]);
-        let mut parts = vec![(GROUND, guide), (GROUND, Part::Circle(pivot, crank))];
-        parts.extend(self.dead_centres().flat_map(|x| square(x, GROUND)));
-        parts.push((ROD, Part::Line(pin, wrist)));
-        parts.push((CRANK, Part::Line(pivot, pin)));
-        parts.extend(square(pose.x, SLIDER));
-        parts.extend([pivot, pin, wrist].map(|at| (JOINT, Part::Circle(at, 0.35 * size))));
+        let guide = Element::Line([window.left, -offset], [window.right, -offset]);
+        let mut elements = vec![(GROUND, guide), (GROUND, Element::Circle(pivot, crank))];
+        elements.extend(self.dead_centres().flat_map(|x| square(x, GROUND)));
+        elements.push((ROD, Element::Line(pin, wrist)));
+        elements.push((CRANK, Element::Line(pivot, pin)));
+        elements.extend(square(pose.x, SLIDER));
+        elements.extend([pivot, pin, wrist].map(|at| (JOINT, Element::Circle(at, 0.35 * size))));
         let along = [(wrist[0] - pin[0]) / rod, (wrist[1] - pin[1]) / rod];
-        let (crank_cg, rod_cg) = (self.drawing.crank_cg, self.drawing.rod_cg);
+        let (crank_cg, rod_cg) = (self.dimensions.crank_cg, self.dimensions.rod_cg);
         let crank_cg = crank_cg.map(|cg| placed(pivot, [cos, sin], cg));
         let rod_cg = rod_cg.map(|cg| placed(pin, along, cg));
         let marks = crank_cg.into_iter().chain(rod_cg);
-        parts.extend(marks.map(|at| (CENTRE_OF_GRAVITY, Part::Circle(at, 0.25 * size))));
-        parts
+        elements.extend(marks.map(|at| (CENTRE_OF_GRAVITY, Element::Circle(at, 0.25 * size))));
+        elements
     }
 
     /// Returns the mechanism in a pose as SVG.
     pub fn svg(&self, pose: Pose) -> String {
-        self.frame(pose, self.extent([pose].into_iter()), "")
+        self.frame(pose, self.window([pose].into_iter()), "")
     }
 
     /// Returns the mechanism in a pose as SVG, in a rectangle common to several poses, with a note below.
-    fn frame(&self, pose: Pose, extent: Extent, note: &str) -> String {
-        let (scale, height) = extent.scale();
-        let at = |[x, y]: [f64; 2]| (scale * (x - extent.left), scale * (extent.high - y) + 20.0);
+    fn frame(&self, pose: Pose, window: Window, note: &str) -> String {
+        let (scale, [width, height]) = window.scale();
+        let at = |[x, y]: [f64; 2]| (scale * (x - window.left), scale * (window.high - y) + 20.0);
         let (title, note) = (escaped(&self.title), escaped(note));
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
              role=\"img\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
-        for ((_, look), part) in self.parts(pose, extent) {
-            let _ = match part {
-                Part::Line(from, to) => {
+        for ((_, look), element) in self.elements(pose, window) {
+            let _ = match element {
+                Element::Line(from, to) => {
                     let ((x1, y1), (x2, y2)) = (at(from), at(to));
                     writeln!(
                         svg,
                         "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" {look}/>"
                     )
                 }
-                Part::Circle(centre, radius) => {
+                Element::Circle(centre, radius) => {
                     let ((x, y), r) = (at(centre), scale * radius);
                     writeln!(
                         svg,
@@ -202,17 +198,17 @@ impl Sketch {
             "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
         );
         let mm = |[x, y]: [f64; 2]| [1e3 * x, 1e3 * y];
-        let extent = self.extent([pose].into_iter());
-        for ((layer, _), part) in self.parts(pose, extent) {
-            let _ = match part {
-                Part::Line(from, to) => {
+        let window = self.window([pose].into_iter());
+        for ((layer, _), element) in self.elements(pose, window) {
+            let _ = match element {
+                Element::Line(from, to) => {
                     let ([x1, y1], [x2, y2]) = (mm(from), mm(to));
                     writeln!(
                         dxf,
                         "0\nLINE\n8\n{layer}\n10\n{x1}\n20\n{y1}\n11\n{x2}\n21\n{y2}"
                     )
                 }
-                Part::Circle(centre, radius) => {
+                Element::Circle(centre, radius) => {
                     let ([x, y], r) = (mm(centre), 1e3 * radius);
                     writeln!(dxf, "0\nCIRCLE\n8\n{layer}\n10\n{x}\n20\n{y}\n40\n{r}")
                 }
@@ -241,14 +237,17 @@ pub fn animation(
     hundredths: u16,
     mut output: Output,
 ) -> Result<(), Error> {
-    let extent = sketch.extent(frames.iter().map(|(pose, _)| *pose));
-    let [width, height] = [WIDTH, extent.scale().1].map(|side| side.min(65_535.0) as u16);
+    let window = sketch.window(frames.iter().map(|(pose, _)| *pose));
+    let (_, sides) = window.scale();
+    let [width, height] = sides.map(|side| side.min(65_535.0) as u16);
+    // Colour quantisation from 1 (finest) to 30; a drawing has few colours.
+    let quantisation_speed = 20;
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height, &[]).map_err(failed)?;
     encoder.set_repeat(Repeat::Infinite).map_err(failed)?;
     for (pose, note) in frames {
-        let mut rgba = pixels(&sketch.frame(*pose, extent, note), 1.0)?.take();
-        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, COARSENESS);
+        let mut rgba = pixels(&sketch.frame(*pose, window, note), 1.0)?.take();
+        let mut frame = Frame::from_rgba_speed(width, height, &mut rgba, quantisation_speed);
         frame.delay = hundredths;
         encoder.write_frame(&frame).map_err(failed)?;
     }

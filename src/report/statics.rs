@@ -1,8 +1,8 @@
 //! Reports of static equilibrium over a turn, and of the calibration of a force sensor.
 
-use super::curves::SPACING;
+use super::curves::CURVE_STEP;
 use super::key_values::{Facts, aligned, fact, given, six, with_error};
-use super::text::{NAMES, extreme, place};
+use super::text::{NAME_WIDTH, extreme, place};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
 use crate::scene::Scene;
@@ -59,7 +59,7 @@ impl Report for StaticsReport<'_> {
         let sought = format!("{what} [{unit}]");
         let [thrust, transmission] = ["side thrust [N]", "transmission [deg]"];
         let header = ["theta [deg]", &sought, "from", "to", thrust, transmission];
-        let mut text = self.facts().lines(NAMES) + "\n" + &aligned(&WIDTHS, header);
+        let mut text = self.facts().lines(NAME_WIDTH) + "\n" + &aligned(&WIDTHS, header);
         for row in self.result.rows(15f64.to_radians()) {
             let [_, value, min, max, thrust, transmission, ..] = cells(&row);
             let degrees = transmission.to_degrees();
@@ -78,12 +78,12 @@ impl Report for StaticsReport<'_> {
             "crank-torque" => "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
             _ => "slider_force_n,slider_force_min_n,slider_force_max_n",
         };
-        let mut table = Table::new(&format!(
+        let header = format!(
             "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
-        ));
+        );
+        let rows = self.result.rows(self.every).map(|row| cells(&row));
+        let mut table = Table::filled(&header, rows);
         table.plot_only_columns = if self.details { 0 } else { 2 };
-        let rows = self.result.rows(self.every);
-        rows.for_each(|row| table.push(cells(&row)));
         table
     }
 
@@ -99,7 +99,7 @@ impl Report for StaticsReport<'_> {
     }
 
     fn figure(&self, view: &View) -> Result<String, Error> {
-        let every = SPACING;
+        let every = CURVE_STEP;
         view.svg(
             &StaticsReport { every, ..*self }.table(),
             self.default_view(),

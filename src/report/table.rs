@@ -39,12 +39,22 @@ pub enum Cells {
 
 impl Table {
     /// Returns an empty table with the columns of a CSV header.
-    pub fn new(header: &str) -> Table {
+    pub(super) fn new(header: &str) -> Table {
         let column = |name: &str| Column {
             name: name.to_owned(),
             cells: Cells::Numbers(Vec::new(), None),
         };
         Table::of_columns(header.split(',').map(column).collect())
+    }
+
+    /// Returns a table of rows of numbers under a CSV header.
+    pub(super) fn filled<R: IntoIterator<Item = f64>>(
+        header: &str,
+        rows: impl IntoIterator<Item = R>,
+    ) -> Table {
+        let mut table = Table::new(header);
+        rows.into_iter().for_each(|row| table.push(row));
+        table
     }
 
     fn of_columns(columns: Vec<Column>) -> Table {
@@ -56,7 +66,7 @@ impl Table {
     }
 
     /// Appends a row of numbers; a number that is not finite counts as missing.
-    pub fn push(&mut self, row: impl IntoIterator<Item = f64>) {
+    pub(super) fn push(&mut self, row: impl IntoIterator<Item = f64>) {
         for (column, value) in self.columns.iter_mut().zip(row) {
             if let Cells::Numbers(values, _) = &mut column.cells {
                 values.push(value);

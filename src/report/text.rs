@@ -3,8 +3,8 @@
 use super::key_values::{Facts, degrees, fact, given, six};
 use crate::kinematics::{Kinematics, Located, NamedPosition, Synthesis};
 
-/// Width of the column of position names, characters.
-pub(super) const NAMES: usize = 24;
+/// Width of the column of names, characters, more than the longest fixed name has.
+pub(super) const NAME_WIDTH: usize = 24;
 
 /// Returns the angle or range of angles of a named position, and the reason for its name.
 pub(super) fn place(position: &NamedPosition) -> String {

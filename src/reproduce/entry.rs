@@ -66,14 +66,14 @@ pub(super) enum Printed {
 
 /// Relative difference up to which two formulas agree: rounding gives 1e-15, a numerical derivative 1e-12; formulas
 /// that disagree differ by 7e-5 or more.
-const SAME: f64 = 1e-9;
+const FORMULA_ROUNDING: f64 = 1e-9;
 
 impl Printed {
     /// Returns a printed number, with a tolerance of half a unit of its last digit.
     pub fn number(text: &str, value: f64) -> Printed {
         let decimals = text.split_once('.').map_or(0, |(_, digits)| digits.len());
         let half = 0.5 * 10f64.powi(-(decimals as i32));
-        Printed::Number(text.to_owned(), value, half * (1.0 + SAME))
+        Printed::Number(text.to_owned(), value, half * (1.0 + FORMULA_ROUNDING))
     }
 
     /// Returns printed words that stand for the range of values between two.
@@ -101,7 +101,7 @@ impl Printed {
                 };
                 // For a computed zero the printed value sets the scale.
                 let size = if ours == 0.0 { value.abs() } else { ours.abs() };
-                let same = |a: f64| (a - ours).abs() <= SAME * size;
+                let same = |a: f64| (a - ours).abs() <= FORMULA_ROUNDING * size;
                 (same(value), conditional.is_some_and(same))
             }
         };

@@ -12,9 +12,6 @@ use crate::scene::{Expression, Instant};
 /// Function from the name of a quantity and the crank angle (rad) to its value; none for unknown names.
 pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;
 
-/// Step of numerical derivatives, rad: truncation and rounding errors are each about 1e-12 of the value.
-const DERIVATIVE_STEP: f64 = 1e-3;
-
 /// CSV texts of a paper, by column:
 pub(super) struct Files {
     /// Symbols: symbol,formula,source; a formula uses symbols above it and the variables theta and t.
@@ -24,6 +21,18 @@ pub(super) struct Files {
     /// Figures: figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula; theta as formula of the abscissa t
     pub figures: &'static str,
 }
+
+/// Returns the built-in CSV texts of a paper, by its name in `data/papers`.
+macro_rules! files {
+    ($paper:literal) => {
+        $crate::reproduce::formulas::Files {
+            symbols: include_str!(concat!("../../data/papers/", $paper, "-symbols.csv")),
+            claims: include_str!(concat!("../../data/papers/", $paper, ".csv")),
+            figures: include_str!(concat!("../../data/papers/", $paper, "-figures.csv")),
+        }
+    };
+}
+pub(super) use files;
 
 /// Paper whose formulas can be evaluated.
 pub(super) struct PaperFormulas {
@@ -83,7 +92,9 @@ impl PaperFormulas {
         let slope = |name: &str| {
             let of = symbol(name.strip_prefix("slope_")?)?;
             let at = |theta| of.value(&now(0.0, theta));
-            Some(difference::slope(at, theta, DERIVATIVE_STEP))
+            // With this step, rad, truncation and rounding errors are each about 1e-12 of the value.
+            let step = 1e-3;
+            Some(difference::slope(at, theta, step))
         };
         let number = |name: &str| slope(name).or_else(|| (self.quantities)(name, theta));
         let named = |name: &str| symbol(name).or_else(|| number(name).map(Expression::constant));

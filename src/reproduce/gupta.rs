@@ -3,20 +3,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::formulas::{Files, PaperFormulas};
+use super::formulas::{PaperFormulas, files};
 use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::{Linkage, Shape};
 use crate::scene::Scene;
-
-const FILES: Files = Files {
-    symbols: include_str!("../../data/papers/gupta-symbols.csv"),
-    claims: include_str!("../../data/papers/gupta.csv"),
-    figures: include_str!("../../data/papers/gupta-figures.csv"),
-};
-
-/// Initial guess of the script: rod angle 180 degrees, slider position 40 mm.
-const GUESS: (f64, f64) = (PI, 0.04);
 
 /// Names of the six quantities, prefixed by `script_` (by the script) or `closed_` (closed form). The rod angle theta3
 /// is that of the direction from slider to crank pin.
@@ -33,8 +24,8 @@ impl Script {
     fn computed(&self, theta: f64) -> [f64; 6] {
         let Linkage { r, l, .. } = self.linkage;
         let speed = self.speed;
-        // Tolerance of the script: 1e-6 mm.
-        let Some(found) = self.linkage.close_loop(theta, GUESS, 1e-9) else {
+        // Initial guess of the script: rod angle 180 degrees, slider position 40 mm; tolerance 1e-6 mm.
+        let Some(found) = self.linkage.close_loop(theta, (PI, 0.04), 1e-9) else {
             return [f64::NAN; 6];
         };
         let (sin3, cos3) = found.theta3.sin_cos();
@@ -109,7 +100,7 @@ fn plate(name: &str) -> Option<f64> {
 }
 
 pub(super) fn formulas() -> Result<PaperFormulas, Error> {
-    let symbols = PaperFormulas::new(FILES)?;
+    let symbols = PaperFormulas::new(files!("gupta"))?;
     let [r, l, e, speed] = symbols.numbers(["r2", "r3", "e", "w"])?;
     let scene = |crank: f64, rod: f64| Scene::new(crank, rod).offset(e);
     let mechanisms = vec![

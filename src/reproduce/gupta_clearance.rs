@@ -13,9 +13,6 @@ use crate::simulate::{Options, Row, simulate_rows};
 
 /// Crank speeds, rpm: high, normal, low.
 const SPEEDS: [f64; 3] = [400.0, 300.0, 30.0];
-/// Number of turns before the one shown, in which the journal reaches the wall.
-const BEFORE: f64 = 1.0;
-
 fn scene(speed: f64) -> Scene {
     let mut scene = Scene::new(0.14, 0.31)
         .offset(0.06)
@@ -27,7 +24,6 @@ fn scene(speed: f64) -> Scene {
         })
         .slider(Slider { mass: 1.95 })
         .constant_speed(0.0, speed * TAU / 60.0)
-        .revolutions(BEFORE + 1.0)
         .output_every(Every::Angle(1f64.to_radians()));
     scene.clearance = Some(Clearance {
         bearing_radius: Some(0.01),
@@ -40,16 +36,20 @@ fn scene(speed: f64) -> Scene {
     scene
 }
 
-/// Simulates the turn shown, at each speed.
+/// Simulates the turn shown, at each speed; the crank angle counts from its beginning.
 fn turns() -> Result<Vec<Vec<Row>>, Error> {
     let options = Options {
         estimate: false,
         ..Options::default()
     };
+    // In the turn before, the journal reaches the wall.
+    let before = 1.0;
     let turn = |speed: &f64| {
         let mut rows: Vec<Row> = Vec::new();
-        simulate_rows(&scene(*speed), &options, &mut rows)?;
-        rows.retain(|row| row.theta >= (BEFORE - 1e-9) * TAU);
+        let scene = scene(*speed).revolutions(before + 1.0);
+        simulate_rows(&scene, &options, &mut rows)?;
+        rows.retain(|row| row.theta >= (before - 1e-9) * TAU);
+        rows.iter_mut().for_each(|row| row.theta -= before * TAU);
         Ok(rows)
     };
     SPEEDS.iter().map(turn).collect()
@@ -103,8 +103,8 @@ fn drawings(turns: &[Vec<Row>]) -> Vec<Drawing> {
     let figure = |(i, name): (usize, &str)| {
         let plots = SPEEDS.iter().zip(turns).map(|(speed, rows)| {
             let series = |label: String, style: Style, value: &dyn Fn(&Row) -> f64| {
-                let angle = |row: &Row| (row.theta - BEFORE * TAU).to_degrees();
-                let points = rows.iter().map(|row| (angle(row), value(row))).collect();
+                let point = |row: &Row| (row.theta.to_degrees(), value(row));
+                let points = rows.iter().map(point).collect();
                 Series {
                     label,
                     style,

@@ -2,19 +2,13 @@
 //! without formula: the calibration line, and the points of the tables in the figures.
 
 use super::drawing::{Drawing, Style};
-use super::formulas::{Files, PaperFormulas};
+use super::formulas::{PaperFormulas, files};
 use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::friction_from_tilt;
 use crate::numeric::line_fit::LineFit;
 use crate::scene::{Load, Scene};
 use crate::statics::{StaticsOptions, statics};
-
-const FILES: Files = Files {
-    symbols: include_str!("../../data/papers/ng-symbols.csv"),
-    claims: include_str!("../../data/papers/ng.csv"),
-    figures: include_str!("../../data/papers/ng-figures.csv"),
-};
 
 /// Table 1: weights, N, and strains, 1e-6.
 const CALIBRATION: [(f64, f64); 6] = [
@@ -27,7 +21,7 @@ const CALIBRATION: [(f64, f64); 6] = [
 ];
 
 pub(super) fn formulas() -> Result<PaperFormulas, Error> {
-    let symbols = PaperFormulas::new(FILES)?;
+    let symbols = PaperFormulas::new(files!("ng"))?;
     let [k, c, torque] = symbols.numbers(["k", "c", "torque"])?;
     let friction = friction_from_tilt(std::f64::consts::FRAC_PI_4);
     let held = |torque: f64| -> Result<MechanismQuantities, Error> {

@@ -32,8 +32,8 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Creates a radial clearance (m) at a joint, with the law of Lankarani and Nikravesh and without values for the
-    /// contact.
+    /// Creates a radial clearance (m) at a joint, with the law of Lankarani and Nikravesh, friction threshold 0.01 m/s,
+    /// least approach speed 1 mm/s, and without values for the contact.
     ///
     /// ```
     /// use slider_crank::scene::{Clearance, Joint};
@@ -56,17 +56,12 @@ impl Clearance {
             restitution: None,
             friction: None,
             law: ContactLaw::default(),
-            friction_threshold: Clearance::FRICTION_THRESHOLD,
-            least_approach_speed: Clearance::LEAST_APPROACH_SPEED,
+            friction_threshold: 0.01,
+            least_approach_speed: 1e-3,
             eccentricity: None,
             eccentricity_angle: None,
         }
     }
-
-    /// Default of [`Clearance::friction_threshold`], m/s.
-    pub const FRICTION_THRESHOLD: f64 = 0.01;
-    /// Default of [`Clearance::least_approach_speed`], m/s.
-    pub const LEAST_APPROACH_SPEED: f64 = 1e-3;
 }
 
 /// A revolute joint of the connecting rod.

@@ -5,9 +5,6 @@ use std::iter::successors;
 
 use super::{Load, Periodicity, Table, Variable};
 
-/// Largest number of table rows in a turn whose corners are listed; with more, corners are looked up row by row.
-const MOST_CORNERS_OF_TURN: f64 = 1e5;
-
 impl Load {
     /// Returns the crank angles, rad, at which the load is not smooth, from its table: all rows if the table has no
     /// period; the rows of one cycle if it is in step with the turns; none otherwise ([`Load::corners_out_of_step`]).
@@ -80,12 +77,14 @@ impl Load {
     }
 }
 
-/// Returns the whole turns after which a table over the crank angle repeats, if it has few enough rows in a turn.
+/// Returns the whole turns after which a table over the crank angle repeats, if it has few enough rows in a turn for
+/// their corners to be listed; with more, corners are looked up row by row.
 fn turns_in_step(table: &Table) -> Option<f64> {
     let Periodicity::After(period) = table.repeats() else {
         return None;
     };
     let turns = f64::from(period.whole_turns());
     let periods = turns * TAU / period.radians();
-    (table.rows().len() as f64 * periods <= MOST_CORNERS_OF_TURN * turns).then_some(turns)
+    let most_rows_of_turn = 1e5;
+    (table.rows().len() as f64 * periods <= most_rows_of_turn * turns).then_some(turns)
 }

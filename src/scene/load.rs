@@ -206,7 +206,7 @@ impl Load {
     }
 
     /// Returns the table of the load, if the load has one.
-    pub(super) fn table(&self) -> Option<&Table> {
+    pub(crate) fn table(&self) -> Option<&Table> {
         match self {
             Load::Table(table)
             | Load::Gas {
@@ -215,11 +215,6 @@ impl Load {
             Load::Dry(magnitude) => magnitude.table(),
             _ => None,
         }
-    }
-
-    /// Whether the load takes its values from a table.
-    pub fn is_tabulated(&self) -> bool {
-        self.table().is_some()
     }
 
     /// Whether the load is known to be always zero, which leaves it out of the model.

@@ -33,6 +33,8 @@ pub(crate) use file::{DUARTE, nearest};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use model::{LoadKey, LoadOf, MovedScene, Scene};
+#[cfg(feature = "cli")]
+pub(crate) use number::rounded;
 pub use parts::{
     Branch, Crank, Every, Extent, Friction, Geometry, Gravity, InertiaAbout, Motion, MotionKind,
     Rod, RodModel, Run, Slider,

@@ -1,5 +1,7 @@
 //! Numbers: their length in a text, and their form in messages.
 
+use std::ops::Range;
+
 /// Returns the length, bytes, of the unsigned number that begins the text: digits and points, then an exponent.
 pub(super) fn length(text: &str) -> usize {
     let mantissa = text
@@ -28,7 +30,7 @@ pub(super) fn plain(text: &str) -> String {
 
 /// Formats a stated value with 12 significant digits, which hides rounding noise.
 pub(super) fn show(value: f64) -> String {
-    rounded(value, 12)
+    rounded(value, 12, WITHOUT_EXPONENT)
 }
 
 /// Formats a value with its unit, if it has one.
@@ -39,14 +41,19 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
 /// Formats two values that differ with enough digits to show it.
 pub(super) fn apart(a: f64, b: f64) -> (String, String) {
     (6..=17)
-        .map(|digits| (rounded(a, digits), rounded(b, digits)))
+        .map(|digits| {
+            (
+                rounded(a, digits, WITHOUT_EXPONENT),
+                rounded(b, digits, WITHOUT_EXPONENT),
+            )
+        })
         .find(|(a, b)| a != b)
         .unwrap_or_else(|| (show(a), show(b)))
 }
 
 /// Formats a computed value with six significant digits.
 pub(super) fn computed(value: f64) -> String {
-    rounded(value, 6)
+    rounded(value, 6, WITHOUT_EXPONENT)
 }
 
 /// Formats a count with its noun: `1 row`, `2 rows`.
@@ -54,13 +61,18 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-fn rounded(value: f64, digits: usize) -> String {
-    let value = format!("{value:.*e}", digits - 1)
-        .parse::<f64>()
-        .map_or(value, |short| short + 0.0);
-    if value == 0.0 || !value.is_finite() || (1e-6..1e15).contains(&value.abs()) {
-        value.to_string()
-    } else {
-        format!("{value:e}")
+/// Sizes of the numbers that messages write without exponent.
+const WITHOUT_EXPONENT: Range<f64> = 1e-6..1e15;
+
+/// Formats a number with at most `digits` significant digits, without trailing zeros; without exponent if its size is
+/// in `plain`.
+pub(crate) fn rounded(value: f64, digits: usize, plain: Range<f64>) -> String {
+    let short = format!("{value:.*e}", digits - 1);
+    // Minus zero is zero.
+    let value = short.parse().unwrap_or(value) + 0.0;
+    let size = value.abs();
+    match size == 0.0 || !size.is_finite() || plain.contains(&size) {
+        true => format!("{value}"),
+        false => format!("{value:e}"),
     }
 }

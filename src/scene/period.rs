@@ -6,13 +6,6 @@ use std::fmt;
 /// Longest cycle, turns, because a cycle is tabulated as a whole; a multiple of all numbers up to six.
 const LONGEST_CYCLE: u32 = 120;
 
-/// Largest probability that a random number of as many digits is as near to a fraction of so small a denominator; a
-/// number with a larger one is not taken for a fraction.
-const CHANCE: f64 = 1e-3;
-
-/// Relative rounding error of a number that was computed from exact ones in a few steps.
-const ANGLE_ROUNDING: f64 = 4.0 * f64::EPSILON;
-
 /// Positive rational number of turns of the crank, in lowest terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Period {
@@ -58,18 +51,21 @@ impl Period {
         f64::from(self.turns) * TAU / f64::from(self.parts)
     }
 
-    /// Returns the fraction that a number of turns, known to the relative error `relative`, stands for.
+    /// Returns the fraction that a number of turns stands for, known to the relative error `relative`, and computed from
+    /// exact numbers in a few steps.
     pub(super) fn near(turns: f64, relative: f64) -> Result<Period, WhyNot> {
         if !(turns.is_finite() && turns > 0.0) {
             return Err(WhyNot::Incommensurable);
         }
-        let off = relative * turns;
+        let off = relative.max(4.0 * f64::EPSILON) * turns;
         let Some([whole, parts]) = simplest(turns - off, turns + off) else {
             return Err(WhyNot::Incommensurable);
         };
         // Bound of the number of fractions in a turn with at most this denominator; times `2 off`, the share near one.
         let fractions = 0.5 * parts * (parts + 1.0);
-        if whole < 1.0 || 2.0 * off * fractions > CHANCE {
+        // Largest probability with which a random number of as many digits is as near to one of them.
+        let largest_chance = 1e-3;
+        if whole < 1.0 || 2.0 * off * fractions > largest_chance {
             return Err(WhyNot::Incommensurable);
         }
         match whole <= f64::from(LONGEST_CYCLE) && parts <= f64::from(u32::MAX) {
@@ -83,13 +79,13 @@ impl Period {
 
     /// Returns the fraction of a turn that equals an angle (rad) up to rounding.
     pub(super) fn of_angle(angle: f64) -> Result<Period, WhyNot> {
-        Period::near(angle / TAU, ANGLE_ROUNDING)
+        Period::near(angle / TAU, 0.0)
     }
 
     /// Returns the period of an angle (rad) as written, rounded or cut off at its last digit, like a turn on a
     /// calculator, 6.283185307 rad.
     pub(super) fn as_written(angle: f64) -> Result<Period, WhyNot> {
-        Period::near(angle / TAU, (last_unit(angle) / angle).max(ANGLE_ROUNDING))
+        Period::near(angle / TAU, last_unit(angle) / angle)
     }
 
     /// Returns the least common multiple of two periods.

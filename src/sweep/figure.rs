@@ -4,10 +4,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::Design;
-use crate::kinematics::{Diagrams, Kinematics, Located};
+use crate::kinematics::{Kinematics, Located};
 use crate::scene::nearest;
 use crate::scene::unit::Quantity;
-use crate::simulate::{Peaks, SteadyState, Summary};
 use FigureValue::{Empty, Number, Word};
 
 /// Key figure of a design, parsed from its name with or without the unit.
@@ -22,18 +21,9 @@ use FigureValue::{Empty, Number, Word};
 pub struct Figure {
     name: &'static str,
     quantity: Quantity,
-    of: Of,
-}
-
-/// Function that reads a figure, by the result it needs.
-#[derive(Clone, Copy)]
-enum Of {
-    Turn(fn(&Kinematics) -> FigureValue<'_>),
-    Diagrams(fn(&Diagrams) -> FigureValue<'_>),
-    Motion(fn(&Summary) -> FigureValue<'_>),
-    Peaks(fn(&Peaks) -> FigureValue<'_>),
-    Steady(fn(&SteadyState) -> FigureValue<'_>),
-    Flywheel(fn(&SteadyState) -> FigureValue<'_>),
+    source: Source,
+    /// Reads the figure from its result; none for a design without that result.
+    read: fn(&Design) -> Option<FigureValue<'_>>,
 }
 
 /// Value of a figure for one design.
@@ -64,13 +54,16 @@ pub enum Source {
     Flywheel,
 }
 
-/// Table of figures: name, quantity and value, grouped by the result from which they are read.
+/// Table of figures: name, quantity and value, grouped by the result of a design from which they are read.
 macro_rules! figures {
-    ($($source:ident: |$result:ident| { $($name:literal: $quantity:ident = $value:expr;)* })*) => {
+    ($($source:ident: |$design:ident| $of:expr, |$result:ident| {
+        $($name:literal: $quantity:ident = $value:expr;)*
+    })*) => {
         &[$($(Figure {
             name: $name,
             quantity: Quantity::$quantity,
-            of: Of::$source(|$result| $value),
+            source: Source::$source,
+            read: |$design| $of.map(|$result| $value),
         },)*)*]
     };
 }
@@ -88,7 +81,7 @@ fn at_speed(turn: &Kinematics, located: Option<Located>) -> FigureValue<'static>
 impl Figure {
     /// All figures, in the order of the columns.
     pub const ALL: &[Figure] = figures! {
-        Turn: |turn| {
+        Turn: |design| design.kinematics.as_ref(), |turn| {
             "class": Number = Word(turn.class);
             "stroke": Length = Number(turn.stroke_m);
             "advance": Angle = some(turn.advance_rad);
@@ -100,7 +93,7 @@ impl Figure {
             "acceleration_max": Acceleration = at_speed(turn, turn.acceleration_max);
             "acceleration_min": Acceleration = at_speed(turn, turn.acceleration_min);
         }
-        Diagrams: |cycle| {
+        Diagrams: |design| design.diagrams.as_ref(), |cycle| {
             "indicated_work": Energy = some(cycle.indicated.as_ref().map(|gas| gas.work_j));
             "mean_effective_pressure": Pressure = {
                 let gas = cycle.indicated.as_ref();
@@ -109,7 +102,7 @@ impl Figure {
             "turning_moment_mean": Torque = Number(cycle.turning_moment.mean_nm);
             "turning_moment_fluctuation": Energy = Number(cycle.turning_moment.fluctuation_j);
         }
-        Motion: |run| {
+        Motion: |design| design.motion.as_ref(), |run| {
             "engine": Number = Word(&run.engine);
             "t": Time = Number(run.last.t_s);
             "theta": Angle = Number(run.last.theta_rad);
@@ -126,14 +119,14 @@ impl Figure {
             "evaluations": Number = Number(run.evaluations as f64);
             "events": Number = Number(run.events_total as f64);
         }
-        Peaks: |peaks| {
+        Peaks: |design| design.motion.as_ref().and_then(|run| run.peaks.as_ref()), |peaks| {
             "crank_bearing_peak": Force = Number(peaks.crank_bearing.value_n);
             "crank_pin_peak": Force = Number(peaks.crank_pin.value_n);
             "wrist_pin_peak": Force = Number(peaks.wrist_pin.value_n);
             "guide_peak": Force = Number(peaks.guide.value_n);
             "shaking_peak": Force = Number(peaks.shaking.value_n);
         }
-        Steady: |steady| {
+        Steady: |design| design.steady.as_ref(), |steady| {
             "cycle_turns": Number = Number(f64::from(steady.cycle_turns));
             "steady_omega_mean": AngularSpeed = Number(steady.omega_mean_rad_per_s.value);
             "steady_omega_min": AngularSpeed = Number(steady.slowest.omega_rad_per_s.value);
@@ -142,7 +135,7 @@ impl Figure {
             "error_fluctuation": Number = Number(steady.fluctuation.error);
             "steady_power_in": Power = Number(steady.power_in_w.value);
         }
-        Flywheel: |steady| {
+        Flywheel: |design| design.steady.as_ref(), |steady| {
             "flywheel_added_inertia": Inertia = {
                 let wheel = steady.flywheel.as_ref();
                 some(wheel.map(|wheel| wheel.added_inertia_kg_m2.value))
@@ -157,27 +150,12 @@ impl Figure {
 
     /// Returns the computation that the figure needs.
     pub fn source(&self) -> Source {
-        match self.of {
-            Of::Turn(_) => Source::Turn,
-            Of::Diagrams(_) => Source::Diagrams,
-            Of::Motion(_) => Source::Motion,
-            Of::Peaks(_) => Source::Peaks,
-            Of::Steady(_) => Source::Steady,
-            Of::Flywheel(_) => Source::Flywheel,
-        }
+        self.source
     }
 
     /// Returns the value for a design.
     pub fn value<'a>(&self, design: &'a Design) -> FigureValue<'a> {
-        let motion = design.motion.as_ref();
-        let value = match self.of {
-            Of::Turn(read) => design.kinematics.as_ref().map(read),
-            Of::Diagrams(read) => design.diagrams.as_ref().map(read),
-            Of::Motion(read) => motion.map(read),
-            Of::Peaks(read) => motion.and_then(|run| run.peaks.as_ref()).map(read),
-            Of::Steady(read) | Of::Flywheel(read) => design.steady.as_ref().map(read),
-        };
-        value.unwrap_or(Empty)
+        (self.read)(design).unwrap_or(Empty)
     }
 
     /// Returns the number for a design, in SI units and radians; none for a word or an absent value.

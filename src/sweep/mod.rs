@@ -21,7 +21,7 @@ pub use pareto::{Goal, Member, ParetoFront};
 
 const EXAMPLE: &str = "say which key takes which values, like --vary geometry.offset=0mm:20mm:41";
 
-/// Checks that each key is varied once, distributions are sampled, and the number of designs is within [`Sweep::MOST`].
+/// Checks that each key is varied once, distributions are sampled, and the number of designs is within [`Sweep::MOST_DESIGNS`].
 fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), Error> {
     let refused = |what, help: &str| Err(Error::refused(what, help));
     for (i, one) in varied.iter().enumerate() {
@@ -46,9 +46,9 @@ fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), 
     };
     match designs {
         _ if varied.is_empty() => refused("no key is varied".to_owned(), EXAMPLE),
-        Some(designs) if designs <= Sweep::MOST => Ok(()),
+        Some(designs) if designs <= Sweep::MOST_DESIGNS => Ok(()),
         _ => {
-            let what = format!("the sweep has more than {} designs", Sweep::MOST);
+            let what = format!("the sweep has more than {} designs", Sweep::MOST_DESIGNS);
             refused(what, EXAMPLE)
         }
     }
@@ -80,13 +80,13 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Maximum number of designs of a sweep.
-    pub const MOST: usize = 1_000_000_000;
+    /// Maximum number of designs of a sweep; more come from a typing error.
+    pub const MOST_DESIGNS: usize = 1_000_000_000;
 
     /// Prepares a sweep over all combinations of the values, or over a sample.
     ///
     /// # Errors
-    /// [`Error::Refused`] if no key is varied, one key is varied twice, there are more than [`Sweep::MOST`] designs,
+    /// [`Error::Refused`] if no key is varied, one key is varied twice, there are more than [`Sweep::MOST_DESIGNS`] designs,
     /// a distribution is not sampled, forces or named figures of a motion have no motion, or a figure of the flywheel
     /// no coefficient of fluctuation; [`Error::Scene`] if neither the scene as written nor the first design can be
     /// read, or a varied load does not exist.

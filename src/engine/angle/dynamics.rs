@@ -6,7 +6,7 @@ use super::Table;
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 
 /// State of the crank at a tabulated position.
 #[derive(Clone, Copy)]
@@ -54,10 +54,10 @@ pub trait Dynamics {
     fn state_loads<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
 
     /// True if the state loads may vary between the points of a panel without a trace in the decay of their series.
-    fn has_detail(&self) -> bool;
+    fn varies_between_nodes(&self) -> bool;
 
     /// Returns the variation of their generalized force, N m, on a piece and in its Bernstein ellipse, ρ = `ellipse`.
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail;
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation;
 
     /// Returns the contribution of the state loads to the switch.
     fn switch_of_state_loads(&self, at: &State<'_, Self::Place>) -> f64;

@@ -23,7 +23,7 @@ impl<'a> Guide<'a> {
     /// Makes a guide from a motion in one direction whose series have decayed to `tail`.
     pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
         Guide {
-            segment: orbit.last_leg(),
+            segment: orbit.last_segment(),
             tail,
             index: 0,
         }

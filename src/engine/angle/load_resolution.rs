@@ -3,11 +3,11 @@
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::solution::PanelSolution;
 use super::{Dynamics, State, Table};
-use crate::engine::events::ROUNDED;
-use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
+use crate::engine::events::ANGLE_ROUNDING;
+use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
-use crate::numeric::enclosure::{Detail, Interval, MotionPiece, ellipses};
+use crate::numeric::enclosure::{Interval, MotionPiece, Variation, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Motion on a solved panel.
@@ -32,7 +32,7 @@ pub(super) fn unresolved_at<D: Dynamics>(
     fine: Fineness,
     solution: &PanelSolution,
 ) -> Option<f64> {
-    if !dynamics.has_detail() {
+    if !dynamics.varies_between_nodes() {
         return None;
     }
     let (rule, slope) = (panel.rule, &solution.slope);
@@ -56,10 +56,10 @@ pub(super) fn unresolved_at<D: Dynamics>(
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
-        least: 2.0 * ROUNDED / panel.half().abs(),
-        compares: true,
+        least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
+        has_interpolant: true,
     };
-    hidden(&way, look).map(|hidden| hidden.at)
+    unresolved(&way, look).map(|unresolved| unresolved.at)
 }
 
 /// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.
@@ -77,7 +77,7 @@ pub(super) fn resolves_speeds<D: Dynamics>(
             angle: Interval::point(angle.radians()),
             speed,
         };
-        look.shows(|ellipse| dynamics.detail(&reach, ellipse))
+        look.resolves(|ellipse| dynamics.variation(&reach, ellipse))
     })
 }
 
@@ -95,8 +95,8 @@ impl<D: Dynamics> OnPanel<'_, D> {
     }
 }
 
-impl<D: Dynamics> Interpolant for OnPanel<'_, D> {
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
+impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation {
         let slope = &self.solution.slope;
         let [about, steep] = self.varies;
         let by_mean = Interval::point(slope.coefficient(0)).widened(about);
@@ -115,7 +115,7 @@ impl<D: Dynamics> Interpolant for OnPanel<'_, D> {
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
         };
-        self.dynamics.detail(&reach, ellipse)
+        self.dynamics.variation(&reach, ellipse)
     }
 
     fn missed(&self, at: f64) -> f64 {

@@ -10,7 +10,7 @@ use super::{AngleRun, Dynamics, EarlyEnd, Goal, Resolution};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::run_in_time::{Ends, FAR, Start};
+use crate::engine::run_in_time::{Ends, Start, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
 
 /// Integrates from a start to the goal, or as far as the angle can be the independent variable.
@@ -35,7 +35,7 @@ pub fn run<D: Dynamics>(
         let done = stepper.panels.at_cycle() && segment.len() > 0;
         if done
             && forecast
-                .is_hopeless(cost, stepper.progress.t.0, way)
+                .reason_to_stop(cost, stepper.progress.t.0, way)
                 .is_some()
         {
             let why = NotApplicable::TooManyTurns;
@@ -66,7 +66,7 @@ pub fn run<D: Dynamics>(
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
-            let work = stepper.progress.work - work + work_until(orbit.last_leg(), end, &force);
+            let work = stepper.progress.work - work + work_until(orbit.last_segment(), end, &force);
             stepper.leave_panels();
             return Ok(AngleRun {
                 orbit,
@@ -88,7 +88,7 @@ fn forecast<'a, D: Dynamics>(
 ) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
-        Goal::Turned(way) => (FAR, way),
+        Goal::Turned(way) => (UNLIMITED_TIME, way),
     };
     let ends = Ends {
         t,

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use super::super::energy::NotApplicable;
-use super::super::energy::error_bound::off_by_place;
+use super::super::energy::error_bound::energy_error_of_angle;
 use super::super::energy::piece::Piece;
 use super::cycle_panels::{self, CyclePanels};
 use super::guide::Guide;
@@ -78,7 +78,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             0.0
         } else {
             let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
-            off_by_place(angle.rest, kinetic, [here, next], beside)
+            energy_error_of_angle(angle.rest, kinetic, [here, next], beside)
         };
         Ok(PanelStepper {
             dynamics,

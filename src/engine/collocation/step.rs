@@ -1,6 +1,6 @@
 //! One collocation step: sweeps to convergence, then error estimate and next length.
 
-use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
+use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
@@ -17,7 +17,7 @@ pub struct Collocation<'a> {
     pub(super) tolerance: f64,
     /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
-    has_detail: bool,
+    varies_between_nodes: bool,
     has_power: bool,
     pub(super) batch: Batch,
     /// Length (s) and Legendre coefficients of the acceleration (rad/s²) of the last step.
@@ -37,7 +37,7 @@ impl<'a> Collocation<'a> {
             tableau: Tableau::get(),
             tolerance: settings.tolerance,
             guide: settings.guide,
-            has_detail: motion.has_detail(),
+            varies_between_nodes: motion.varies_between_nodes(),
             has_power: motion.has_power(),
             batch: Batch::default(),
             last: None,
@@ -57,10 +57,12 @@ impl<'a> Collocation<'a> {
     pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Failed> {
         let result = self.attempt_whole(state, step);
         match result {
-            Err(Failed::TooLong(factor)) if self.has_detail => match self.corner(state, step.h) {
-                Some(at) => Err(Failed::Meets { at, factor }),
-                None => result,
-            },
+            Err(Failed::TooLong(factor)) if self.varies_between_nodes => {
+                match self.corner(state, step.h) {
+                    Some(at) => Err(Failed::Meets { at, factor }),
+                    None => result,
+                }
+            }
             _ => result,
         }
     }
@@ -227,8 +229,8 @@ impl<'a> Collocation<'a> {
     }
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
-    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
-        if !self.has_detail {
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Unresolved> {
+        if !self.varies_between_nodes {
             return None;
         }
         let h = step.length();
@@ -237,7 +239,7 @@ impl<'a> Collocation<'a> {
         // Fraction of the tolerance to which the terms of a load that the nodes resolve have decayed.
         let (times, part) = ([state.t, state.t + h], 1e-2 * self.tolerance);
         let look = NodeCriterion {
-            compares: true,
+            has_interpolant: true,
             ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {
@@ -245,7 +247,7 @@ impl<'a> Collocation<'a> {
             step,
             nodes: Some(coefficients),
         };
-        hidden(&way, look)
+        unresolved(&way, look)
     }
 
     /// Returns the step, the state at its end, and the acceleration there, rad/s².

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::key_values::{Facts, fact, six};
 use super::quantity::{Quantity, split};
 use super::table::Table;
+use super::text::NAME_WIDTH;
 use super::{DefaultView, Report};
 use crate::error::Error;
 pub use motion::Motion;
@@ -103,10 +104,8 @@ impl Comparison {
                 "compare scenes, rows of `simulate --out` or measured motions with overlapping times",
             ));
         }
-        let mut table = Table::new(&names);
-        for k in 0..times.len() {
-            table.push(values.iter().map(|column| column[k]));
-        }
+        let row = |k: usize| values.iter().map(move |column| column[k]);
+        let table = Table::filled(&names, (0..times.len()).map(row));
         let names: Vec<String> = motions.iter().map(|motion| motion.name.clone()).collect();
         Ok(Comparison {
             title: names.join(", "),
@@ -144,7 +143,7 @@ impl Report for Comparison {
     }
 
     fn text(&self) -> String {
-        self.facts().lines(24)
+        self.facts().lines(NAME_WIDTH)
     }
 
     fn table(&self) -> Table {

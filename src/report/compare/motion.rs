@@ -20,13 +20,10 @@ pub struct Motion {
 impl Motion {
     /// Returns the motion of the rows of a run.
     pub fn of_rows(name: &str, rows: &[Row]) -> Motion {
-        let mut table = Table::new(&rows.first().map_or(TIME.to_owned(), header));
-        for row in rows {
-            table.push(cells(row));
-        }
+        let header = rows.first().map_or(TIME.to_owned(), header);
         Motion {
             name: name.to_owned(),
-            table,
+            table: Table::filled(&header, rows.iter().map(cells)),
         }
     }
 
@@ -45,10 +42,9 @@ impl Motion {
             Measured::Gamma => "gamma_rad",
             Measured::X => "x_m",
         };
-        let mut table = Table::new(&format!("{TIME},{column}"));
-        for (t, value) in measured.times().iter().zip(measured.values()) {
-            table.push([*t, *value]);
-        }
+        let rows = measured.times().iter().zip(measured.values());
+        let rows = rows.map(|(t, value)| [*t, *value]);
+        let table = Table::filled(&format!("{TIME},{column}"), rows);
         Ok(Motion { name, table })
     }
 

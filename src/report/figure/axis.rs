@@ -1,23 +1,15 @@
 //! Axis of a figure: label, range, mapping of values to positions, and ticks.
 
-use super::clip::inside;
-use super::words::{TEXT, fitted, width};
-
-/// Fraction of the range of the values left free at each end of an axis.
-const FREE_SHARE: f64 = 0.04;
-
-/// Largest size of a value that is drawn; differences of larger ones may overflow.
-const LARGEST: f64 = 1e300;
-
-/// Relative range of values below which they count as constant.
-const CONSTANT: f64 = 1e-13;
+use super::clip::{POSITION_ROUNDING, inside};
+use super::layout::LAYOUT;
+use super::words::{fitted, width};
 
 /// Tick distances of angles: parts and multiples of a turn, degrees.
 const PARTS_OF_TURN: [f64; 8] = [10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
 
 /// Kind of scale of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Spacing {
+enum Kind {
     Linear,
     /// Linear, with ticks at parts of a turn.
     Degrees,
@@ -25,14 +17,16 @@ enum Spacing {
     Log,
 }
 
-impl Spacing {
+impl Kind {
     /// Returns the coordinate of a value along the axis; NaN if it cannot be drawn.
     fn coordinate(self, value: f64) -> f64 {
+        // Differences of larger values may overflow.
+        let largest = 1e300;
         match self {
-            _ if value.abs() > LARGEST => f64::NAN,
-            Spacing::Log if value > 0.0 => value.log10(),
-            Spacing::Log => f64::NAN,
-            Spacing::Linear | Spacing::Degrees => value,
+            _ if value.abs() > largest => f64::NAN,
+            Kind::Log if value > 0.0 => value.log10(),
+            Kind::Log => f64::NAN,
+            Kind::Linear | Kind::Degrees => value,
         }
     }
 }
@@ -43,12 +37,12 @@ pub struct Axis {
     pub(in crate::report) label: String,
     /// Label used where the full one does not fit; empty for none.
     short: String,
-    kind: Spacing,
+    kind: Kind,
     range: Option<(f64, f64)>,
 }
 
 impl Axis {
-    fn new(label: impl Into<String>, kind: Spacing) -> Axis {
+    fn new(label: impl Into<String>, kind: Kind) -> Axis {
         Axis {
             label: label.into(),
             short: String::new(),
@@ -59,17 +53,17 @@ impl Axis {
 
     /// Returns a linear axis; the label names the quantity and its unit.
     pub fn linear(label: impl Into<String>) -> Axis {
-        Axis::new(label, Spacing::Linear)
+        Axis::new(label, Kind::Linear)
     }
 
     /// Returns a linear axis of angles in degrees, ticks at parts of a turn; the label names the angle and its unit.
     pub fn degrees(label: impl Into<String>) -> Axis {
-        Axis::new(label, Spacing::Degrees)
+        Axis::new(label, Kind::Degrees)
     }
 
     /// Returns a logarithmic axis; the label names the quantity and its unit.
     pub fn log(label: impl Into<String>) -> Axis {
-        Axis::new(label, Spacing::Log)
+        Axis::new(label, Kind::Log)
     }
 
     /// Sets a shorter label, used where the full one does not fit.
@@ -86,13 +80,13 @@ impl Axis {
 
     /// Sets the range, widened by the usual free space of an axis.
     pub fn around(self, low: f64, high: f64) -> Axis {
-        let free = FREE_SHARE * (high - low);
+        let free = free_space(low, high);
         self.range(low - free, high + free)
     }
 
     /// Returns the label that fits into a length, pixels.
     pub(super) fn label_within(&self, length: f64) -> String {
-        match width(&self.label, TEXT) <= length || self.short.is_empty() {
+        match width(&self.label, LAYOUT.text) <= length || self.short.is_empty() {
             true => fitted(&self.label, length),
             false => fitted(&self.short, length),
         }
@@ -112,7 +106,7 @@ pub(super) struct Tick {
 
 /// Scale of an axis: kind and limits of the coordinate.
 pub(super) struct Scale {
-    kind: Spacing,
+    kind: Kind,
     low: f64,
     high: f64,
 }
@@ -132,13 +126,14 @@ impl Scale {
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
                     (low.min(value), high.max(value))
                 });
+            // Equal values differ by rounding.
+            let is_constant = high - low <= 1e-13 * low.abs().max(high.abs());
             let margin = match kind {
                 _ if low > high => return (0.0, 1.0),
-                Spacing::Log if high - low < 0.1 => 0.5,
-                Spacing::Linear if high - low <= CONSTANT * low.abs().max(high.abs()) => {
-                    if low == 0.0 { 1.0 } else { 0.1 * low.abs() }
-                }
-                _ => FREE_SHARE * (high - low),
+                Kind::Log if high - low < 0.1 => 0.5,
+                Kind::Linear if is_constant && low == 0.0 => 1.0,
+                Kind::Linear if is_constant => 0.1 * low.abs(),
+                _ => free_space(low, high),
             };
             (low - margin, high + margin)
         });
@@ -164,7 +159,7 @@ impl Scale {
 
     /// Returns the position of a value, clamped to 0 to 1; 0 for a value that is not positive on a logarithmic axis.
     pub fn clamped(&self, value: f64) -> f64 {
-        if self.kind == Spacing::Log && value <= 0.0 {
+        if self.kind == Kind::Log && value <= 0.0 {
             return 0.0;
         }
         self.position(value).clamp(0.0, 1.0)
@@ -172,7 +167,7 @@ impl Scale {
 
     /// Returns at most `most` ticks.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
-        if self.kind != Spacing::Log {
+        if self.kind != Kind::Log {
             return self.even(self.low, self.high, most);
         }
         let parts = self.decades(1, &[1, 2, 5]);
@@ -208,11 +203,11 @@ impl Scale {
         let least = (high - low) / most.max(1) as f64;
         let of_turn = PARTS_OF_TURN.into_iter().find(|part| *part >= least);
         let step = of_turn
-            .filter(|_| self.kind == Spacing::Degrees && least > 5.0)
+            .filter(|_| self.kind == Kind::Degrees && least > 5.0)
             .unwrap_or_else(|| round_step(least));
         let digits = |value: f64| value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
         let size = digits(low.abs().max(high.abs()));
-        let last = digits(step * (1.0 + 1e-9));
+        let last = digits(step * (1.0 + POSITION_ROUNDING));
         let first = (low / step).ceil();
         let count = ((high / step).floor() - first).max(0.0) as usize + 1;
         self.shown((0..count.min(most + 1)).map(|i| {
@@ -220,7 +215,7 @@ impl Scale {
             let label = if value == 0.0 {
                 "0".to_owned()
             } else if size > 6 || last < -6 {
-                let decimals = (digits(value * (1.0 + 1e-9)) - last).max(0) as usize;
+                let decimals = (digits(value * (1.0 + POSITION_ROUNDING)) - last).max(0) as usize;
                 format!("{value:.decimals$e}")
             } else {
                 format!("{value:.*}", (-last).max(0) as usize)
@@ -240,10 +235,15 @@ impl Scale {
     }
 }
 
+/// Returns the free space at each end of an axis: a part of the range of the values.
+fn free_space(low: f64, high: f64) -> f64 {
+    0.04 * (high - low)
+}
+
 /// Rounds up to 1, 2 or 5 times a power of ten.
 fn round_step(at_least: f64) -> f64 {
     let decade = 10f64.powf(at_least.max(f64::MIN_POSITIVE).log10().floor());
     let steps = [1.0, 2.0, 5.0].map(|part| part * decade).into_iter();
-    let mut large = steps.filter(|step| *step >= at_least * (1.0 - 1e-9));
+    let mut large = steps.filter(|step| *step >= at_least * (1.0 - POSITION_ROUNDING));
     large.next().unwrap_or(10.0 * decade)
 }

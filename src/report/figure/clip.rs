@@ -3,12 +3,12 @@
 /// Point (x, y), in units of the axes or pixels.
 pub(super) type Place = (f64, f64);
 
-/// Tolerance of rounding for a point on the border.
-const BORDER_ROUNDING: f64 = 1e-9;
+/// Relative rounding error of positions and ticks, far below a pixel.
+pub(super) const POSITION_ROUNDING: f64 = 1e-9;
 
 /// Whether a point lies in the unit square.
 pub(super) fn inside((x, y): Place) -> bool {
-    let range = -BORDER_ROUNDING..=1.0 + BORDER_ROUNDING;
+    let range = -POSITION_ROUNDING..=1.0 + POSITION_ROUNDING;
     range.contains(&x) && range.contains(&y)
 }
 

@@ -2,6 +2,7 @@
 
 mod axis;
 mod clip;
+mod layout;
 mod panel;
 mod sheet;
 mod svg;
@@ -11,7 +12,7 @@ use crate::error::Error;
 pub use axis::Axis;
 pub(super) use words::escaped;
 
-/// Pixels of a figure per inch.
+/// Resolution of a figure, pixels per inch: that of CSS.
 pub(super) const PIXELS_PER_INCH: f64 = 96.0;
 
 /// Style of a series.

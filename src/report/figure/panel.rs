@@ -2,30 +2,26 @@
 
 use super::axis::{Scale, Tick};
 use super::clip::{Place, inside, pieces};
-use super::svg::{SAMPLE, Svg};
-use super::words::{TEXT, TITLE, fitted, line_height, width, wrapped};
+use super::layout::LAYOUT;
+use super::svg::Svg;
+use super::words::{fitted, line_height, width, wrapped};
 use super::{Figure, Series, SeriesStyle};
-
-/// Free space at the edges, pixels.
-const EDGE_SPACE: f64 = 10.0;
-
-/// Free space on the right of the axes, pixels; it holds half a tick label.
-const RIGHT_SPACE: f64 = 34.0;
-
-/// Minimum distance between ticks of the y axis, pixels.
-const TICK_DISTANCE: f64 = 34.0;
-
-/// Free space after an entry of the legend, pixels.
-const ENTRY_GAP: f64 = 24.0;
-
-/// Height of a row of the legend, pixels.
-const ROW: f64 = 1.25 * TEXT + 4.0;
 
 /// Entry of the legend: label, cut to fit, and its series.
 type Entry<'f> = (String, Vec<&'f Series>);
 
 fn entry_width(label: &str) -> f64 {
-    SAMPLE + width(label, TEXT) + ENTRY_GAP
+    LAYOUT.sample + width(label, LAYOUT.text) + LAYOUT.entry_gap
+}
+
+/// Returns the height of a legend of this many rows, pixels.
+fn legend_height(rows: usize) -> f64 {
+    rows as f64 * (line_height(LAYOUT.text) + 4.0)
+}
+
+/// Returns the width of a panel of width `room` between its edges, pixels.
+fn inner_width(room: f64) -> f64 {
+    room - 2.0 * LAYOUT.edge_space
 }
 
 /// Returns the entries of the legend, in rows that fit into the width `room`, pixels.
@@ -37,7 +33,8 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match entries.iter_mut().find(known) {
             Some((_, of)) => of.push(series),
             None => {
-                let label = fitted(&series.label, room - 2.0 * EDGE_SPACE - SAMPLE - ENTRY_GAP);
+                let room = inner_width(room) - LAYOUT.sample - LAYOUT.entry_gap;
+                let label = fitted(&series.label, room);
                 entries.push((label, vec![series]));
             }
         }
@@ -49,7 +46,7 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match rows.last_mut() {
             Some(row) if needed <= left => row.push(entry),
             _ => {
-                left = room - 2.0 * EDGE_SPACE;
+                left = inner_width(room);
                 rows.push(vec![entry]);
             }
         }
@@ -59,28 +56,28 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
 }
 
 fn title(figure: &Figure, room: f64) -> Vec<String> {
-    wrapped(&figure.title, TITLE, room - 2.0 * EDGE_SPACE)
+    wrapped(&figure.title, LAYOUT.title, inner_width(room))
 }
 
 /// Returns the height that title and legend add to a panel of width `room`, pixels.
 pub(super) fn height_of_texts(figure: &Figure, room: f64) -> f64 {
     let lines = title(figure, room).len() as f64;
-    lines * line_height(TITLE) + legend(figure, room).len() as f64 * ROW
+    lines * line_height(LAYOUT.title) + legend_height(legend(figure, room).len())
 }
 
 /// Returns the height of label and ticks of the x axis, pixels.
 fn x_area(figure: &Figure) -> f64 {
     let lines = if figure.x.label.is_empty() { 1.0 } else { 2.0 };
-    lines * line_height(TEXT) + 20.0
+    lines * line_height(LAYOUT.text) + 20.0
 }
 
 fn widest(ticks: &[Tick]) -> f64 {
-    let widths = ticks.iter().map(|tick| width(&tick.label, TEXT));
+    let widths = ticks.iter().map(|tick| width(&tick.label, LAYOUT.text));
     widths.fold(0.0, f64::max)
 }
 
 fn y_ticks(scale: &Scale, figure: &Figure, height: f64) -> Vec<Tick> {
-    scale.ticks(((height - x_area(figure)) / TICK_DISTANCE).max(2.0) as usize)
+    scale.ticks(((height - x_area(figure)) / LAYOUT.tick_distance).max(2.0) as usize)
 }
 
 fn y_scale(figure: &Figure) -> Scale {
@@ -89,7 +86,7 @@ fn y_scale(figure: &Figure) -> Scale {
 
 /// Returns the width of label and ticks of the y axis, in a panel of `height`, pixels.
 pub(super) fn y_area(figure: &Figure, height: f64) -> f64 {
-    widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(TEXT) + 22.0
+    widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(LAYOUT.text) + 22.0
 }
 
 /// Draws a panel: upper left corner, width and height with texts, and width `y_area` of the y axis, pixels.
@@ -101,26 +98,28 @@ pub(super) fn panel(
     y_area: f64,
 ) {
     let titles = title(figure, room);
-    svg.lines((left + 0.5 * room, top + EDGE_SPACE), TITLE, &titles);
+    let edge = LAYOUT.edge_space;
+    svg.lines((left + 0.5 * room, top + edge), LAYOUT.title, &titles);
     let legend = legend(figure, room);
-    let mut y = top + height - 0.5 * EDGE_SPACE - legend.len() as f64 * ROW;
-    let high = top + EDGE_SPACE + titles.len() as f64 * line_height(TITLE) + 6.0;
-    let corner = (left + EDGE_SPACE + y_area, high);
+    let mut y = top + height - 0.5 * edge - legend_height(legend.len());
+    let high = top + edge + titles.len() as f64 * line_height(LAYOUT.title) + 6.0;
+    let corner = (left + edge + y_area, high);
     let size = (
-        room - y_area - EDGE_SPACE - RIGHT_SPACE,
+        room - y_area - edge - LAYOUT.right_space,
         y - high - x_area(figure),
     );
     axes(svg, figure, corner, size, y_area);
     for row in legend {
         let needed: f64 = row.iter().map(|(label, _)| entry_width(label)).sum();
         let mut x = left + 0.5 * (room - needed);
-        y += 0.5 * ROW;
+        y += 0.5 * legend_height(1);
         for (label, of) in row {
             of.iter().for_each(|series| svg.sample((x, y), series));
-            svg.text((x + SAMPLE + 6.0, y), "start", TEXT, 0.0, &label);
+            let begin = (x + LAYOUT.sample + LAYOUT.sample_gap, y);
+            svg.text(begin, "start", LAYOUT.text, 0.0, &label);
             x += entry_width(&label);
         }
-        y += 0.5 * ROW;
+        y += 0.5 * legend_height(1);
     }
 }
 
@@ -136,34 +135,35 @@ fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place
     let (right, low) = (left + long, high + tall);
     let place = |(u, v): Place| (left + u * long, low - v * tall);
     // The largest number of ticks whose labels fit.
-    let fits = |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + 16.0) <= long;
+    let fits =
+        |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + LAYOUT.tick_label_gap) <= long;
     let mut fewer = (2..=10).rev().map(|most| x.ticks(most));
     for tick in fewer.find(fits).unwrap_or_default() {
         let (x, _) = place((tick.at, 0.0));
         svg.segment((x, low), (x, high), "#DEDEDE");
-        svg.segment((x, low), (x, low + 5.0), "black");
-        svg.text((x, low + 14.0), "middle", TEXT, 0.0, &tick.label);
+        svg.segment((x, low), (x, low + LAYOUT.tick), "black");
+        svg.text((x, low + 14.0), "middle", LAYOUT.text, 0.0, &tick.label);
     }
     for tick in y_ticks(&y, figure, tall + x_area(figure)) {
         let (_, y) = place((0.0, tick.at));
         svg.segment((left, y), (right, y), "#DEDEDE");
-        svg.segment((left - 5.0, y), (left, y), "black");
-        svg.text((left - 9.0, y), "end", TEXT, 0.0, &tick.label);
+        svg.segment((left - LAYOUT.tick, y), (left, y), "black");
+        svg.text((left - 9.0, y), "end", LAYOUT.text, 0.0, &tick.label);
     }
     svg.segment((left, low), (right, low), "black");
     svg.segment((left, low), (left, high), "black");
     let middle = place((0.5, 0.5));
     if !figure.x.label.is_empty() {
-        let label = figure.x.label_within(long + RIGHT_SPACE);
-        svg.text((middle.0, low + 34.0), "middle", TEXT, 0.0, &label);
+        let label = figure.x.label_within(long + LAYOUT.right_space);
+        svg.text((middle.0, low + 34.0), "middle", LAYOUT.text, 0.0, &label);
     }
     if !figure.y.label.is_empty() {
         let label = figure.y.label_within(tall);
-        let x = left - y_area + 0.5 * line_height(TEXT);
-        svg.text((x, middle.1), "middle", TEXT, -90.0, &label);
+        let x = left - y_area + 0.5 * line_height(LAYOUT.text);
+        svg.text((x, middle.1), "middle", LAYOUT.text, -90.0, &label);
     }
     if figure.values(|(_, low, high)| [low, high]).all(f64::is_nan) {
-        svg.text(middle, "middle", TEXT, 0.0, "nothing to show");
+        svg.text(middle, "middle", LAYOUT.text, 0.0, "nothing to show");
     }
     // Bands lie under lines, lines under points.
     for layer in 0..3 {

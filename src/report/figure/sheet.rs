@@ -1,19 +1,11 @@
 //! Layout of a sheet: aligned panels under a common title, as SVG.
 
+use super::layout::LAYOUT;
 use super::panel;
 use super::svg::Svg;
-use super::words::{TITLE, escaped, line_height, wrapped};
+use super::words::{escaped, line_height, wrapped};
 use super::{Figure, PIXELS_PER_INCH, Sheet};
 use crate::error::Error;
-
-/// Default width and height of a panel, pixels, without title and legend.
-const PANEL: (f64, f64) = (680.0, 420.0);
-
-/// Minimum width and height of a panel, pixels, without title and legend.
-const LEAST_PANEL: (f64, f64) = (150.0, 100.0);
-
-/// Pixels per millimetre.
-const PER_MM: f64 = PIXELS_PER_INCH / 25.4;
 
 impl Sheet<'_> {
     /// Returns the figures as SVG; equal figures give equal texts.
@@ -23,15 +15,17 @@ impl Sheet<'_> {
     pub fn svg(&self, figures: &[Figure]) -> Result<String, Error> {
         let columns = self.columns.clamp(1, figures.len().max(1));
         let across = columns as f64;
+        let pixels_per_mm = PIXELS_PER_INCH / 25.4;
         let asked = self.size.map(|size| {
-            let [width, height] = [size.width, size.height].map(|mm| (PER_MM * mm).round());
-            (width, height)
+            let pixels = |mm: f64| (pixels_per_mm * mm).round();
+            (pixels(size.width), pixels(size.height))
         });
-        let width = asked.map_or(PANEL.0, |(width, _)| (width / across).floor());
-        let head = wrapped(self.title, TITLE, width * across - 40.0);
+        let (panel, least) = (LAYOUT.panel, LAYOUT.least_panel);
+        let width = asked.map_or(panel.0, |(width, _)| (width / across).floor());
+        let head = wrapped(self.title, LAYOUT.title, width * across - 40.0);
         let above = match head.len() {
             0 => 0.0,
-            lines => line_height(TITLE) * lines as f64 + 14.0,
+            lines => line_height(LAYOUT.title) * lines as f64 + 14.0,
         };
         let texts = figures.chunks(columns).map(|row| {
             let heights = row.iter().map(|one| panel::height_of_texts(one, width));
@@ -40,10 +34,10 @@ impl Sheet<'_> {
         let texts: Vec<f64> = texts.collect();
         let fixed = (above + texts.iter().sum::<f64>()).ceil();
         let rows = texts.len().max(1) as f64;
-        let inner = asked.map_or(PANEL.1, |(_, height)| ((height - fixed) / rows).floor());
-        if width < LEAST_PANEL.0 || inner < LEAST_PANEL.1 {
-            let least = [LEAST_PANEL.0 * across, LEAST_PANEL.1 * rows + fixed];
-            let [width, height] = least.map(|pixels| (pixels / PER_MM).ceil());
+        let inner = asked.map_or(panel.1, |(_, height)| ((height - fixed) / rows).floor());
+        if width < least.0 || inner < least.1 {
+            let least = [least.0 * across, least.1 * rows + fixed];
+            let [width, height] = least.map(|pixels| (pixels / pixels_per_mm).ceil());
             return Err(Error::refused(
                 format!("the picture is too small for {} panels", figures.len()),
                 format!("a size of at least {width} x {height} mm, or fewer columns"),
@@ -53,7 +47,7 @@ impl Sheet<'_> {
         let y_areas = figures.iter().map(|one| panel::y_area(one, inner));
         let y_area = y_areas.fold(0.0, f64::max);
         let mut svg = Svg::default();
-        svg.lines((0.5 * width * across, 8.0), TITLE, &head);
+        svg.lines((0.5 * width * across, 8.0), LAYOUT.title, &head);
         let mut top = above;
         for (row, texts) in figures.chunks(columns).zip(&texts) {
             let size = (width, inner + texts);

@@ -3,14 +3,9 @@
 use std::fmt::Write;
 
 use super::clip::Place;
+use super::layout::LAYOUT;
 use super::words::{escaped, line_height};
 use super::{Series, SeriesStyle};
-
-/// Width of the sample of a series in the legend, pixels.
-pub(super) const SAMPLE: f64 = 30.0;
-
-/// Radius of a marker, pixels.
-const RADIUS: f64 = 3.2;
 
 /// Palette of Okabe and Ito without yellow, which is hard to see on white; dark colours first.
 const COLOURS: [&str; 7] = [
@@ -20,7 +15,7 @@ const COLOURS: [&str; 7] = [
 /// Colour of vertical marks.
 const GREY: &str = "#6E6E6E";
 
-/// Corners of the markers, in units of [`RADIUS`]; a circle if empty. The numbers of markers and colours are coprime,
+/// Corners of the markers, in units of their radius; a circle if empty. The numbers of markers and colours are coprime,
 /// which makes many series differ in one or the other.
 const SHAPES: [&[Place]; 5] = [
     &[],
@@ -102,17 +97,18 @@ impl Svg {
     }
 
     pub fn marker(&mut self, (x, y): Place, series: &Series) {
+        let radius = LAYOUT.marker_radius;
         let fill = format!("fill=\"{}\"", series.colour());
         match SHAPES[series.colour % SHAPES.len()] {
             [] => {
                 let _ = writeln!(
                     self.0,
-                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{RADIUS}\" {fill}/>"
+                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" {fill}/>"
                 );
             }
             corners => {
                 let places = corners.iter();
-                let places = places.map(|(right, down)| (x + RADIUS * right, y + RADIUS * down));
+                let places = places.map(|(right, down)| (x + radius * right, y + radius * down));
                 self.shape("polygon", places, &fill);
             }
         }
@@ -120,18 +116,18 @@ impl Svg {
 
     /// Draws the sample of a series in the legend.
     pub fn sample(&mut self, (x, y): Place, series: &Series) {
-        let end = x + SAMPLE;
+        let (middle, end) = ((x + 0.5 * LAYOUT.sample, y), x + LAYOUT.sample);
         match series.style {
             SeriesStyle::Band => {
                 let (low, high) = (y + 5.0, y - 5.0);
                 let corners = vec![(x, high), (end, high), (end, low), (x, low)];
                 self.band(corners, series.colour());
             }
-            SeriesStyle::Points => self.marker((x + 0.5 * SAMPLE, y), series),
+            SeriesStyle::Points => self.marker(middle, series),
             look => {
                 self.curve([(x, y), (end, y)], series);
                 if look == SeriesStyle::LineWithPoints {
-                    self.marker((x + 0.5 * SAMPLE, y), series);
+                    self.marker(middle, series);
                 }
             }
         }

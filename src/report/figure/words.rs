@@ -1,9 +1,8 @@
 //! Texts in figures: estimated widths, wrapping and cutting.
 
-/// Font sizes, pixels.
-pub(super) const TITLE: f64 = 17.0;
-pub(super) const TEXT: f64 = 13.0;
+use super::layout::LAYOUT;
 
+/// Returns the height of a line of text of a font size, pixels.
 pub(super) fn line_height(size: f64) -> f64 {
     1.25 * size
 }
@@ -47,6 +46,6 @@ pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
 
 /// Returns the part of a label that fits into one line of width `room`, pixels.
 pub(super) fn fitted(label: &str, room: f64) -> String {
-    let mut lines = wrapped(label, TEXT, room).into_iter();
+    let mut lines = wrapped(label, LAYOUT.text, room).into_iter();
     lines.next().unwrap_or_default()
 }

@@ -6,18 +6,6 @@ use crate::report::curves::CURVE_POINTS;
 use crate::report::key_values::rounded;
 use crate::report::{Axis, Figure, Shape, Sheet};
 
-/// Number of samples drawn over the fit, few enough to leave it visible.
-const SAMPLES_DRAWN: usize = 100;
-
-/// Maximum number of marked intervals without force.
-const MARKS_DRAWN: usize = 40;
-
-/// Fraction of the forces, at each end of their order, that may lie in peaks near dead centres.
-const PEAKS_SHARE: f64 = 0.025;
-
-/// Lever arm, as a fraction of the longest of the motion, above which a force belongs to no peak near a dead centre.
-const LONG_ARM: f64 = 0.1;
-
 /// Returns data and fit, residuals, force and torque as SVG, with the forces printed by Duarte et al. if given.
 pub(super) fn figure(
     result: &Inverse,
@@ -68,7 +56,9 @@ fn one_in(stride: usize, name: &str) -> String {
 
 fn motion(result: &Inverse) -> Figure {
     let (name, unit, scale) = quantity(result);
-    let few = stride(result.residuals.len(), SAMPLES_DRAWN);
+    // More samples would hide the fit.
+    let most_samples = 100;
+    let few = stride(result.residuals.len(), most_samples);
     let many = stride(result.residuals.len(), CURVE_POINTS);
     let samples = result.residuals.iter().step_by(few);
     let fit = result.residuals.iter().step_by(many);
@@ -144,7 +134,8 @@ fn forces(result: &Inverse, printed: Option<&AsPrinted>) -> Figure {
             .line("energies of the paper", line(&force(0)))
             .dashed("(9) as printed", line(&force(1)));
     }
-    let few = stride(summary.dead_centre_bands.len(), MARKS_DRAWN);
+    let most_marks = 40;
+    let few = stride(summary.dead_centre_bands.len(), most_marks);
     for band in summary.dead_centre_bands.iter().step_by(few) {
         let label = one_in(few, "not determined");
         figure = figure.vertical_mark(0.5 * (band.from_s + band.to_s), label);
@@ -206,7 +197,7 @@ fn band_label(name: &str, half: f64, unit: &str) -> String {
 }
 
 /// Returns an axis for (force, lever arm) pairs, and whether it cuts off peaks near dead centres: the range holds the
-/// central forces, widened by their range, and all forces on a long arm.
+/// central forces, widened by their range, and all forces on a long arm, which belong to no peak.
 fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     let axis = Axis::linear(label);
     let mut sorted: Vec<f64> = forces.iter().map(|(force, _)| *force).collect();
@@ -214,10 +205,11 @@ fn without_peaks(label: &str, forces: &[(f64, f64)]) -> (Axis, bool) {
     let Some(last) = sorted.len().checked_sub(1) else {
         return (axis, false);
     };
-    let beyond = (PEAKS_SHARE * last as f64) as usize;
+    let share_at_each_end = 0.025;
+    let beyond = (share_at_each_end * last as f64) as usize;
     let (low, high) = (sorted[beyond], sorted[last - beyond]);
     let longest = forces.iter().map(|(_, arm)| arm.abs()).fold(0.0, f64::max);
-    let is_long = |(_, arm): &&(f64, f64)| arm.abs() > LONG_ARM * longest;
+    let is_long = |(_, arm): &&(f64, f64)| arm.abs() > 0.1 * longest;
     let long = forces.iter().filter(is_long);
     let (low, high) = long.fold(
         (2.0 * low - high, 2.0 * high - low),

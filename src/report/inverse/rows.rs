@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
 use crate::report::csv::{line, write_all};
 use crate::report::curves::View;
-use crate::report::rows::{REACTIONS, ROWS_KEPT, reactions};
+use crate::report::rows::{MOST_PLOT_ROWS, REACTIONS, reactions};
 use crate::report::{DefaultView, Facts, Output, Report, Table};
 use crate::scene::Scene;
 
@@ -39,13 +39,15 @@ impl Report for InverseReport<'_> {
         let result = self.result;
         let data = &result.summary.data;
         let (name, unit) = (data.column, data.unit);
-        let mut table = Table::new(&format!("{COLUMNS},{name}_measured_{unit},residual_{unit}"));
-        table.stride = result.rows.len().div_ceil(ROWS_KEPT).max(1) as u64;
-        let rows = result.rows.iter().zip(&result.residuals);
-        for (row, sample) in rows.step_by(table.stride as usize) {
+        let stride = result.rows.len().div_ceil(MOST_PLOT_ROWS).max(1);
+        let rows = result.rows.iter().zip(&result.residuals).step_by(stride);
+        let rows = rows.map(|(row, sample)| {
             let measured = [sample.measured, sample.residual];
-            table.push(values(row).into_iter().chain(measured));
-        }
+            values(row).into_iter().chain(measured)
+        });
+        let header = format!("{COLUMNS},{name}_measured_{unit},residual_{unit}");
+        let mut table = Table::filled(&header, rows);
+        table.stride = stride as u64;
         table
     }
 
@@ -81,11 +83,8 @@ impl Report for InverseReport<'_> {
 
 /// Returns all rows as a table.
 pub fn inverse_table(result: &Inverse, printed: Option<&AsPrinted>) -> Table {
-    let mut table = Table::new(&header(result, printed));
-    for row in &result.rows {
-        table.push(cells(result, printed, row));
-    }
-    table
+    let rows = result.rows.iter().map(|row| cells(result, printed, row));
+    Table::filled(&header(result, printed), rows)
 }
 
 fn header(result: &Inverse, printed: Option<&AsPrinted>) -> String {
@@ -138,10 +137,8 @@ pub fn mean_cycle(result: &Inverse, output: Output) -> Result<(), Error> {
 
 /// Returns measured values, fitted values and residuals as a table.
 pub fn residual_table(result: &Inverse) -> Table {
-    let mut table = Table::new(&residual_header(result));
     let rows = result.residuals.iter().map(residual_cells);
-    rows.for_each(|row| table.push(row));
-    table
+    Table::filled(&residual_header(result), rows)
 }
 
 fn residual_header(result: &Inverse) -> String {

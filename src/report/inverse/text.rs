@@ -1,26 +1,14 @@
 //! Text report of inverse dynamics: data, fit, force and torque ranges, error budget, and some rows.
 
-use std::fmt::Write;
-
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
-use crate::report::key_values::{Facts, fact, six};
-
-/// Number of lines of the whole text, to fit a screen.
-const TEXT_LINES: usize = 40;
-
-/// Maximum number of rows of the table.
-const MOST_TABLE_ROWS: usize = 16;
-
-/// Maximum numbers of listed coefficients and warnings; both leave room for a table of six rows.
-const MOST_COEFFICIENTS: usize = 13;
-const MOST_WARNINGS: usize = 6;
+use crate::report::key_values::{Facts, aligned, fact, six};
 
 /// Returns the facts and some rows, with the forces printed by Duarte et al. if given.
 pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
-    let mut text = facts(result).lines(22);
-    let room = TEXT_LINES.saturating_sub(text.lines().count() + 2);
-    table(&mut text, result, printed, room.clamp(1, MOST_TABLE_ROWS));
-    text
+    let text = facts(result).lines(22);
+    let (screen_lines, most_rows) = (40usize, 16);
+    let room = screen_lines.saturating_sub(text.lines().count() + 2);
+    text + &table(result, printed, room.clamp(1, most_rows))
 }
 
 /// Returns the facts of an inverse.
@@ -55,7 +43,9 @@ pub(super) fn facts(result: &Inverse) -> Facts {
         facts.add("error of force", budget.join(", "));
     }
     without_force(&mut facts, &summary.dead_centre_bands, data.rows);
-    let listed = summary.warnings.len().min(MOST_WARNINGS);
+    // These and the coefficients leave room for a table of six rows.
+    let most_warnings = 6;
+    let listed = summary.warnings.len().min(most_warnings);
     let (shown, more) = summary.warnings.split_at(listed);
     facts.warnings(shown);
     if !more.is_empty() {
@@ -106,14 +96,15 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     }
     let errors = fit.standard_errors.iter();
     let coefficients = fit.coefficients.iter().zip(errors).enumerate();
-    for (power, (c, e)) in coefficients.take(MOST_COEFFICIENTS) {
+    let most_coefficients = 13;
+    for (power, (c, e)) in coefficients.take(most_coefficients) {
         let value = match (c, e) {
             (Some(c), Some(e)) => format!("{c:.15e} +- {e:.2e}"),
             _ => "no digits in plain time".to_owned(),
         };
         facts.add(format_args!("  coefficient {power}"), value);
     }
-    let more = fit.coefficients.len().saturating_sub(MOST_COEFFICIENTS);
+    let more = fit.coefficients.len().saturating_sub(most_coefficients);
     if more > 0 {
         fact!(facts, "  coefficients", "{more} more: --json has all");
     }
@@ -158,10 +149,9 @@ fn range(range: &ForceRange, unit: &str) -> String {
     )
 }
 
-fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>, rows: usize) {
-    let _ = write!(
-        text,
-        "\n{:>12} {:>12} {:>13} {:>13} {:>13} {:>13} {:>13} {:>10}",
+fn table(result: &Inverse, printed: Option<&AsPrinted>, rows: usize) -> String {
+    const WIDTHS: [isize; 10] = [12, 12, 13, 13, 13, 13, 13, 10, 13, 13];
+    let mut header = vec![
         "t [s]",
         "theta [deg]",
         "omega [rad/s]",
@@ -169,36 +159,32 @@ fn table(text: &mut String, result: &Inverse, printed: Option<&AsPrinted>, rows:
         "force [N]",
         "std error [N]",
         "torque [N m]",
-        "std error"
-    );
+        "std error",
+    ];
     if printed.is_some() {
-        let _ = write!(text, " {:>13} {:>13}", "spin-only [N]", "their (9) [N]");
+        header.extend(["spin-only [N]", "their (9) [N]"]);
     }
-    text.push('\n');
-    let stride = result.rows.len().div_ceil(rows);
+    let mut text = "\n".to_owned() + &aligned(&WIDTHS, header);
     let none = || "-".to_owned();
     let cell = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.5}"));
     let torque = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.6}"));
     let error = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.2e}"));
-    for row in result.rows.iter().step_by(stride) {
-        let _ = write!(
-            text,
-            "{:>12.6} {:>12.4} {:>13.6} {:>13.6} {:>13} {:>13} {:>13} {:>10}",
-            row.t,
-            row.theta.to_degrees(),
-            row.omega,
-            row.alpha,
+    for row in result.rows.iter().step_by(result.rows.len().div_ceil(rows)) {
+        let mut cells = vec![
+            format!("{:.6}", row.t),
+            format!("{:.4}", row.theta.to_degrees()),
+            format!("{:.6}", row.omega),
+            format!("{:.6}", row.alpha),
             cell(row.slider_force),
             error(row.slider_force_se),
             torque(row.crank_torque),
-            error(row.crank_torque_se)
-        );
+            error(row.crank_torque_se),
+        ];
         if let Some(printed) = printed {
             let forces = printed.forces(row);
-            for which in 0..2 {
-                let _ = write!(text, " {:>13}", cell(forces.map(|f| f[which])));
-            }
+            cells.extend([0, 1].map(|which| cell(forces.map(|f| f[which]))));
         }
-        text.push('\n');
+        text += &aligned(&WIDTHS, cells);
     }
+    text
 }

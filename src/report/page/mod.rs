@@ -4,7 +4,7 @@ use minijinja::{AutoEscape, Environment, Value, context};
 use serde::Serialize;
 
 use super::default_view::{DefaultView, Scatter};
-use super::drawing::Drawing;
+use super::dimensions::Dimensions;
 use super::key_values::Facts;
 use super::table::{Shown, Table};
 use crate::error::Error;
@@ -25,9 +25,6 @@ const PLOTS: [&str; 2] = [
     include_str!("uPlot.iife.min.js"),
 ];
 
-/// Maximum number of listed events; the scripts have all.
-const LISTED: usize = 1000;
-
 /// Origin of a result: scene file, and command that repeats it.
 #[derive(Clone, Debug, Default)]
 pub struct Origin {
@@ -41,7 +38,7 @@ pub struct Origin {
 #[derive(Serialize)]
 struct Data<'a> {
     columns: Vec<Shown<'a>>,
-    drawing: Option<Drawing>,
+    drawing: Option<Dimensions>,
     events: Vec<Mark>,
     /// Half-width of a band, in standard errors.
     band: f64,
@@ -109,7 +106,7 @@ pub(super) fn html(
     };
     let data = Data {
         columns: table.shown(),
-        drawing: default.scene.map(Drawing::of),
+        drawing: default.scene.map(Dimensions::of),
         events: events.iter().map(mark).collect(),
         band: default.band,
         poles: default.has_poles,
@@ -118,7 +115,10 @@ pub(super) fn html(
     // Only the end tag has a meaning inside a script element; JSON can escape it.
     let data = serde_json::to_string(&data).map_err(|error| failed(error.into()))?;
     let data = data.replace('<', "\\u003c");
-    let listed: Vec<_> = events.iter().take(LISTED).map(listed).collect();
+    // The scripts have all events.
+    let most_listed = 1000;
+    let (first, others) = events.split_at(events.len().min(most_listed));
+    let listed: Vec<_> = first.iter().map(listed).collect();
     let [plot_style, plot_script] = PLOTS.map(|text| Value::from_safe_string(text.to_owned()));
     let page = context! {
         title => titles.first().map_or("A slider-crank", |(_, title)| title),
@@ -129,7 +129,7 @@ pub(super) fn html(
         scene => &origin.scene,
         command => &origin.command,
         events => Value::from_serialize(&listed),
-        events_left => events.len().saturating_sub(LISTED),
+        events_left => others.len(),
         figures => Value::from_serialize(&default.figures),
         has_scatter => default.scatter.is_some(),
         has_motion => default.scene.is_some(),

@@ -12,7 +12,7 @@ use crate::report::output::Output;
 use crate::sweep::Goal;
 
 /// Rows of a part as lines, with the number of its first design, from 1.
-struct Part<'a> {
+struct PartFile<'a> {
     path: &'a Path,
     lines: Box<dyn Iterator<Item = io::Result<String>>>,
     first: usize,
@@ -33,7 +33,7 @@ pub fn merge(
     let mut header = String::new();
     let mut parts = Vec::new();
     for path in paths {
-        parts.extend(Part::open(path, &mut header)?);
+        parts.extend(PartFile::open(path, &mut header)?);
     }
     parts.sort_by_key(|part| part.first);
     let mut tally = Tally::new(&csv::texts(&header)?, percentiles, goals)?;
@@ -44,7 +44,7 @@ pub fn merge(
     };
     put(&header)?;
     let mut next = 1;
-    for Part { path, lines, .. } in parts {
+    for PartFile { path, lines, .. } in parts {
         for line in lines {
             let line = line.map_err(|source| unread(path, source))?;
             let (found, shown) = (design(path, &line)?, path.display());
@@ -64,9 +64,9 @@ pub fn merge(
     Ok(tally.found())
 }
 
-impl Part<'_> {
+impl PartFile<'_> {
     /// Opens a file and reads its header, if present; none without designs.
-    fn open<'a>(path: &'a Path, header: &mut String) -> Result<Option<Part<'a>>, Error> {
+    fn open<'a>(path: &'a Path, header: &mut String) -> Result<Option<PartFile<'a>>, Error> {
         let failed = |source| unread(path, source);
         let mut lines = BufReader::new(File::open(path).map_err(failed)?).lines();
         let mut next = || lines.next().transpose().map_err(failed);
@@ -78,7 +78,7 @@ impl Part<'_> {
         let Some(line) = line else { return Ok(None) };
         let first = design(path, &line)?;
         let lines = Box::new(std::iter::once(Ok(line)).chain(lines));
-        Ok(Some(Part { path, lines, first }))
+        Ok(Some(PartFile { path, lines, first }))
     }
 }
 

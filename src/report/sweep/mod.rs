@@ -53,8 +53,8 @@ pub struct SweepSummaryOptions {
     pub kept: Option<usize>,
 }
 
-/// Maximum number of rows on a page.
-pub const MOST_ON_PAGE: usize = 50_000;
+/// Maximum number of designs on a page, which then holds about ten megabytes.
+pub const MOST_PAGE_DESIGNS: usize = 50_000;
 
 #[derive(Debug)]
 enum Target {

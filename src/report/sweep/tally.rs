@@ -11,7 +11,7 @@ use crate::sweep::{Goal, Member, ParetoFront, Sweep};
 /// Accumulator of the rows of a sweep.
 #[derive(Debug)]
 pub(super) struct Tally {
-    columns: Vec<Column>,
+    columns: Vec<ColumnTally>,
     /// Number of columns before the key figures: design, varied values and `status`.
     before: usize,
     status: BTreeMap<String, usize>,
@@ -22,7 +22,7 @@ pub(super) struct Tally {
 }
 
 #[derive(Debug)]
-struct Column {
+struct ColumnTally {
     name: String,
     extremes: Option<[SweepExtreme; 2]>,
     /// All values, kept for percentiles.
@@ -51,7 +51,7 @@ impl Tally {
                 )
             })
         };
-        let columns = header.iter().map(|name| Column {
+        let columns = header.iter().map(|name| ColumnTally {
             name: name.clone(),
             extremes: None,
             values: is_sample.then(Vec::new),
@@ -129,13 +129,17 @@ impl Tally {
             part: [1, self.rows],
             status: self.status,
             pareto_front: self.front.members().iter().map(member).collect(),
-            figures: self.columns.into_iter().filter_map(Column::range).collect(),
+            figures: self
+                .columns
+                .into_iter()
+                .filter_map(ColumnTally::range)
+                .collect(),
             ..SweepSummary::default()
         }
     }
 }
 
-impl Column {
+impl ColumnTally {
     fn take(&mut self, design: usize, value: f64) {
         let here = SweepExtreme { value, design };
         match &mut self.extremes {

@@ -34,7 +34,6 @@ pub(in crate::scene) fn parse(cell: &str, decimal_comma: bool) -> Result<f64, No
 fn not_a_number(cell: &str, decimal_comma: bool) -> NotANumber {
     let is_number = |text: String| text.parse::<f64>().is_ok();
     let separates = |c: char| matches!(c, ',' | '\'' | '_') || c.is_whitespace();
-    let digits = number::length(cell.trim_start_matches(['+', '-', number::MINUS]));
     let (what, help) = if cell.is_empty() {
         (
             "the value is missing".to_owned(),
@@ -60,15 +59,10 @@ fn not_a_number(cell: &str, decimal_comma: bool) -> NotANumber {
             format!("`{cell}` is not a plain number"),
             "write numbers without separators of thousands",
         )
-    } else if digits == 0 {
-        (
-            format!("`{cell}` is not a number"),
-            "give a number; units belong in the header, comments begin with #",
-        )
     } else {
         (
             format!("`{cell}` is not a number"),
-            "write the number alone, as 12.5 or 1.25e1; units belong in the header",
+            "write the number alone, as 12.5 or 1.25e1; units belong in the header, comments begin with #",
         )
     };
     NotANumber { what, help }

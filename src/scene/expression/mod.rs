@@ -14,7 +14,7 @@ use operand::{FUNCTIONS_1, FUNCTIONS_2, JUMPING, Op, Operand};
 use parser::Parser;
 
 /// Depth of the evaluation stack, in values; deeper expressions are refused when they are read.
-const STACK: usize = 32;
+const STACK_DEPTH: usize = 32;
 
 const TOO_DEEP: &str = "the expression is nested too deeply; simplify it";
 
@@ -91,7 +91,7 @@ impl Expression {
             }
             deepest = deepest.max(depth);
         }
-        if deepest > STACK {
+        if deepest > STACK_DEPTH {
             return Err(ExpressionError::new(text.len(), TOO_DEEP));
         }
         Ok(Expression {
@@ -144,7 +144,7 @@ impl Expression {
 
     /// Runs the stack machine over numbers, over enclosures, or over periods of subexpressions.
     fn evaluate<N: Operand>(&self, of: impl Fn(Variable) -> N) -> N {
-        let mut stack = [N::constant(0.0); STACK];
+        let mut stack = [N::constant(0.0); STACK_DEPTH];
         let mut top = 0;
         for op in &self.ops {
             match *op {

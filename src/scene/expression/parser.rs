@@ -1,7 +1,7 @@
 //! Recursive-descent parser: takes the text of an expression, returns its operations in postfix order.
 
 use super::operand::{FUNCTIONS_1, FUNCTIONS_2, Op};
-use super::{Expression, ExpressionError, STACK, TOO_DEEP};
+use super::{Expression, ExpressionError, STACK_DEPTH, TOO_DEEP};
 use crate::scene::Variable;
 use crate::scene::number;
 
@@ -124,7 +124,7 @@ impl<'a> Parser<'a> {
     }
 
     fn signed(&mut self) -> Result<(), ExpressionError> {
-        if self.nesting > STACK {
+        if self.nesting > STACK_DEPTH {
             return Err(self.error(TOO_DEEP));
         }
         self.nesting += 1;

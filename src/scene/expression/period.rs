@@ -15,7 +15,7 @@ const CONSTANT_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Subexpression as slope·theta plus a periodic rest.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct Subexpression {
     slope: f64,
     rest: Periodicity,
     /// Value of a subexpression that reads no variable.
@@ -26,82 +26,82 @@ impl Expression {
     /// Returns the period of the expression over the crank angle, at equal t and omega.
     pub fn repeats(&self) -> Periodicity {
         let part = self.evaluate(|variable| match variable {
-            Variable::Theta => Part::new(1.0, Periodicity::Always),
-            Variable::X | Variable::V => Part::new(0.0, Periodicity::After(Period::TURN)),
-            Variable::T | Variable::Omega => Part::new(0.0, Periodicity::Always),
+            Variable::Theta => Subexpression::new(1.0, Periodicity::Always),
+            Variable::X | Variable::V => Subexpression::new(0.0, Periodicity::After(Period::TURN)),
+            Variable::T | Variable::Omega => Subexpression::new(0.0, Periodicity::Always),
         });
         part.repeating().rest
     }
 }
 
-impl Part {
-    fn new(slope: f64, rest: Periodicity) -> Part {
-        Part {
+impl Subexpression {
+    fn new(slope: f64, rest: Periodicity) -> Subexpression {
+        Subexpression {
             slope,
             rest,
             value: None,
         }
     }
 
-    fn times(self, factor: f64) -> Part {
-        Part::new(self.slope * factor, self.rest)
+    fn times(self, factor: f64) -> Subexpression {
+        Subexpression::new(self.slope * factor, self.rest)
     }
 
-    fn plus(self, other: Part) -> Part {
+    fn plus(self, other: Subexpression) -> Subexpression {
         let sum = self.slope + other.slope;
         let rounding = CONSTANT_ROUNDING * self.slope.abs().max(other.slope.abs());
         let slope = if sum.abs() <= rounding { 0.0 } else { sum };
-        Part::new(slope, self.rest.common(other.rest))
+        Subexpression::new(slope, self.rest.common(other.rest))
     }
 
-    /// Returns the period of a function that repeats only if the part has no slope.
-    fn repeating(self) -> Part {
+    /// Returns the period of a function that repeats only if the subexpression has no slope.
+    fn repeating(self) -> Subexpression {
         let moves = self.slope != 0.0;
         let outside = Periodicity::Never(WhyNot::Outside);
-        Part::new(0.0, if moves { outside } else { self.rest })
+        Subexpression::new(0.0, if moves { outside } else { self.rest })
     }
 
-    /// Returns the period of a function with the period `length` in the value of the part.
-    fn wave(self, length: f64) -> Part {
+    /// Returns the period of a function with the period `length` in the value of the subexpression.
+    fn wave(self, length: f64) -> Subexpression {
         if self.slope == 0.0 {
             return self;
         }
         let own = Period::near((length / self.slope).abs() / TAU, CONSTANT_ROUNDING);
-        Part::new(0.0, self.rest.common(own.into()))
+        Subexpression::new(0.0, self.rest.common(own.into()))
     }
 }
 
-impl Operand for Part {
-    fn constant(value: f64) -> Part {
-        Part {
+impl Operand for Subexpression {
+    fn constant(value: f64) -> Subexpression {
+        Subexpression {
             value: Some(value),
-            ..Part::new(0.0, Periodicity::Always)
+            ..Subexpression::new(0.0, Periodicity::Always)
         }
     }
 
-    fn negated(self) -> Part {
-        Part {
+    fn negated(self) -> Subexpression {
+        Subexpression {
             value: self.value.map(|value| -value),
             ..self.times(-1.0)
         }
     }
 
-    fn called(self, function: usize) -> Part {
+    fn called(self, function: usize) -> Subexpression {
         let (name, value, _) = FUNCTIONS_1[function];
         let part = match name {
             "sin" | "cos" => self.wave(TAU),
             "tan" => self.wave(PI),
             // floor(p) = p − mod(p, 1) keeps the slope of p.
-            "floor" => Part::new(self.slope, self.wave(1.0).rest),
+            "floor" => Subexpression::new(self.slope, self.wave(1.0).rest),
             _ => self.repeating(),
         };
-        Part {
+        Subexpression {
             value: self.value.map(value),
             ..part
         }
     }
 
-    fn with(self, op: Op, other: Part) -> Part {
+    fn with(self, op: Op, other: Subexpression) -> Subexpression {
         let part = match (op, self.value, other.value) {
             (Op::Add, ..) => self.plus(other),
             (Op::Subtract, ..) => self.plus(other.times(-1.0)),
@@ -112,7 +112,7 @@ impl Operand for Part {
             _ => self.repeating().plus(other.repeating()),
         };
         let values = self.value.zip(other.value);
-        Part {
+        Subexpression {
             value: values.map(|(a, b)| [a].with(op, [b])[0]),
             ..part
         }

@@ -13,10 +13,6 @@ use crate::scene::{
     MotionKind, Run, Scene,
 };
 
-/// Lengths, m, in place of those that could not be read.
-const CRANK: f64 = 1.0;
-const ROD: f64 = 2.0;
-
 /// Assembles the scene of these tables. A value that is missing or could not be read gets one that raises no further
 /// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
@@ -28,12 +24,13 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
         check.add("geometry", "the scene has no [geometry]", help);
     }
-    let mut scene = Scene::new(CRANK, ROD);
+    // Lengths, m, in place of those that cannot be read.
+    let mut scene = Scene::new(1.0, 2.0);
     // The geometry comes first; the order of the sections is that of the problems.
     for section in SECTIONS {
         for values in contents.of_section(section) {
             let known = values.part.get().cloned();
-            let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry.rod));
+            let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry));
             if let Part::Force(Load::Gas { towards_crank, .. }) = &mut part {
                 *towards_crank = -scene.geometry.branch.sign();
             }
@@ -44,14 +41,14 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     scene
 }
 
-/// Builds the part of a table, beside a rod of length `rod`, m.
-fn part(check: &mut Check, values: &Values, rod: f64) -> Part {
+/// Builds the part of a table of a scene with this geometry so far.
+fn part(check: &mut Check, values: &Values, so_far: Geometry) -> Part {
     // A load that could not be read keeps its place, because problems of the others count the loads.
     let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
     let part = match values.section.name {
-        "geometry" => Part::Geometry(geometry(values)),
+        "geometry" => Part::Geometry(geometry(values, so_far)),
         "crank" => Part::Crank(bodies::crank(check, values)),
-        "rod" => Part::Rod(bodies::rod(check, values, rod)),
+        "rod" => Part::Rod(bodies::rod(check, values, so_far.rod)),
         "slider" => Part::Slider(bodies::slider(check, values)),
         "gravity" => Part::Gravity(gravity(values)),
         "torque" => Part::Torque(load(check)),
@@ -80,11 +77,12 @@ fn required(check: &mut Check, values: &Values) {
     }
 }
 
-fn geometry(values: &Values) -> Geometry {
+fn geometry(values: &Values, default: Geometry) -> Geometry {
+    let number = |key: &str, default: f64| values.number(key).unwrap_or(default);
     Geometry {
-        crank: values.number("crank").unwrap_or(CRANK),
-        rod: values.number("rod").unwrap_or(ROD),
-        offset: values.number("offset").unwrap_or(0.0),
+        crank: number("crank", default.crank),
+        rod: number("rod", default.rod),
+        offset: number("offset", default.offset),
         branch: match values.text("branch") {
             Some("left") => Branch::Left,
             _ => Branch::Right,

@@ -6,6 +6,7 @@
 mod assemble;
 mod bodies;
 mod draft;
+mod even_spacing;
 mod key_path;
 mod keys;
 mod loads;
@@ -13,7 +14,6 @@ mod part;
 mod read;
 mod render;
 mod schema;
-mod spread;
 mod value;
 mod varied;
 

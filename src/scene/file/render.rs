@@ -7,9 +7,6 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use crate::scene::number::counted;
 use crate::scene::{Problem, Problems};
 
-/// Largest number of problems shown; the others are counted.
-const MOST_SHOWN: usize = 20;
-
 impl Problems {
     /// Returns the text for a terminal, in colour or plain.
     pub fn render(&self, colour: bool) -> String {
@@ -18,13 +15,12 @@ impl Problems {
         } else {
             Renderer::plain()
         };
-        let shown = self.list().iter().take(MOST_SHOWN);
-        let mut blocks: Vec<String> = shown
-            .map(|problem| self.render_one(problem, &renderer))
-            .collect();
-        let more = self.list().len().saturating_sub(MOST_SHOWN);
-        if more > 0 {
-            let title = counted(more, "more problem");
+        let most_shown = 20;
+        let (shown, others) = self.list().split_at(self.list().len().min(most_shown));
+        let render = |problem| self.render_one(problem, &renderer);
+        let mut blocks: Vec<String> = shown.iter().map(render).collect();
+        if !others.is_empty() {
+            let title = counted(others.len(), "more problem");
             let help = Level::HELP.message("put right the first ones, and look again");
             let report = Level::ERROR.primary_title(title).element(help);
             blocks.push(renderer.render(&[report]));
@@ -52,16 +48,13 @@ impl Problems {
     }
 }
 
-/// Longest message, characters; a longer one quotes a value as long as a file.
-const LONGEST_MESSAGE: usize = 300;
-
-/// Cuts out the middle of a very long message.
+/// Cuts out the middle of a very long message, which quotes a value as long as a file.
 fn shortened(text: &str) -> Cow<'_, str> {
-    let count = text.chars().count();
-    if count <= LONGEST_MESSAGE {
+    let (count, longest) = (text.chars().count(), 300);
+    if count <= longest {
         return Cow::Borrowed(text);
     }
-    let half = LONGEST_MESSAGE / 2;
+    let half = longest / 2;
     let start: String = text.chars().take(half).collect();
     let end: String = text.chars().skip(count - half).collect();
     Cow::Owned(format!("{start} ... {end}"))

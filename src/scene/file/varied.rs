@@ -5,9 +5,9 @@ use std::str::FromStr;
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
+use super::even_spacing::EvenSpacing;
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
-use super::spread::Spread;
 use super::value;
 use crate::scene::unit::{PLUS_MINUS, Quantity, Uncertain};
 
@@ -53,7 +53,7 @@ pub struct VariedValue {
 #[derive(Clone, Debug)]
 enum Variation {
     Listed(Vec<VariedValue>),
-    Spread(Spread),
+    Even(EvenSpacing),
     /// Uniform distribution between two numbers, SI.
     Uniform([f64; 2]),
     /// Normal distribution with mean and standard deviation, SI.
@@ -66,7 +66,7 @@ impl Varied {
     pub fn len(&self) -> usize {
         match &self.values {
             Variation::Listed(list) => list.len(),
-            Variation::Spread(spread) => spread.len(),
+            Variation::Even(spacing) => spacing.len(),
             Variation::Uniform(_) | Variation::Normal(_) => 1,
         }
     }
@@ -115,10 +115,7 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Variation::Listed(list) => list[index].clone(),
-            Variation::Spread(spread) => {
-                let (text, number) = spread.value(index);
-                VariedValue { text, number }
-            }
+            Variation::Even(spacing) => spacing.value(index),
             Variation::Uniform(_) | Variation::Normal(_) => self.quantile(0.5),
         }
     }
@@ -126,7 +123,7 @@ impl Varied {
     /// Returns the `p` quantile of a distribution, 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
-            Variation::Listed(_) | Variation::Spread(_) => {
+            Variation::Listed(_) | Variation::Even(_) => {
                 return self.value((p * self.len() as f64) as usize);
             }
             Variation::Uniform([low, high]) => low + p * (high - low),
@@ -170,7 +167,7 @@ impl FromStr for Varied {
         let values = read(path.key, values)?;
         let has_numbers = match &values {
             Variation::Listed(list) => list.iter().all(|value| value.number.is_some()),
-            Variation::Spread(spread) => spread.value(0).1.is_some(),
+            Variation::Even(spacing) => spacing.value(0).number.is_some(),
             Variation::Uniform(_) | Variation::Normal(_) => true,
         };
         Ok(Varied {
@@ -206,10 +203,10 @@ fn read(key: &Key, text: &str) -> Result<Variation, String> {
             };
         }
         ([from, to, count], _) => {
-            return Spread::new(key, [from, to], count, false).map(Variation::Spread);
+            return EvenSpacing::new(key, [from, to], count, false).map(Variation::Even);
         }
         ([from, to, count, "log"], _) => {
-            return Spread::new(key, [from, to], count, true).map(Variation::Spread);
+            return EvenSpacing::new(key, [from, to], count, true).map(Variation::Even);
         }
         _ => {
             return Err(format!(

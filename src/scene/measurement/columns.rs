@@ -27,7 +27,7 @@ const WORDS: [(&str, Measured); 8] = [
 /// Units, and names without a unit, of a column of encoder counts.
 const COUNTS: [&str; 5] = ["count", "counts", "pulses", "ticks", "increments"];
 
-/// Largest number of columns read from a file.
+/// Largest number of columns read from a file; the cells of a row are kept in arrays of this size.
 pub(super) const MOST_COLUMNS: usize = 8;
 
 const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma or x; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";

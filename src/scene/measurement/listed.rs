@@ -3,8 +3,8 @@
 use crate::scene::Problem;
 use crate::scene::number::counted;
 
-/// Largest number of problems of one kind that are listed.
-pub(super) const MOST_LISTED: usize = 3;
+/// Largest number of problems of one kind that are listed; they show what the others are.
+const MOST_LISTED: usize = 3;
 
 /// Problems, of which the first of each kind are listed and all are counted.
 #[derive(Default)]
@@ -19,9 +19,16 @@ impl Listed {
         self.list(problem);
     }
 
-    /// Counts a problem like those listed.
-    pub fn count_one(&mut self) {
-        self.count += 1;
+    /// Adds faults of one kind; `problem` describes those that are listed.
+    pub fn push_alike<T>(
+        &mut self,
+        mut faults: impl Iterator<Item = T>,
+        problem: impl Fn(T) -> Problem,
+    ) {
+        for fault in faults.by_ref().take(MOST_LISTED) {
+            self.push(problem(fault));
+        }
+        self.count += faults.count();
     }
 
     fn list(&mut self, problem: Problem) {

@@ -15,9 +15,6 @@ use crate::scene::number::counted;
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
 
-/// Approximate size, bytes, of the pieces of text that threads read.
-const PIECE: usize = 1 << 18;
-
 /// Reads the samples of a file as numbers, not yet checked against each other.
 pub(super) fn measurement(
     file: &Path,
@@ -119,10 +116,11 @@ struct SampleRows<'a> {
 impl SampleRows<'_> {
     /// Reads the samples of all rows, in pieces of whole lines in parallel.
     fn samples(&self) -> Samples {
+        let piece_bytes = 1 << 18;
         let mut rest = &self.text[self.dialect.start..];
         let mut all = Samples::with_room_for(rest.len() / 16, self.columns.at.len());
         let pieces = std::iter::from_fn(|| {
-            let from = PIECE.min(rest.len());
+            let from = rest.len().min(piece_bytes);
             let end = rest.as_bytes()[from..]
                 .iter()
                 .position(|byte| *byte == b'\n');

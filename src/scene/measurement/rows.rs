@@ -1,22 +1,19 @@
 //! Checks samples against each other.
 
 use super::Measurement;
-use super::listed::{Listed, MOST_LISTED};
+use super::listed::Listed;
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
 
-/// Least number of samples of a motion.
-const LEAST_ROWS: usize = 6;
-
-/// Ratio of a time step to the median one above which the step is a gap.
-const GAP: f64 = 4.5;
-
 /// Largest magnitude of a sample, SI; larger ones leave no digits for quantities computed from them.
 const LARGEST_SAMPLE: f64 = 1e12;
 
-/// Shortest duration of a record, s; with shorter ones, powers of rates of change leave the range of doubles.
-const SHORTEST_RECORD: f64 = 1e-12;
+/// Returns the first sample without a usable number.
+fn unusable(values: &[f64]) -> Option<usize> {
+    let is_wrong = |value: &f64| value.is_nan() || value.abs() > LARGEST_SAMPLE;
+    values.iter().position(is_wrong)
+}
 
 impl Measurement {
     /// Checks the samples, and notes gaps between them.
@@ -29,10 +26,7 @@ impl Measurement {
         }
         let mut wrong = Listed::default();
         for (column, list) in [times, values].into_iter().enumerate() {
-            if let Some(at) = list
-                .iter()
-                .position(|v| v.is_nan() || v.abs() > LARGEST_SAMPLE)
-            {
+            if let Some(at) = unusable(list) {
                 let what = format!("{} is not a usable number", show(list[at]));
                 let help = format!("give finite values below {LARGEST_SAMPLE:e} in SI units");
                 wrong.push(self.problem(at, column, what, help));
@@ -40,20 +34,15 @@ impl Measurement {
         }
         let steps = self.elapsed().windows(2).enumerate();
         let faults = steps.filter(|(_, step)| step[1] <= step[0]);
-        for (listed, (i, step)) in faults.enumerate() {
-            if listed < MOST_LISTED {
-                let (now, before) = apart(self.in_column(times[i + 1]), self.in_column(times[i]));
-                let what = if step[1] == step[0] {
-                    format!("the time {now} is repeated")
-                } else {
-                    format!("the time {now} follows {before}")
-                };
-                let help = "times must rise strictly; take out or put right the row".to_owned();
-                wrong.push(self.problem(i + 1, 0, what, help));
-            } else {
-                wrong.count_one();
-            }
-        }
+        wrong.push_alike(faults, |(i, step)| {
+            let (now, before) = apart(self.in_column(times[i + 1]), self.in_column(times[i]));
+            let what = match step[1] == step[0] {
+                true => format!("the time {now} is repeated"),
+                false => format!("the time {now} follows {before}"),
+            };
+            let help = "times must rise strictly; take out or put right the row".to_owned();
+            self.problem(i + 1, 0, what, help)
+        });
         let text = self.source.as_ref().map_or("", |source| &source.text);
         let refused = wrong
             .refused(text)
@@ -72,10 +61,7 @@ impl Measurement {
     pub(super) fn check_beside(&self) -> Result<(), Problems> {
         for column in &self.beside {
             let values = &column.values;
-            let odd = values
-                .iter()
-                .position(|v| v.is_nan() || v.abs() > LARGEST_SAMPLE);
-            let what = match odd {
+            let what = match unusable(values) {
                 Some(at) => format!(
                     "{} in {} is not a usable number",
                     show(values[at]),
@@ -103,9 +89,10 @@ impl Measurement {
     /// Returns a problem for too few samples, or for times so close to each other that their unit must be wrong.
     fn too_short(&self) -> Option<Problem> {
         let times = self.elapsed();
-        if times.len() < LEAST_ROWS {
+        let least = 6;
+        if times.len() < least {
             let rows = counted(times.len(), "sample");
-            let what = format!("{rows} where at least {LEAST_ROWS} are needed");
+            let what = format!("{rows} where at least {least} are needed");
             let end = self
                 .source
                 .as_ref()
@@ -114,9 +101,11 @@ impl Measurement {
             return Some(problem.at(end.map(|end| end..end)));
         }
         let length = times.last()? - times.first()?;
-        (length < SHORTEST_RECORD).then(|| {
+        // With a shorter one, s, powers of rates of change leave the range of doubles.
+        let shortest = 1e-12;
+        (length < shortest).then(|| {
             let what = format!("all samples lie within {} s", show(length));
-            let help = format!("give times over more than {SHORTEST_RECORD:e} s: check their unit");
+            let help = format!("give times over more than {shortest:e} s: check their unit");
             self.problem(times.len() - 1, 0, what, help)
         })
     }
@@ -133,16 +122,17 @@ impl Measurement {
         })
     }
 
-    /// Returns a note on time steps far above the median one.
+    /// Returns a note on gaps, time steps far above the median one.
     fn gaps(&self) -> Option<String> {
+        let least_ratio = 4.5;
         let times = self.elapsed();
         let steps: Vec<f64> = times.windows(2).map(|w| w[1] - w[0]).collect();
         let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
-        if steps.iter().all(|step| *step <= GAP * least) {
+        if steps.iter().all(|step| *step <= least_ratio * least) {
             return None;
         }
-        let usual = median(steps.clone())?;
-        let is_gap = |step: &&f64| **step > GAP * usual;
+        let usual = median(steps.iter().copied())?;
+        let is_gap = |step: &&f64| **step > least_ratio * usual;
         let first = steps.iter().position(|step| is_gap(&step))?;
         Some(format!(
             "{}, the first before {} (time {}), where {} passes without a sample and {} is usual: nothing is known of the motion there but what the fit assumes",

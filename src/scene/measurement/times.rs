@@ -35,17 +35,15 @@ impl Decimal {
     }
 }
 
-/// Largest spacing of doubles at the times, as a part of the mean time step, that needs no remedy.
-const COARSE: f64 = 1e-6;
-
 impl Measurement {
-    /// Returns the spacing of doubles at the times, s, if it is too coarse for the mean time step.
+    /// Returns the spacing of doubles at the times, s, if it is more than 1e-6 of the mean time step.
     pub(super) fn lost(&self) -> Option<f64> {
         let times = &self.times;
         let (first, last) = (*times.first()?, *times.last()?);
         let step = (last - first) / times.len() as f64;
         let known = f64::EPSILON * first.abs().max(last.abs());
-        (known > COARSE * step).then_some(known)
+        let coarse = 1e-6 * step;
+        (known > coarse).then_some(known)
     }
 
     /// Counts times from the first row where doubles lose digits of the time stamps in the file.
@@ -87,12 +85,6 @@ impl Measurement {
     }
 }
 
-/// Tolerance of rounded times off a line (beyond half a step) and of gaps between them, in rounding steps.
-const OFF_LINE: f64 = 0.1;
-
-/// Least rounding step as a part of the whole time; smaller differences of gaps are the rounding of doubles.
-const ROUNDING: f64 = 1e3 * f64::EPSILON;
-
 /// Even times, s, that were rounded.
 struct Even {
     /// Time of the first sample minus its rounded one.
@@ -114,7 +106,8 @@ impl Even {
         );
         // Rounding makes gaps that differ by one step, and keeps the order of the samples.
         let step = long - short;
-        if step < ROUNDING * (times.last()? - times[0]) || step > 0.5 * short {
+        let rounding_of_doubles = 1e3 * f64::EPSILON * (times.last()? - times[0]);
+        if step < rounding_of_doubles || step > 0.5 * short {
             return None;
         }
         let middle = 0.5 * (count - 1.0);
@@ -128,10 +121,12 @@ impl Even {
         let moment: f64 = since().map(|(i, time)| (i - middle) * time).sum();
         let period = 12.0 * moment / (count * (count * count - 1.0));
         let first = sum / count - period * middle;
+        // Errors beyond rounding, in rounding steps.
+        let most_off = 0.1;
         let mut off_line = since().map(|(i, time)| (time - first - period * i).abs());
         let mut off_step = gaps().map(|gap| (gap - short).min(long - gap));
-        (off_line.all(|off| off < (0.5 + OFF_LINE) * step)
-            && off_step.all(|off| off < OFF_LINE * step))
+        (off_line.all(|off| off < (0.5 + most_off) * step)
+            && off_step.all(|off| off < most_off * step))
         .then_some(Even {
             first,
             period,

@@ -6,10 +6,6 @@ use crate::scene::csv::Column;
 use crate::scene::number::{apart, counted, show};
 use crate::scene::{Period, Problem, Variable};
 
-/// Relative tolerance within which arguments (of the span) or values (of the largest) count as equal: the last digit of
-/// calculators, which show 2π as 6.283185307.
-const SAME: f64 = 1e-9;
-
 /// Rows of a table before their check.
 pub(super) struct TableRows<'a> {
     pub of: Variable,
@@ -86,17 +82,19 @@ impl TableRows<'_> {
         if !(period > 0.0 && period.is_finite()) {
             return period_error(format!("the period {shown} is not positive"));
         }
-        if span > period * (1.0 + SAME) {
+        // Relative tolerance of equal arguments and values: the last digit of calculators, which show 2π as 6.283185307.
+        let last_digit = 1e-9;
+        if span > period * (1.0 + last_digit) {
             let span = argument.shown(span);
             return period_error(format!(
                 "the period {shown} is shorter than the table, which spans {span}"
             ));
         }
-        if span < period * (1.0 - SAME) {
+        if span < period * (1.0 - last_digit) {
             return Ok(());
         }
         let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.1.abs()));
-        let (what, help) = if (last.1 - first.1).abs() > SAME * largest {
+        let (what, help) = if (last.1 - first.1).abs() > last_digit * largest {
             let (last, first) = apart(last.1 / value.factor, first.1 / value.factor);
             (
                 format!(

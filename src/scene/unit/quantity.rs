@@ -44,19 +44,19 @@ pub enum Quantity {
 }
 
 /// Name of a quantity, its dimension, its SI unit in scene files, and usual spellings.
-struct Facts(&'static str, Dimension, &'static str, &'static str);
+struct Properties(&'static str, Dimension, &'static str, &'static str);
 
-macro_rules! facts {
+macro_rules! properties {
     ($of:expr; $($quantity:ident: $name:literal, $dimension:expr, $si:literal, $examples:literal;)*) => {
         match $of {
-            $(Quantity::$quantity => Facts($name, $dimension, $si, $examples),)*
+            $(Quantity::$quantity => Properties($name, $dimension, $si, $examples),)*
         }
     };
 }
 
 impl Quantity {
-    fn facts(self) -> Facts {
-        facts! { self;
+    fn properties(self) -> Properties {
+        properties! { self;
             Length: "a length", [1, 0, 0, 0], "m", "\"47 mm\", \"0.047 m\", \"2 in\"";
             Mass: "a mass", [0, 1, 0, 0], "kg", "\"0.86 kg\", \"860 g\", \"1.9 lb\"";
             Inertia: "a moment of inertia", [2, 1, 0, 0], "kg m^2", "\"5807.55 kg mm^2\", \"0.0058 kg m^2\"";
@@ -80,17 +80,17 @@ impl Quantity {
 
     /// Returns the exponents of metre, kilogram, second and radian.
     pub(super) fn dimension(self) -> Dimension {
-        self.facts().1
+        self.properties().1
     }
 
     /// Returns the quantity in words, with its article.
     pub fn name(self) -> &'static str {
-        self.facts().0
+        self.properties().0
     }
 
     /// Returns accepted spellings, for error messages and the schema.
     pub fn examples(self) -> &'static str {
-        self.facts().3
+        self.properties().3
     }
 
     /// Returns the unit of the first accepted spelling.
@@ -101,7 +101,7 @@ impl Quantity {
 
     /// Returns the SI unit in the form of scene files; empty for numbers.
     pub(crate) fn si(self) -> &'static str {
-        self.facts().2
+        self.properties().2
     }
 
     /// Returns the SI unit in the form of column names; empty for numbers.

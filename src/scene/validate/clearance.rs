@@ -4,8 +4,8 @@ use crate::scene::check::Check;
 use crate::scene::number::{apart, show};
 use crate::scene::{Clearance, ContactLaw};
 
-pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
-    list.not_negative("clearance.radial", clearance.radial, "m");
+pub(super) fn clearance(check: &mut Check, clearance: &Clearance) {
+    check.not_negative("clearance.radial", clearance.radial, "m");
     for (name, value, unit) in [
         ("bearing_radius", clearance.bearing_radius, "m"),
         ("young_modulus", clearance.young_modulus, "Pa"),
@@ -21,7 +21,7 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
         ),
     ] {
         if let Some(value) = value {
-            list.positive(format_args!("clearance.{name}"), value, unit);
+            check.positive(format_args!("clearance.{name}"), value, unit);
         }
     }
     for (name, value, low, high) in [
@@ -32,7 +32,7 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
         if let Some(value) = value
             && !(low..=high).contains(&value)
         {
-            list.add(
+            check.add(
                 format_args!("clearance.{name}"),
                 format!("{} is not a possible {name}", show(value)),
                 "poisson_ratio lies between -1 and 0.5, restitution between 0 and 1, friction is not negative",
@@ -40,21 +40,21 @@ pub(super) fn clearance(list: &mut Check, clearance: &Clearance) {
         }
     }
     if let Some(angle) = clearance.eccentricity_angle {
-        list.finite("clearance.eccentricity_angle", angle);
+        check.finite("clearance.eccentricity_angle", angle);
     }
-    journal_fits(list, clearance);
-    law_fits(list, clearance);
+    journal_fits(check, clearance);
+    law_fits(check, clearance);
 }
 
 /// Checks that the journal fits into the bearing, and lies inside it at the start.
-fn journal_fits(list: &mut Check, clearance: &Clearance) {
+fn journal_fits(check: &mut Check, clearance: &Clearance) {
     let radial = clearance.radial;
     if let Some(bearing) = clearance.bearing_radius
         && radial >= bearing
-        && list.has_no_problem(&["clearance.radial", "clearance.bearing_radius"])
+        && check.has_no_problem(&["clearance.radial", "clearance.bearing_radius"])
     {
         let (radial, bearing) = apart(radial, bearing);
-        list.add(
+        check.add(
             "clearance.radial",
             format!(
                 "a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"
@@ -65,10 +65,10 @@ fn journal_fits(list: &mut Check, clearance: &Clearance) {
     let Some(eccentricity) = clearance.eccentricity else {
         return;
     };
-    list.not_negative("clearance.eccentricity", eccentricity, "m");
+    check.not_negative("clearance.eccentricity", eccentricity, "m");
     let linked = clearance.law == ContactLaw::MasslessLink;
     let impossible = eccentricity > radial || (linked && eccentricity != radial);
-    if impossible && list.has_no_problem(&["clearance.radial", "clearance.eccentricity"]) {
+    if impossible && check.has_no_problem(&["clearance.radial", "clearance.eccentricity"]) {
         let (shown, radial) = apart(eccentricity, radial);
         let (what, help) = if linked {
             (
@@ -81,7 +81,7 @@ fn journal_fits(list: &mut Check, clearance: &Clearance) {
                 "give at most the radial clearance",
             )
         };
-        list.add(
+        check.add(
             "clearance.eccentricity",
             format!("{what}: {shown} m, and the radial clearance is {radial} m"),
             help,
@@ -90,10 +90,10 @@ fn journal_fits(list: &mut Check, clearance: &Clearance) {
 }
 
 /// Rejects friction of a massless link, and restitution 0 under laws that divide by it.
-fn law_fits(list: &mut Check, clearance: &Clearance) {
+fn law_fits(check: &mut Check, clearance: &Clearance) {
     let friction = clearance.friction.unwrap_or(0.0);
     if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
-        list.add(
+        check.add(
             "clearance.friction",
             format!(
                 "a massless link has no friction, but it is {}",
@@ -104,7 +104,7 @@ fn law_fits(list: &mut Check, clearance: &Clearance) {
     }
     let divides = matches!(clearance.law, ContactLaw::Flores | ContactLaw::Gonthier);
     if divides && clearance.restitution == Some(0.0) {
-        list.add(
+        check.add(
             "clearance.restitution",
             format!(
                 "the damping of the law \"{}\" grows without bound as the restitution nears 0",

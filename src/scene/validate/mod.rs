@@ -16,20 +16,8 @@ use crate::numeric::exact::sum3;
 /// Least local error target that can be met in double precision.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
 
-/// Largest local error target.
-const LARGEST_TOLERANCE: f64 = 0.1;
-
 /// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
 pub(crate) const MOST_OUTPUT_ROWS: f64 = 1e9;
-
-/// Rounding tolerance at the limits of the crank angle, relative to crank plus rod: a pin this far outside is inside.
-const LIMIT_ROUNDING: f64 = 1e-12;
-
-/// Rounding tolerance of a moment of inertia against the least possible one, relative to the latter.
-const INERTIA_ROUNDING: f64 = 1e-9;
-
-/// Largest initial crank angle, rad, where doubles are 0.007 degrees apart.
-const LARGEST_ANGLE: f64 = 1e12;
 
 /// Keys that decide whether the mechanism can be assembled.
 const LENGTHS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
@@ -51,51 +39,51 @@ impl Scene {
 
 /// Adds one problem for each impossible value. A value with a problem is not compared with others, which would report
 /// the fault twice.
-pub(super) fn problems(scene: &Scene, list: &mut Check) {
-    geometry(list, &scene.geometry);
+pub(super) fn problems(scene: &Scene, check: &mut Check) {
+    geometry(check, &scene.geometry);
     if let Some(crank) = &scene.crank {
         let cg = [crank.cg, crank.cg_lateral];
-        body(list, "crank", crank.mass, crank.inertia, cg);
-        inertia(list, "crank", "O", crank.inertia, crank.mass * square(cg));
+        body(check, "crank", crank.mass, crank.inertia, cg);
+        inertia(check, "crank", "O", crank.inertia, crank.mass * square(cg));
     }
     if let Some(rod) = &scene.rod {
-        self::rod(list, rod, scene.geometry.rod);
+        self::rod(check, rod, scene.geometry.rod);
     }
     if let Some(slider) = &scene.slider {
-        list.not_negative("slider.mass", slider.mass, "kg");
+        check.not_negative("slider.mass", slider.mass, "kg");
     }
     if let Some(gravity) = &scene.gravity {
-        list.not_negative("gravity.acceleration", gravity.acceleration, "m/s2");
-        list.finite("gravity.direction", gravity.direction);
+        check.not_negative("gravity.acceleration", gravity.acceleration, "m/s2");
+        check.finite("gravity.direction", gravity.direction);
     }
     for of in scene.loads() {
-        loads::load(list, &of.key().to_string(), of.on_slider, of.load);
+        loads::load(check, &of.key().to_string(), of.on_slider, of.load);
     }
     if let Some(friction) = &scene.friction {
-        self::friction(list, friction);
+        self::friction(check, friction);
     }
     if let Some(clearance) = &scene.clearance {
-        clearance::clearance(list, clearance);
+        clearance::clearance(check, clearance);
     }
-    start(list, &scene.geometry, &scene.motion);
-    run(list, &scene.run, &scene.motion);
+    start(check, &scene.geometry, &scene.motion);
+    run(check, &scene.run, &scene.motion);
 }
 
-fn geometry(list: &mut Check, geometry: &Geometry) {
-    list.positive("geometry.crank", geometry.crank, "m");
-    list.positive("geometry.rod", geometry.rod, "m");
-    list.finite("geometry.offset", geometry.offset);
+fn geometry(check: &mut Check, geometry: &Geometry) {
+    check.positive("geometry.crank", geometry.crank, "m");
+    check.positive("geometry.rod", geometry.rod, "m");
+    check.finite("geometry.offset", geometry.offset);
     let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
     // A single rounding, after the difference: crank plus rod may round up to the offset.
     let reach = sum3(r, l, -e.abs());
-    if reach < 0.0 && list.has_no_problem(&LENGTHS) {
+    if reach < 0.0 && check.has_no_problem(&LENGTHS) {
         let larger = if e.abs() > r + l {
             let (offset, most) = apart(e, r + l);
             format!("{offset} m is larger than crank plus rod, {most} m")
         } else {
             format!("is larger than crank plus rod by {} m", show(-reach))
         };
-        list.add(
+        check.add(
             "geometry.offset",
             format!("the mechanism cannot be assembled: the offset {larger}"),
             "make the offset smaller or the rod longer",
@@ -103,11 +91,11 @@ fn geometry(list: &mut Check, geometry: &Geometry) {
     }
 }
 
-fn body(list: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
-    list.not_negative(format_args!("{name}.mass"), mass, "kg");
-    list.not_negative(format_args!("{name}.inertia"), inertia, "kg m2");
-    list.finite(format_args!("{name}.cg"), cg[0]);
-    list.finite(format_args!("{name}.cg_lateral"), cg[1]);
+fn body(check: &mut Check, name: &str, mass: f64, inertia: f64, cg: [f64; 2]) {
+    check.not_negative(format_args!("{name}.mass"), mass, "kg");
+    check.not_negative(format_args!("{name}.inertia"), inertia, "kg m2");
+    check.finite(format_args!("{name}.cg"), cg[0]);
+    check.finite(format_args!("{name}.cg_lateral"), cg[1]);
 }
 
 fn square(cg: [f64; 2]) -> f64 {
@@ -115,7 +103,7 @@ fn square(cg: [f64; 2]) -> f64 {
 }
 
 /// Checks the moment of inertia of a body about a point against the `least` that its centre of gravity allows, kg m².
-fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) {
+fn inertia(check: &mut Check, body: &str, about: &str, inertia: f64, least: f64) {
     const KEYS: [&str; 8] = [
         "mass",
         "cg",
@@ -126,33 +114,34 @@ fn inertia(list: &mut Check, body: &str, about: &str, inertia: f64, least: f64) 
         "width",
         "depth",
     ];
-    if inertia >= least * (1.0 - INERTIA_ROUNDING) {
+    let relative_rounding = 1e-9;
+    if inertia >= least * (1.0 - relative_rounding) {
         return;
     }
     let fields = KEYS.map(|key| format!("{body}.{key}"));
-    if list.has_no_problem(&fields) {
+    if check.has_no_problem(&fields) {
         let (inertia, least) = apart(inertia, least);
         let what = format!(
             "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
         );
         let help =
             "no body has that: check inertia, mass and cg, and the point the inertia is about";
-        list.add(format_args!("{body}.inertia"), what, help);
+        check.add(format_args!("{body}.inertia"), what, help);
     }
 }
 
-fn rod(list: &mut Check, rod: &Rod, length: f64) {
+fn rod(check: &mut Check, rod: &Rod, length: f64) {
     let cg = [rod.cg, rod.cg_lateral];
-    body(list, "rod", rod.mass, rod.inertia, cg);
+    body(check, "rod", rod.mass, rod.inertia, cg);
     if rod.inertia_about == InertiaAbout::CrankPin && rod.model == RodModel::Rigid {
         let least = rod.mass * square(cg);
-        inertia(list, "rod", "the crank pin", rod.inertia, least);
+        inertia(check, "rod", "the crank pin", rod.inertia, least);
     }
     if rod.model != RodModel::TwoMass || rod.mass == 0.0 {
         return;
     }
-    if rod.cg_lateral != 0.0 && list.has_no_problem(&["rod.cg_lateral"]) {
-        list.add(
+    if rod.cg_lateral != 0.0 && check.has_no_problem(&["rod.cg_lateral"]) {
+        check.add(
             "rod.cg_lateral",
             format!(
                 "two masses at the pins have no lateral centre of gravity, but it is {} m",
@@ -161,9 +150,9 @@ fn rod(list: &mut Check, rod: &Rod, length: f64) {
             "leave out cg_lateral or use model = \"rigid\"",
         );
     }
-    if !(0.0..=length).contains(&rod.cg) && list.has_no_problem(&["geometry.rod", "rod.cg"]) {
+    if !(0.0..=length).contains(&rod.cg) && check.has_no_problem(&["geometry.rod", "rod.cg"]) {
         let (cg, length) = apart(rod.cg, length);
-        list.add(
+        check.add(
             "rod.cg",
             format!("{cg} m is not between the pins, which are {length} m apart"),
             "two masses at the pins need it between them; use model = \"rigid\" otherwise",
@@ -171,15 +160,15 @@ fn rod(list: &mut Check, rod: &Rod, length: f64) {
     }
 }
 
-fn friction(list: &mut Check, friction: &Friction) {
+fn friction(check: &mut Check, friction: &Friction) {
     let (kinetic, held) = (friction.coefficient, friction.static_coefficient);
-    list.not_negative("friction.coefficient", kinetic, "");
-    if list.finite("friction.static_coefficient", held)
+    check.not_negative("friction.coefficient", kinetic, "");
+    if check.finite("friction.static_coefficient", held)
         && held < kinetic
-        && list.has_no_problem(&["friction.coefficient", "friction.static_coefficient"])
+        && check.has_no_problem(&["friction.coefficient", "friction.static_coefficient"])
     {
         let (held, kinetic) = apart(held, kinetic);
-        list.add(
+        check.add(
             "friction.static_coefficient",
             format!("the static coefficient {held} is below the kinetic one {kinetic}"),
             "give one at least as large, or leave it out",
@@ -203,54 +192,58 @@ fn rows(run: &Run, motion: &Motion) -> f64 {
     }
 }
 
-fn run(list: &mut Check, run: &Run, motion: &Motion) {
+fn run(check: &mut Check, run: &Run, motion: &Motion) {
     match run.extent {
-        Some(Extent::Duration(duration)) => list.not_negative("run.duration", duration, "s"),
-        Some(Extent::Revolutions(turns)) => list.not_negative("run.revolutions", turns, ""),
+        Some(Extent::Duration(duration)) => check.not_negative("run.duration", duration, "s"),
+        Some(Extent::Revolutions(turns)) => check.not_negative("run.revolutions", turns, ""),
         None => {}
     }
     match run.output_every {
-        Some(Every::Time(step)) => list.positive("run.output_every", step, "s"),
-        Some(Every::Angle(step)) => list.positive("run.output_every", step, "rad"),
+        Some(Every::Time(step)) => check.positive("run.output_every", step, "s"),
+        Some(Every::Angle(step)) => check.positive("run.output_every", step, "rad"),
         None => {}
     }
-    if list.has_no_problem(&["run.output_every"]) && rows(run, motion) > MOST_OUTPUT_ROWS {
-        list.add(
+    if check.has_no_problem(&["run.output_every"]) && rows(run, motion) > MOST_OUTPUT_ROWS {
+        check.add(
             "run.output_every",
             format!("more than {MOST_OUTPUT_ROWS} output rows would be written"),
             "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
         );
     }
-    if !(LEAST_TOLERANCE..=LARGEST_TOLERANCE).contains(&run.tolerance) {
+    let largest = 0.1;
+    if !(LEAST_TOLERANCE..=largest).contains(&run.tolerance) {
         let what = format!("a tolerance of {} cannot be used", show(run.tolerance));
         let usual = Run::default().tolerance;
-        let help = format!(
-            "give one from {LEAST_TOLERANCE:e} to {LARGEST_TOLERANCE}; {usual:e} is the default"
-        );
-        list.add("run.tolerance", what, help);
+        let help =
+            format!("give one from {LEAST_TOLERANCE:e} to {largest}; {usual:e} is the default");
+        check.add("run.tolerance", what, help);
     }
 }
 
 /// Checks the crank angle at the start: rounding must leave its place in the turn, and the rod must reach the guide. A
 /// scene without motion has no start, but has kinematics.
-fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
+fn start(check: &mut Check, geometry: &Geometry, motion: &Motion) {
     let angle = motion.angle;
-    list.finite("motion.speed", motion.speed);
-    if list.finite("motion.angle", angle) && angle.abs() > LARGEST_ANGLE {
+    check.finite("motion.speed", motion.speed);
+    // Doubles of this size, rad, are 0.007 degrees apart.
+    let largest = 1e12;
+    if check.finite("motion.angle", angle) && angle.abs() > largest {
         let what =
             format!("{angle:e} rad is so many turns that rounding hides the place in the last one");
-        let help = format!("give an angle below {LARGEST_ANGLE:e} rad");
-        list.add("motion.angle", what, help);
+        let help = format!("give an angle below {largest:e} rad");
+        check.add("motion.angle", what, help);
     }
     let Geometry {
         crank, rod, offset, ..
     } = *geometry;
     let distance = (offset + crank * angle.sin()).abs();
-    let outside = distance > rod + LIMIT_ROUNDING * (crank + rod);
+    // At a limit of the angle, rounding may leave the pin this far outside, m.
+    let rounding = 1e-12 * (crank + rod);
+    let outside = distance > rod + rounding;
     if !outside
         || *motion == Motion::default()
-        || !list.has_no_problem(&LENGTHS)
-        || !list.has_no_problem(&["motion.angle"])
+        || !check.has_no_problem(&LENGTHS)
+        || !check.has_no_problem(&["motion.angle"])
     {
         return;
     }
@@ -258,7 +251,7 @@ fn start(list: &mut Check, geometry: &Geometry, motion: &Motion) {
         .iter()
         .map(|[from, to]| format!("from {} to {} deg", computed(*from), computed(*to)))
         .collect();
-    list.add(
+    check.add(
         "motion.angle",
         format!(
             "the mechanism has no position at a crank angle of {} deg: the crank pin is {} m from the guide, the rod {} m long",

@@ -1,6 +1,5 @@
 //! Loop of a free motion: the engines of the plan take turns until the goal is met.
 
-use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
@@ -87,8 +86,9 @@ impl<'a> Pass<'a, '_> {
     }
 
     fn pieces(&mut self) -> Result<(), Error> {
+        let task = self.course.task;
         let mut engine = self.course.first;
-        let mut reason = self.course.task.plan.reason.clone();
+        let mut reason = task.plan.reason.clone();
         // Rotation, rad, before the angle engine resumes; infinite unless that engine stopped at low speed.
         let mut wait = f64::INFINITY;
         loop {
@@ -101,10 +101,19 @@ impl<'a> Pass<'a, '_> {
                 return Ok(());
             };
             wait = match why {
-                PieceEnd::NotApplicable(NotApplicable::TooSlow) if self.hands_back() => self.wait,
+                PieceEnd::NotApplicable(NotApplicable::TooSlow)
+                    if task.plan.has(Engine::Angle) && task.turns_fully() =>
+                {
+                    self.wait
+                }
                 _ => f64::INFINITY,
             };
-            reason = self.reason(next, why);
+            reason = match why {
+                PieceEnd::NotApplicable(why) if next == Engine::Time => {
+                    stop_reason::not_applicable(task, why).into()
+                }
+                _ => "the crank turns".into(),
+            };
             engine = next;
         }
     }
@@ -139,23 +148,7 @@ impl<'a> Pass<'a, '_> {
         })
     }
 
-    fn has_begun(&self) -> bool {
+    pub fn has_begun(&self) -> bool {
         self.arrived.over_angle + self.arrived.in_time > 0
-    }
-
-    /// Whether the angle engine may resume after a piece in time.
-    fn hands_back(&self) -> bool {
-        let task = self.course.task;
-        task.plan.has(Engine::Angle) && task.turns_fully()
-    }
-
-    /// Returns the reason for the next engine.
-    fn reason(&self, next: Engine, why: PieceEnd) -> Cow<'static, str> {
-        match why {
-            PieceEnd::NotApplicable(why) if next == Engine::Time => {
-                stop_reason::not_applicable(self.course.task, why).into()
-            }
-            _ => "the crank turns".into(),
-        }
     }
 }

@@ -68,7 +68,7 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimat
         .rounding(t)
         .map_or(TURN_ROUNDING, |place| place.min(TURN_ROUNDING));
     let mut error = late_by(task, at, late, place);
-    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    error.theta_rad = error.theta_rad.hypot(orbit.turning_point_error(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
     // At rest: not a number.
     let kinetic = 0.5 * momentum * speed.abs();

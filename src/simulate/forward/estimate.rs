@@ -178,7 +178,7 @@ fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] 
     let (Some(Step { end, .. }), Some(on)) = (arrived.last, on) else {
         return [angle, speed];
     };
-    let place = on.equation.curve().place(end.theta);
+    let place = on.equation.curve().pose(end.theta);
     let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
     let dtheta = place.dtheta.abs();
     [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
@@ -282,7 +282,7 @@ impl Observer for SecondRun<'_, '_> {
         } = self;
         match self.on.as_deref().zip(phase) {
             Some((on, phase)) => {
-                compared.pass(step, |q| on.curve().place(q).dtheta);
+                compared.pass(step, |q| on.curve().pose(q).dtheta);
                 rounding.step_on_curve(on, step, phase);
             }
             None => {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
@@ -18,22 +19,14 @@ use crate::numeric::root;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// Tail of the series of the angle engine, as part of the tolerance, and factor on the tail with friction, which may
-/// cut a series inside a panel.
-const SHARE_OVER_ANGLE: f64 = 1e-2;
-const CUT_BY_FRICTION: f64 = 0.03;
-/// Tail of the series of the energy engine, as part of the tolerance, and largest tail: all digits but the last ones.
-const SHARE_OF_ENERGY: f64 = 0.1;
-const MOST_TAIL: f64 = 1e-14;
-
 impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
     pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let (task, model) = (self.course.task, self.course.model);
-        let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
-        let (orbit, t, stopped) = match until_the_end(task, |until| {
-            Orbit::new(model, task.start(), task.speed, until, tail)
-        }) {
+        // A tenth of the tolerance, but no more than the last digits, as the series cost little.
+        let (share, most_tail) = (0.1, 1e-14);
+        let tail = (share * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
+        let (orbit, t, stopped) = match until_the_end(task, model, tail) {
             Ok(ended) => ended,
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
@@ -139,9 +132,12 @@ impl Pass<'_, '_> {
 
 /// Returns the resolution for the tolerance of a run.
 pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
+    // Tail of the series as part of the tolerance; friction may cut a series inside a panel.
+    let share = 1e-2;
+    let share_cut_by_friction = 0.03 * share;
     let share = match &task.maker.guide {
-        Some(_) => SHARE_OVER_ANGLE * CUT_BY_FRICTION,
-        None => SHARE_OVER_ANGLE,
+        Some(_) => share_cut_by_friction,
+        None => share,
     };
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
@@ -164,8 +160,10 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
 /// Computes the motion until its goal, its last time (s), and the reason why the goal is not reached, if any.
 fn until_the_end(
     task: &RunSetup<'_>,
-    mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
+    model: &AngleModel<'_>,
+    tail: f64,
 ) -> Result<(Orbit, f64, Option<stop::Why>), NotApplicable> {
+    let orbit_until = |until: f64| Orbit::new(model, task.start(), task.speed, until, tail);
     let turns = match task.extent {
         Extent::Duration(duration) => {
             let orbit = orbit_until(duration)?;

@@ -7,9 +7,9 @@ use super::super::load_resolution::resolves_speeds;
 use super::super::stepper::PanelStepper;
 use super::{DEGREE, MapRun};
 use crate::engine::energy::NotApplicable;
-use crate::engine::energy::interpolated_turns::{Cell, Turn};
+use crate::engine::energy::interpolated_turns::{Cell, Cycle};
 use crate::engine::energy::segment::Segment;
-use crate::engine::sight::NodeCriterion;
+use crate::engine::resolution::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
@@ -52,9 +52,9 @@ impl<D: Dynamics> MapRun<'_, D> {
             ellipses: ellipses(DEGREE, fine.tail),
             allowed: fine.tail * middle / TAU,
             least: 0.0,
-            compares: false,
+            has_interpolant: false,
         };
-        !dynamics.has_detail()
+        !dynamics.varies_between_nodes()
             || panels
                 .panels
                 .iter()
@@ -62,7 +62,7 @@ impl<D: Dynamics> MapRun<'_, D> {
     }
 
     /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
-    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
+    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Cycle), Interval), NotApplicable> {
         let mut speeds: Option<Interval> = None;
         self.stepper.restart(kinetic, false);
         let mut segment = Segment::open();
@@ -78,7 +78,7 @@ impl<D: Dynamics> MapRun<'_, D> {
                 break;
             }
         }
-        let turn = Turn {
+        let turn = Cycle {
             count: self.stepper.progress.turns.abs(),
             duration: self.stepper.progress.t.0,
             gain: self.stepper.progress.gain,

@@ -4,7 +4,7 @@ mod cells;
 
 use std::f64::consts::TAU;
 
-use super::super::energy::interpolated_turns::{Interpolated, Mark, Turn};
+use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
@@ -28,7 +28,7 @@ pub(super) fn run<D: Dynamics>(
     goal: Goal,
 ) -> Result<AngleRun, NotApplicable> {
     let Start { angle, speed, .. } = stepper.start;
-    let mark = Mark {
+    let mark = TurnStart {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,
         kinetic: stepper.progress.kinetic,
@@ -79,7 +79,7 @@ pub(super) fn run<D: Dynamics>(
         MapEnd::Early(_) => before,
         MapEnd::AtGoal(done) => {
             let after = last.until(end);
-            before - done.work + work_until(orbit.last_leg(), after, &done.force)
+            before - done.work + work_until(orbit.last_segment(), after, &done.force)
         }
     };
     Ok(AngleRun {
@@ -107,7 +107,7 @@ enum MapEnd {
 struct MapRun<'a, D: Dynamics> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
-    marks: Vec<Mark>,
+    marks: Vec<TurnStart>,
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
     /// Width of the next cell, relative to the energy at its start.
@@ -118,7 +118,7 @@ struct MapRun<'a, D: Dynamics> {
 
 impl<D: Dynamics> MapRun<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
-    fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
+    fn turn_of(&mut self, goal: Goal) -> (TurnStart, Option<NotApplicable>) {
         let mut mark = self.marks[0];
         let first = mark.turns;
         let mut known = mark;
@@ -128,7 +128,7 @@ impl<D: Dynamics> MapRun<'_, D> {
         // Iterated in some seconds.
         let most_turns = 1e8;
         loop {
-            let turn = match self.map.turn(mark.kinetic) {
+            let turn = match self.map.cycle(mark.kinetic) {
                 Some(turn) => turn,
                 None => match self.extend(mark.kinetic) {
                     Ok(turn) => turn,
@@ -152,7 +152,7 @@ impl<D: Dynamics> MapRun<'_, D> {
                 }
                 if left >= 1.0 {
                     self.map.steady = true;
-                    let same = Turn { gain: 0.0, ..turn };
+                    let same = Cycle { gain: 0.0, ..turn };
                     mark = mark.after(&same, left.floor());
                     self.marks.push(mark);
                 }
@@ -176,7 +176,7 @@ impl<D: Dynamics> MapRun<'_, D> {
 
     /// Adds the cell that begins at this energy, J, and returns the turn from there; an error where the cell would
     /// serve fewer turns than it costs.
-    fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
+    fn extend(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
         // Range of the width: the energies stay positive and differ by far more than rounding.
         let (narrowest, widest) = (1e-7, 0.5);
         // Tail at which the width of the next cell aims, as a fraction of the allowed one.
@@ -197,7 +197,7 @@ impl<D: Dynamics> MapRun<'_, D> {
                     let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
                     self.width = (factor * tried).min(widest);
                     if cell.tail() <= tail {
-                        let turn = cell.turn(kinetic);
+                        let turn = cell.cycle(kinetic);
                         self.map.cells.push(cell);
                         return Ok(turn);
                     }
@@ -219,7 +219,7 @@ impl<D: Dynamics> MapRun<'_, D> {
     /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map.
     fn last_turns(
         &mut self,
-        mark: &Mark,
+        mark: &TurnStart,
         goal: Goal,
         map_ended: Option<NotApplicable>,
     ) -> Result<MapEnd, NotApplicable> {

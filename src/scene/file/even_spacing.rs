@@ -1,15 +1,12 @@
 //! Evenly spaced values of a key, computed on demand.
 
 use super::keys::Key;
-use super::value;
+use super::{VariedValue, value};
 use crate::scene::unit::{self, Factor};
-
-/// Largest number of values of one key.
-const MOST_VALUES: usize = 1_000_000;
 
 /// Evenly spaced values from first to last, in the unit in which these are written.
 #[derive(Clone, Debug)]
-pub(super) struct Spread {
+pub(super) struct EvenSpacing {
     ends: [f64; 2],
     unit: String,
     count: usize,
@@ -18,19 +15,19 @@ pub(super) struct Spread {
     factor: Option<Factor>,
 }
 
-impl Spread {
-    /// Creates a spread from first value, last value and count as written, even in the values or in their logarithm.
+impl EvenSpacing {
+    /// Creates a spacing from first value, last value and count as written, even in the values or in their logarithm.
     pub fn new(
         key: &Key,
         [from, to]: [&str; 2],
         count: &str,
         logarithmic: bool,
-    ) -> Result<Spread, String> {
+    ) -> Result<EvenSpacing, String> {
+        let most = 1_000_000;
         let counted = count.parse().ok();
-        let counted = counted.filter(|count| (1..=MOST_VALUES).contains(count));
-        let count = counted.ok_or_else(|| {
-            format!("`{count}` is not a number of values from 1 to {MOST_VALUES}")
-        })?;
+        let counted = counted.filter(|count| (1..=most).contains(count));
+        let count = counted
+            .ok_or_else(|| format!("`{count}` is not a number of values from 1 to {most}"))?;
         let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
         if !unit.is_empty() && unit != last_unit {
             return Err(format!(
@@ -45,7 +42,7 @@ impl Spread {
                 "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
             ));
         }
-        let spread = Spread {
+        let spacing = EvenSpacing {
             ends: [first, last],
             unit: last_unit.to_owned(),
             count,
@@ -57,10 +54,10 @@ impl Spread {
         };
         // Values are monotonic: a fault of any of them is a fault of one of these.
         for index in [0, 1, count.saturating_sub(2), count - 1] {
-            let text = spread.value(index.min(count - 1)).0;
+            let text = spacing.value(index.min(count - 1)).text;
             value::read_text(key, &text).map_err(|error| error.to_string())?;
         }
-        Ok(spread)
+        Ok(spacing)
     }
 
     /// Returns the number of values, at least one.
@@ -72,7 +69,7 @@ impl Spread {
     ///
     /// # Panics
     /// If `index` is not below the number of values.
-    pub fn value(&self, index: usize) -> (String, Option<f64>) {
+    pub fn value(&self, index: usize) -> VariedValue {
         let ([first, last], end) = (self.ends, self.count - 1);
         assert!(index <= end, "value {index} of {}", self.count);
         let part = |whole: f64| whole * index as f64 / end as f64;
@@ -89,7 +86,7 @@ impl Spread {
             text.push(' ');
             text.push_str(&self.unit);
         }
-        (text, number)
+        VariedValue { text, number }
     }
 }
 

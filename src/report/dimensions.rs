@@ -6,7 +6,7 @@ use crate::scene::{Joint, Scene};
 
 /// Dimensions of the mechanism, m; body points as coordinates along the body and to the left of it.
 #[derive(Debug, Serialize)]
-pub(super) struct Drawing {
+pub(super) struct Dimensions {
     pub crank: f64,
     pub rod: f64,
     pub offset: f64,
@@ -29,12 +29,12 @@ struct Loose {
     radial: f64,
 }
 
-impl Drawing {
-    pub fn of(scene: &Scene) -> Drawing {
+impl Dimensions {
+    pub fn of(scene: &Scene) -> Dimensions {
         let geometry = &scene.geometry;
         let crank = scene.crank.filter(|crank| crank.mass > 0.0);
         let rod = scene.rod.filter(|rod| rod.mass > 0.0);
-        Drawing {
+        Dimensions {
             crank: geometry.crank,
             rod: geometry.rod,
             offset: geometry.offset,
