@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use slider_crank::kinematics::{Length, OneTurn, TurnOptions, one_turn};
+use slider_crank::kinematics::{Length, MOST_ROWS_OF_TURN, OneTurn, TurnOptions, one_turn};
 use slider_crank::report::{self, Report, StaticsReport, TurnReport};
 use slider_crank::scene::unit::Quantity;
 use slider_crank::statics::{StaticAnalysis, StaticsOptions};
@@ -20,12 +20,9 @@ pub struct Turn {
     every: f64,
 }
 
-/// Most rows of a turn: more is a slip of the unit.
-const MOST_ROWS: f64 = 1e8;
-
 fn spacing(text: &str) -> PyResult<f64> {
     let every = quantity(text, Quantity::Angle)?;
-    match every > 0.0 && std::f64::consts::TAU / every <= MOST_ROWS {
+    match every > 0.0 && std::f64::consts::TAU / every <= MOST_ROWS_OF_TURN {
         true => Ok(every),
         false => Err(refused(
             format!("rows cannot be {text} apart"),

@@ -1,6 +1,7 @@
 //! Parsers of option values with units, to SI units and radians.
 
 use crate::error::Error;
+use crate::kinematics::MOST_ROWS_OF_TURN;
 use crate::scene::unit::{self, Quantity};
 
 pub(super) fn quantity(text: &str, quantity: Quantity) -> Result<f64, String> {
@@ -30,12 +31,11 @@ pub(super) fn positive_angle(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Refuses a crank angle between rows (rad) that gives too many rows per turn, a likely error of the unit.
+/// Refuses a crank angle between rows (rad) that gives too many rows per turn.
 pub(super) fn check_rows_of_turn(every: f64) -> Result<(), Error> {
-    let most_rows = 1e8;
-    if std::f64::consts::TAU / every > most_rows {
+    if std::f64::consts::TAU / every > MOST_ROWS_OF_TURN {
         return Err(Error::refused(
-            format!("--every {every} rad gives more than {most_rows} rows"),
+            format!("--every {every} rad gives more than {MOST_ROWS_OF_TURN} rows"),
             "give an angle like \"1 deg\"",
         ));
     }

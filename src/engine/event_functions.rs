@@ -6,10 +6,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::{dip, maximum, root};
 
-/// Largest crank travel between two samples of a step, rad; a step has at least [`PIECES`] pieces. Parabolas between
-/// the samples detect double sign changes.
-const PIECE_TRAVEL: f64 = 0.1;
-
 /// Event functions of time t (s), angle and speed (rad/s), whose sign changes are located.
 pub trait EventFunction<const N: usize> {
     /// Returns the N values.
@@ -36,12 +32,14 @@ pub fn changes<const N: usize>(
     signs: &mut [f64; N],
 ) -> Vec<Change> {
     let travel = (step.end.theta - step.start.theta).abs();
-    let pieces = PIECES.max((travel / PIECE_TRAVEL).ceil() as usize);
+    // Crank travel between two samples, rad: the parabolas between them detect double sign changes.
+    let longest = 0.1;
+    let pieces = PIECES.max((travel / longest).ceil() as usize);
     let rough = sampled(step, watched, pieces);
     let left = |i: usize| {
         let mut inside = rough[1..].iter();
         follows && has_jumped(&rough, i, signs[i])
-            || inside.any(|look| look.values[i] * signs[i] < 0.0)
+            || inside.any(|sample| sample.values[i] * signs[i] < 0.0)
     };
     let dips = |i: usize| rough.windows(3).any(|w| may_dip(w, i));
     if !(0..N).any(|i| left(i) || dips(i)) {
@@ -52,7 +50,7 @@ pub fn changes<const N: usize>(
     let fine = sampled(step, watched, pieces);
     let mut found = Vec::new();
     for (index, sign) in signs.iter_mut().enumerate() {
-        let value = |t: f64| look(step, watched, t).values[index];
+        let value = |t: f64| values_at(step, watched, t).values[index];
         if follows && has_jumped(&fine, index, *sign) {
             // Just after the start of the step: the run has to advance.
             let t = step.start.t * (1.0 + 4.0 * f64::EPSILON);
@@ -79,24 +77,24 @@ pub fn changes<const N: usize>(
 }
 
 /// True if the function has the opposite sign at the start of the step by more than rounding.
-fn has_jumped<const N: usize>(looks: &[EventValues<N>], index: usize, sign: f64) -> bool {
-    let values = looks.iter().map(|look| look.values[index].abs());
+fn has_jumped<const N: usize>(samples: &[EventValues<N>], index: usize, sign: f64) -> bool {
+    let values = samples.iter().map(|sample| sample.values[index].abs());
     let largest = values.fold(0.0, f64::max);
-    looks[0].values[index] * sign < -SUM_ROUNDING * largest
+    samples[0].values[index] * sign < -SUM_ROUNDING * largest
 }
 
 /// Returns times and values of one function: the samples and the minima of its dips between them.
 fn with_dips<const N: usize>(
-    looks: &[EventValues<N>],
+    samples: &[EventValues<N>],
     index: usize,
     value: impl Fn(f64) -> f64,
 ) -> Vec<(f64, f64)> {
-    let mut all: Vec<_> = looks
+    let mut all: Vec<_> = samples
         .iter()
-        .map(|look| (look.t, look.values[index]))
+        .map(|sample| (sample.t, sample.values[index]))
         .collect();
     let largest = all.iter().fold(0.0f64, |m, (_, value)| m.max(value.abs()));
-    for three in looks.windows(3).filter(|three| may_dip(three, index)) {
+    for three in samples.windows(3).filter(|three| may_dip(three, index)) {
         let sign = three[1].values[index].signum();
         let (t, beyond) = maximum::largest(|t| -sign * value(t), three[0].t, three[2].t);
         if beyond > SUM_ROUNDING * largest {
@@ -138,7 +136,11 @@ struct EventValues<const N: usize> {
     values: [f64; N],
 }
 
-fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> EventValues<N> {
+fn values_at<const N: usize>(
+    step: &Step,
+    watched: &dyn EventFunction<N>,
+    t: f64,
+) -> EventValues<N> {
     let (theta, omega) = step.at(t);
     EventValues {
         t,
@@ -146,21 +148,15 @@ fn look<const N: usize>(step: &Step, watched: &dyn EventFunction<N>, t: f64) -> 
     }
 }
 
-/// Distance of the first and last sample from the ends of a step, as a fraction of its length: steps end at jumps of
-/// loads, and the samples are to show the values inside.
-const BESIDE_END: f64 = 1e-9;
-
-fn time(step: &Step, piece: usize, pieces: usize) -> f64 {
-    let part = (piece as f64 / pieces as f64).clamp(BESIDE_END, 1.0 - BESIDE_END);
-    step.start.t + step.length() * part
-}
-
 fn sampled<const N: usize>(
     step: &Step,
     watched: &dyn EventFunction<N>,
     pieces: usize,
 ) -> Vec<EventValues<N>> {
+    // Steps end at jumps of loads, and the samples show the values inside: not nearer to an end than this fraction.
+    let nearest = 1e-9;
+    let part = |i: usize| (i as f64 / pieces as f64).clamp(nearest, 1.0 - nearest);
     (0..=pieces)
-        .map(|i| look(step, watched, time(step, i, pieces)))
+        .map(|i| values_at(step, watched, step.start.t + step.length() * part(i)))
         .collect()
 }

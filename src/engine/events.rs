@@ -16,19 +16,17 @@ pub enum Crossing {
     Turning,
 }
 
-/// Most turning points located in one step.
-const TURNINGS: usize = 6;
-
 /// Bound of the joint rounding error of an angle reduced to one turn and a watched angle, rad.
-pub const ROUNDED: f64 = 4.0 * f64::EPSILON * TAU;
+pub const ANGLE_ROUNDING: f64 = 4.0 * f64::EPSILON * TAU;
 
 /// Finds all crossings inside a step, in time order, as (time, kind). `watched`: angles in [0, 2π), rad.
 pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>) {
     found.clear();
-    let mut cuts = [step.start.t; TURNINGS + 2];
+    // Ends of the step, and the first turning points.
+    let mut cuts = [step.start.t; 8];
     let mut count = 1;
     turning_brackets(step, |from, to| {
-        if count <= TURNINGS
+        if count + 1 < cuts.len()
             && let Some(t) = root::bracketed(|t| step.at(t).1, from, to)
             && t > step.start.t
         {
@@ -53,10 +51,7 @@ fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     }
     let mut before = SpeedAt::at(step, step.start.t);
     for i in 1..=PIECES {
-        let t = match i {
-            PIECES => step.end.t,
-            _ => step.start.t + step.length() * i as f64 / PIECES as f64,
-        };
+        let t = part(step, i, PIECES);
         let after = SpeedAt::at(step, t);
         // The speed approaches zero and recedes again.
         let dips = before.approach < 0.0 && after.approach > 0.0 || before.speed == 0.0;
@@ -100,18 +95,20 @@ impl SpeedAt {
 }
 
 /// Finds the passages of watched angles on an interval with monotone angle. The angle at the start is excluded, the one
-/// at the end included, both with a margin of [`ROUNDED`]: steps that end at a watched angle pass it once.
+/// at the end included, both with a margin of [`ANGLE_ROUNDING`]: steps that end at a watched angle pass it once.
 fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f64, Crossing)>) {
     let (a, b) = (step.at(from).0, step.at(to).0);
     let direction = (b - a).signum();
     for (index, angle) in watched.iter().enumerate() {
-        let mut turn = ((a.min(b) - ROUNDED - angle) / TAU).floor();
+        let mut turn = ((a.min(b) - ANGLE_ROUNDING - angle) / TAU).floor();
         loop {
             let target = angle + turn * TAU;
-            if target > a.max(b) + ROUNDED {
+            if target > a.max(b) + ANGLE_ROUNDING {
                 break;
             }
-            if direction * (target - a) > ROUNDED && direction * (target - b) <= ROUNDED {
+            if direction * (target - a) > ANGLE_ROUNDING
+                && direction * (target - b) <= ANGLE_ROUNDING
+            {
                 let t = step.time_of_angle(target, from, to).unwrap_or(to);
                 found.push((t, Crossing::Angle(index)));
             }
@@ -120,19 +117,16 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
     }
 }
 
-/// Intervals between the samples in the search for extremes of a step without its own polynomial.
-const PIECES_BETWEEN_ENDS: usize = 2;
-
-/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals; a collocation
-/// polynomial may oscillate as often as it has nodes.
+/// Samples the acceleration at equally spaced times and returns the samples and the number of intervals: two, or one
+/// for each node of a collocation polynomial, which may oscillate as often as it has nodes.
 fn accelerations(step: &Step) -> ([f64; NODES + 1], usize) {
     let mut all = [0.0; NODES + 1];
     if step.has_polynomial() {
         return (step.accelerations(), NODES);
     }
-    let few: [f64; PIECES_BETWEEN_ENDS + 1] = step.accelerations();
+    let few: [f64; 3] = step.accelerations();
     all[..few.len()].copy_from_slice(&few);
-    (all, PIECES_BETWEEN_ENDS)
+    (all, few.len() - 1)
 }
 
 /// Widens a range of speeds, rad/s, by the extremes on a step.

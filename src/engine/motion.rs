@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 
 /// Equation of motion θ̈ = f(t, θ, θ̇) with a power to be integrated along the motion.
 pub trait Motion {
@@ -23,13 +23,13 @@ pub trait Motion {
     fn next_corner(&self, t: f64) -> f64;
 
     /// True if the acceleration may vary between the nodes of a step without a trace in the decay of its series.
-    fn has_detail(&self) -> bool {
+    fn varies_between_nodes(&self) -> bool {
         false
     }
 
     /// Returns the variation of the acceleration, rad/s², on a piece and in its Bernstein ellipse, ρ = `ellipse`.
-    fn detail(&self, _reach: &MotionPiece, _ellipse: f64) -> Detail {
-        Detail::NONE
+    fn variation(&self, _reach: &MotionPiece, _ellipse: f64) -> Variation {
+        Variation::NONE
     }
 
     /// Returns the first coordinate, rad, between `from` and `to` at which the acceleration is known not to be smooth.
@@ -81,7 +81,7 @@ pub struct Batch {
 pub struct Counted<'a> {
     motion: &'a dyn Motion,
     evaluations: Cell<u64>,
-    impossible: Cell<Option<(f64, Angle, f64)>>,
+    singular_state: Cell<Option<(f64, Angle, f64)>>,
 }
 
 impl<'a> Counted<'a> {
@@ -90,7 +90,7 @@ impl<'a> Counted<'a> {
         Counted {
             motion,
             evaluations: Cell::new(0),
-            impossible: Cell::new(None),
+            singular_state: Cell::new(None),
         }
     }
 
@@ -100,8 +100,8 @@ impl<'a> Counted<'a> {
     }
 
     /// Time (s), angle and speed (rad/s) of the last evaluation without a finite acceleration.
-    pub fn impossible(&self) -> Option<(f64, Angle, f64)> {
-        self.impossible.get()
+    pub fn singular_state(&self) -> Option<(f64, Angle, f64)> {
+        self.singular_state.get()
     }
 
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
@@ -113,7 +113,7 @@ impl<'a> Counted<'a> {
         // A non-finite state results from an earlier non-finite evaluation.
         let asked = angle.rest.is_finite() && speed.is_finite();
         if asked && !acceleration.is_finite() {
-            self.impossible.set(Some((t, angle, speed)));
+            self.singular_state.set(Some((t, angle, speed)));
         }
     }
 }
@@ -143,12 +143,12 @@ impl Motion for Counted<'_> {
         self.motion.next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        self.motion.has_detail()
+    fn varies_between_nodes(&self) -> bool {
+        self.motion.varies_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
-        self.motion.detail(reach, ellipse)
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
+        self.motion.variation(reach, ellipse)
     }
 
     fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {

@@ -74,8 +74,8 @@ pub struct Start {
     pub speed: f64,
 }
 
-/// Last time, s, from which on a run counts as unlimited in time.
-pub const FAR: f64 = 1e9;
+/// Last time, s, from which on a run counts as unlimited in time: 30 years.
+pub const UNLIMITED_TIME: f64 = 1e9;
 
 /// Conditions that end a run.
 #[derive(Clone, Copy, Debug, PartialEq)]

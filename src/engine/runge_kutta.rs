@@ -94,45 +94,33 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
         clock,
         stopped: &stopped,
     };
+    // Damping of the step-size control, and bounds of the ratio of a step to the one before.
+    macro_rules! integrated {
+        ($method:ident, $damping:literal, $least:literal, $greatest:literal) => {
+            $method::from_param(
+                system,
+                0.0,
+                length,
+                length,
+                state,
+                tolerance,
+                tolerance,
+                0.9,
+                $damping,
+                $least,
+                $greatest,
+                length,
+                first_step,
+                max_steps,
+                u32::MAX,
+                OutputType::Sparse,
+            )
+            .integrate()
+        };
+    }
     let result = match method {
-        RungeKutta::Dop853 => Dop853::from_param(
-            system,
-            0.0,
-            length,
-            length,
-            state,
-            tolerance,
-            tolerance,
-            0.9,
-            0.0,
-            0.333,
-            6.0,
-            length,
-            first_step,
-            max_steps,
-            u32::MAX,
-            OutputType::Sparse,
-        )
-        .integrate(),
-        RungeKutta::Dopri5 => Dopri5::from_param(
-            system,
-            0.0,
-            length,
-            length,
-            state,
-            tolerance,
-            tolerance,
-            0.9,
-            0.04,
-            0.2,
-            10.0,
-            length,
-            first_step,
-            max_steps,
-            u32::MAX,
-            OutputType::Sparse,
-        )
-        .integrate(),
+        RungeKutta::Dop853 => integrated!(Dop853, 0.0, 0.333, 6.0),
+        RungeKutta::Dopri5 => integrated!(Dopri5, 0.04, 0.2, 10.0),
     };
     match result {
         Ok(_) if stopped.get() => Finish::Stopped,

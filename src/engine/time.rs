@@ -3,22 +3,15 @@
 use std::f64::consts::TAU;
 
 use super::collocation;
+use super::resolution::unresolved_at;
 use super::runge_kutta;
 use super::runge_kutta::Call;
-use super::sight::hides;
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
 use crate::numeric::angle::Angle;
 
-pub use super::run_in_time::{Ends, FAR, Finish, Method, Settings, Start};
-
-/// Most steps of one library call, whose result vectors grow with each step.
-const STEPS_IN_A_CALL: usize = 256;
-
-/// Largest travel of one step, rad. Beyond it the polynomial does not follow the motion and events cannot be listed:
-/// the step is retried with the length of one turn.
-const LONGEST_STEP: f64 = 2.0 * TAU;
+pub use super::run_in_time::{Ends, Finish, Method, Settings, Start, UNLIMITED_TIME};
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step (angles without the turns) and the number of steps.
@@ -34,20 +27,20 @@ pub fn run(
         settings.ends(),
         motion.depends_on_time(),
     );
-    let mut hopeless = None;
+    let mut forecast_end = None;
     let watched = &mut |step: &Step| {
         if sink(step) {
             return true;
         }
         let travel = step.end.theta - step.start.theta;
-        hopeless = forecast.is_hopeless(motion.evaluations(), step.end.t, travel);
-        hopeless.is_some()
+        forecast_end = forecast.reason_to_stop(motion.evaluations(), step.end.t, travel);
+        forecast_end.is_some()
     };
     let (finish, last, steps) = match settings.method {
         Method::Picard => collocation::run(motion, start, settings, watched),
         Method::Library(method) => in_calls(motion, start, settings, method, watched),
     };
-    match (finish, hopeless) {
+    match (finish, forecast_end) {
         (Finish::Stopped, Some(why)) => (why, last, steps),
         _ => (finish, last, steps),
     }
@@ -73,15 +66,17 @@ fn in_calls(
     if !node.alpha.is_finite() {
         return (Finish::NoStart, last, steps);
     }
+    // The result vectors of a library call grow with each step.
+    let most_in_call = 256;
     let mut first_step = 0.0;
-    let mut hidden = f64::INFINITY;
+    let mut resolved_until = f64::INFINITY;
     loop {
         let spent = motion.evaluations();
         if settings.limit.is_reached(spent) {
             return (Finish::WorkLimit, last, steps);
         }
-        if hidden <= node.t {
-            hidden = f64::INFINITY;
+        if resolved_until <= node.t {
+            resolved_until = f64::INFINITY;
         }
         let (mut in_call, mut ended_by_sink, mut rejected) = (0, false, None);
         let left = settings.limit.after(spent).evaluations / method.evaluations_in_a_step();
@@ -91,7 +86,10 @@ fn in_calls(
             tolerance: settings.tolerance,
             turns: angle.turns,
             start: node,
-            t_end: motion.next_corner(node.t).min(settings.t_end).min(hidden),
+            t_end: motion
+                .next_corner(node.t)
+                .min(settings.t_end)
+                .min(resolved_until),
             first_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
@@ -103,7 +101,7 @@ fn in_calls(
                 last = *step;
                 in_call += 1;
                 ended_by_sink = sink(step);
-                ended_by_sink || in_call >= STEPS_IN_A_CALL || step.end.theta.abs() >= TAU
+                ended_by_sink || in_call >= most_in_call || step.end.theta.abs() >= TAU
             },
         });
         steps += in_call as u64;
@@ -122,7 +120,7 @@ fn in_calls(
         first_step = last.length();
         match rejected {
             Some(Rejected::TooLong(shorter)) => first_step = shorter,
-            Some(Rejected::Hides(until)) => hidden = until,
+            Some(Rejected::Unresolved(until)) => resolved_until = until,
             None => {}
         }
     }
@@ -133,7 +131,7 @@ enum Rejected {
     /// Too long a travel; the length to try, s.
     TooLong(f64),
     /// Load not resolved by the step; the time at which the step has to end, s.
-    Hides(f64),
+    Unresolved(f64),
 }
 
 impl Rejected {
@@ -144,10 +142,11 @@ impl Rejected {
         tolerance: f64,
     ) -> Option<Rejected> {
         let travel = (step.end.theta - step.start.theta).abs();
-        if travel > LONGEST_STEP {
+        // Beyond two turns the polynomial does not follow the motion and events cannot be listed: one turn is tried.
+        if travel > 2.0 * TAU {
             return Some(Rejected::TooLong(step.length() * TAU / travel));
         }
-        hides(motion, step, method.order(), tolerance).map(Rejected::Hides)
+        unresolved_at(motion, step, method.order(), tolerance).map(Rejected::Unresolved)
     }
 }
 

@@ -1,13 +1,6 @@
 //! Forecast: will the run exceed its evaluation limit long before its end? Extrapolates the progress per evaluation.
 
-use super::run_in_time::{Ends, FAR, Finish};
-
-/// Evaluations in a window over which the progress is measured.
-const WINDOW: u64 = 1_000_000;
-/// Ratio of extrapolated to remaining evaluations, twice in a row, that ends a crawling or steadily turning run.
-const BEYOND: f64 = 5.0;
-/// Travel per evaluation, rad, below which a run crawls.
-const CRAWL: f64 = 1e-5;
+use super::run_in_time::{Ends, Finish, UNLIMITED_TIME};
 
 /// Progress of a run.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +37,7 @@ impl<'a> WorkForecast<'a> {
 
     /// Returns the reason to give up a run that has reached time `t` (s) with `evaluations` in all and moved by
     /// `travel` (rad) since the last call; none while it may reach its end within the work limit.
-    pub fn is_hopeless(&mut self, evaluations: u64, t: f64, travel: f64) -> Option<Finish> {
+    pub fn reason_to_stop(&mut self, evaluations: u64, t: f64, travel: f64) -> Option<Finish> {
         self.travel += travel.abs();
         self.net += travel;
         let ends = self.ends;
@@ -52,13 +45,15 @@ impl<'a> WorkForecast<'a> {
             stop.reach((t / ends.t).max((self.turned + self.net).abs() / ends.way));
         }
         let spent = (evaluations - self.evaluations) as f64;
-        if spent < WINDOW as f64 {
+        // Evaluations in a window over which the progress is measured.
+        let window = 1e6;
+        if spent < window {
             return None;
         }
         self.turned += self.net;
         let seconds = t - self.t;
         let turns = self.net.abs() == self.travel;
-        let windows = if ends.t < FAR {
+        let windows = if ends.t < UNLIMITED_TIME {
             (ends.t - t) / seconds
         } else if turns {
             (ends.way - self.turned.abs()) / self.travel
@@ -66,11 +61,15 @@ impl<'a> WorkForecast<'a> {
             0.0
         };
         let left = ends.limit.evaluations.saturating_sub(evaluations) as f64;
-        let crawls = ends.t < FAR && self.travel < CRAWL * spent;
+        // Travel per evaluation, rad, below which a run crawls.
+        let crawl = 1e-5;
+        let crawls = ends.t < UNLIMITED_TIME && self.travel < crawl * spent;
         // A crank that loses less than `spent / left` of its speed per window does not come to rest before the limit.
         let speed = self.travel / seconds;
         let lasts = turns && !self.in_time && speed >= self.speed * (1.0 - spent / left);
-        let slow = windows * spent > BEYOND * left && (crawls || lasts);
+        // Ratio of extrapolated to remaining evaluations, twice in a row, that ends a crawling or steadily turning run.
+        let beyond = 5.0;
+        let slow = windows * spent > beyond * left && (crawls || lasts);
         let was_slow = std::mem::replace(&mut self.slow, slow);
         (self.t, self.evaluations, self.speed) = (t, evaluations, speed);
         (self.net, self.travel) = (0.0, 0.0);

@@ -44,7 +44,7 @@ pub struct Kinematics {
     /// Warnings about the result.
     pub warnings: Vec<String>,
     #[serde(skip)]
-    linkage: Linkage,
+    pub(super) linkage: Linkage,
 }
 
 /// Dead centre.

@@ -146,7 +146,7 @@ impl ForceAnalysis {
     /// Computes shaking force, shaking moment and torque at equal steps of the cycle.
     fn samples(&self) -> Vec<[f64; 4]> {
         // Dense enough for the largest force too.
-        let count = self.cycle_turns * 2 * fourier::SAMPLES;
+        let count = self.cycle_turns * 2 * fourier::SAMPLES_PER_TURN;
         let at = |k: u32| self.whole() * f64::from(k) / f64::from(count);
         let row = |k: u32| {
             let row = self.row(at(k));
@@ -169,7 +169,7 @@ impl ForceAnalysis {
                 torque_nm: torque,
             }
         };
-        (1..=fourier::HIGHEST * turns).map(order).collect()
+        (1..=fourier::HIGHEST_ORDER * turns).map(order).collect()
     }
 
     fn balance(&self, samples: &[[f64; 4]], part: f64) -> Balance {

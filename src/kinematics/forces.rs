@@ -184,9 +184,8 @@ impl ForceAnalysis {
         let has_seam = (from..to).contains(&whole);
         let seam = [0.0, whole].into_iter().filter(|_| has_seam);
         let grid = self.linkage().turn_grid(false);
-        let inside = (-1..=i64::from(self.cycle_turns) + 1)
-            .flat_map(|turn| grid.iter().map(move |theta| theta + turn as f64 * TAU))
-            .filter(|theta| (from..=to).contains(theta));
+        let all = angle::in_turns(&grid, -1..=i64::from(self.cycle_turns) + 1);
+        let inside = all.filter(|theta| (from..=to).contains(theta));
         let mut angles = vec![from, to];
         angles.extend(inside);
         let rows = self.equation.loads().corners_between(from, to);

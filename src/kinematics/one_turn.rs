@@ -12,6 +12,9 @@ use crate::mechanism::{Length, Linkage, TorqueSlope};
 use crate::numeric::angle;
 use crate::scene::Scene;
 
+/// Largest number of rows of a turn: more, from an angle between rows of less than 6e-8 rad, are an error of its unit.
+pub const MOST_ROWS_OF_TURN: f64 = 1e8;
+
 /// Quantities to compute beside the kinematics.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TurnOptions {
@@ -51,7 +54,10 @@ pub struct OneTurn {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loop_closure: Option<LoopCheck>,
     #[serde(skip)]
-    slopes: Option<Slopes>,
+    has_slopes: bool,
+    /// Derivatives of the driving torque; none if not asked for or not known.
+    #[serde(skip)]
+    torque_slope: Option<TorqueSlope>,
 }
 
 /// Loop closure by Newton-Raphson from one guess for every degree of a turn.
@@ -71,13 +77,6 @@ pub struct LoopCheck {
     pub failed: usize,
     /// Largest distance of x from the closed form on the same branch, m.
     pub worst_x_m: f64,
-}
-
-#[derive(Clone, Debug)]
-struct Slopes {
-    linkage: Linkage,
-    speed: f64,
-    torque: Option<TorqueSlope>,
 }
 
 /// Row of a turn: the kinematics and the quantities asked for.
@@ -112,19 +111,10 @@ pub struct LengthSlope {
 /// The errors of [`kinematics`] and [`forces`], and those of the changed lengths.
 pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> {
     let mut kinematics = kinematics(scene)?;
-    let linkage = Linkage::new(&scene.geometry);
-    let speed = scene.motion.speed;
-    let slopes = options.sensitivity.then(|| {
-        let torque = TorqueSlope::new(scene);
-        if let (Err(reason), true) = (&torque, speed != 0.0) {
-            kinematics.warnings.push(reason.to_string());
-        }
-        Slopes {
-            linkage,
-            speed,
-            torque: torque.ok(),
-        }
-    });
+    let torque_slope = options.sensitivity.then(|| TorqueSlope::new(scene));
+    if let (Some(Err(reason)), Some(_)) = (&torque_slope, kinematics.speed_rad_per_s) {
+        kinematics.warnings.push(reason.to_string());
+    }
     for (name, is_given) in [
         ("friction", scene.friction.is_some()),
         ("clearance", scene.clearance.is_some()),
@@ -147,9 +137,10 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
         offsets: offset_extremes(scene, &options.offsets)?,
         loop_closure: options
             .iterate_from
-            .map(|guess| check_loop(&linkage, guess)),
+            .map(|guess| check_loop(&kinematics.linkage, guess)),
         kinematics,
-        slopes,
+        has_slopes: options.sensitivity,
+        torque_slope: torque_slope.and_then(Result::ok),
     })
 }
 
@@ -212,7 +203,7 @@ impl OneTurn {
         };
         TurnRow {
             forces: self.forces.as_ref().map(|forces| forces.row(theta)),
-            slopes: self.slopes.as_ref().map(|slopes| slopes.row(theta)),
+            slopes: self.has_slopes.then(|| self.slopes(theta)),
             change: self.changed.as_ref().map(|changed| {
                 let (before, after) = (motion(&kinematics), motion(&changed.row(theta)));
                 [0, 1, 2].map(|i| after[i] - before[i])
@@ -233,19 +224,22 @@ impl OneTurn {
 
     /// Whether rows have derivatives with respect to the lengths.
     pub fn has_slopes(&self) -> bool {
-        self.slopes.is_some()
+        self.has_slopes
     }
-}
 
-impl Slopes {
-    fn row(&self, theta: f64) -> [LengthSlope; 3] {
-        let pose = self.linkage.pose(theta);
-        let rate = if self.speed == 0.0 { 1.0 } else { self.speed };
+    fn slopes(&self, theta: f64) -> [LengthSlope; 3] {
+        let Kinematics {
+            linkage,
+            speed_rad_per_s: speed,
+            ..
+        } = &self.kinematics;
+        let pose = linkage.pose(theta);
+        let rate = speed.unwrap_or(1.0);
         Length::ALL.map(|length| {
-            let slope = self.linkage.slope(&pose, length);
+            let slope = linkage.slope(&pose, length);
             // No torque without a speed; where the derivative is not known, the cells stay empty.
-            let torque = (self.speed != 0.0).then(|| match &self.torque {
-                Some(torque) => torque.driving_torque(theta, self.speed, length),
+            let torque = speed.map(|speed| match &self.torque_slope {
+                Some(torque) => torque.driving_torque(theta, speed, length),
                 None => f64::NAN,
             });
             LengthSlope {

@@ -29,12 +29,6 @@ pub struct Area {
     pub energy_j: f64,
 }
 
-/// Parts of a piece (an eighth of a turn at most) in each of which the torque crosses its mean once at most.
-const LOOKS: u32 = 16;
-
-/// Allowed error of an area, as a part of the largest value times the length.
-const TOLERANCE: f64 = 1e-12;
-
 /// Returns an integrator of functions of the size of one function at the ends of pieces.
 pub(super) fn areas(
     size: &dyn Fn(f64) -> f64,
@@ -42,7 +36,9 @@ pub(super) fn areas(
 ) -> impl Fn(&dyn Fn(f64) -> f64, f64, f64) -> f64 {
     let sizes = pieces.iter().map(|end| size(*end).abs());
     let largest = sizes.fold(0.0, f64::max);
-    move |f, from, to| gauss::adaptive(f, from, to, TOLERANCE * largest * (to - from))
+    // Allowed error of an area, as a part of the largest value times the length.
+    let tolerance = 1e-12;
+    move |f, from, to| gauss::adaptive(f, from, to, tolerance * largest * (to - from))
 }
 
 impl ForceAnalysis {
@@ -91,9 +87,11 @@ impl ForceAnalysis {
     /// Locates the sign changes of a function of the cycle, rad. The function is sampled in the middle of parts of the
     /// pieces, as it may vanish at their ends.
     fn crossings(&self, pieces: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
+        // Of a piece, an eighth of a turn at most: the torque crosses its mean once at most in each.
+        let parts = 16u32;
         let middles = pieces.windows(2).flat_map(|piece| {
-            let step = (piece[1] - piece[0]) / f64::from(LOOKS);
-            (0..LOOKS).map(move |k| piece[0] + (f64::from(k) + 0.5) * step)
+            let step = (piece[1] - piece[0]) / f64::from(parts);
+            (0..parts).map(move |k| piece[0] + (f64::from(k) + 0.5) * step)
         });
         let mut middles: Vec<f64> = middles.collect();
         middles.extend(middles.first().map(|first| first + self.whole()));

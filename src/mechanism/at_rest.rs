@@ -61,7 +61,7 @@ impl AtRest<'_> {
     /// Bounds the change of [`AtRest::margin`] between two times (s), N or N m, from enclosures of the loads.
     pub fn margin_change(&self, mu_static: f64, [from, to]: [f64; 2]) -> f64 {
         let loads = self.equation.loads();
-        if !loads.have_detail() {
+        if !loads.vary_between_nodes() {
             return 0.0;
         }
         let piece = MotionPiece {
@@ -75,15 +75,15 @@ impl AtRest<'_> {
             .enclosed_state(&piece, loads.meet_slider());
         let terms = &self.terms;
         let effects = UnitLoadEffects {
-            torque: terms.place.dtheta,
-            force: terms.place.dx,
+            torque: terms.pose.dtheta,
+            force: terms.pose.dx,
         };
         // Only the range of a load on the interval is used: any size of the ellipse serves.
-        let detail = loads.detail(&state, effects, 2.0);
-        let (arm, x_n) = (terms.place.dx.abs(), terms.x_n.abs());
+        let variation = loads.variation(&state, effects, 2.0);
+        let (arm, x_n) = (terms.pose.dx.abs(), terms.x_n.abs());
         // A change of Q by one changes the torque by one at most and the force by 1/x'.
         let most = 1.0 + mu_static * (arm * terms.theta_n.abs() + 2.0 * x_n);
-        let change = (detail.change - self.rounding(from)).max(0.0) * most;
+        let change = (variation.change - self.rounding(from)).max(0.0) * most;
         match loads.are_dry() {
             true => change,
             false if arm > 0.0 => change / arm,
@@ -93,16 +93,16 @@ impl AtRest<'_> {
 
     /// Returns the rounding error of the generalized force of the loads at rest, N m.
     fn rounding(&self, t: f64) -> f64 {
-        let place = &self.terms.place;
-        let LoadValue { torque, force } = self.equation.load(place, t, self.q, 0.0);
+        let pose = &self.terms.pose;
+        let LoadValue { torque, force } = self.equation.load(pose, t, self.q, 0.0);
         let most = self.dry_magnitude(t);
-        let size = torque.abs() + most.torque + (force.abs() + most.force) * place.dx.abs();
+        let size = torque.abs() + most.torque + (force.abs() + most.force) * pose.dx.abs();
         SUM_ROUNDING * size
     }
 
     /// Returns the magnitudes with which the dry loads oppose motion, N m and N.
     fn dry_magnitude(&self, t: f64) -> LoadValue {
-        let now = self.equation.instant(&self.terms.place, t, self.q, 0.0);
+        let now = self.equation.instant(&self.terms.pose, t, self.q, 0.0);
         self.equation.loads().dry_magnitude(&now)
     }
 
@@ -117,9 +117,9 @@ impl AtRest<'_> {
                 spare: -free.pull.abs(),
             };
         }
-        let place = &terms.place;
+        let pose = &terms.pose;
         let most = self.dry_magnitude(t);
-        let band = most.torque * place.dtheta.abs() + most.force * place.dx.abs();
+        let band = most.torque * pose.dtheta.abs() + most.force * pose.dx.abs();
         let spare = band - free.pull.abs();
         let part = match spare >= 0.0 {
             true if band > 0.0 => -free.pull / band,
@@ -127,8 +127,8 @@ impl AtRest<'_> {
             false => -sign(free.pull),
         };
         let dry = LoadValue {
-            torque: part * most.torque * sign(place.dtheta),
-            force: part * most.force * sign(place.dx),
+            torque: part * most.torque * sign(pose.dtheta),
+            force: part * most.force * sign(pose.dx),
         };
         free.push(terms, dry, 0.0);
         if spare >= 0.0 {

@@ -126,11 +126,11 @@ impl Curve {
     }
 
     /// Returns the position at coordinate q, rad.
-    pub fn place(&self, q: f64) -> CurvePose {
+    pub fn pose(&self, q: f64) -> CurvePose {
         match &self.chart {
             Chart::Crank => CurvePose::of(&self.linkage, &self.linkage.pose(q)),
             Chart::Rod(swapped) => CurvePose::of(swapped, &swapped.pose(q)).exchanged(),
-            Chart::Rocker(rocker) => rocker.place(&self.linkage, q),
+            Chart::Rocker(rocker) => rocker.pose(&self.linkage, q),
         }
     }
 

@@ -25,7 +25,7 @@ pub struct CurveEquation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurveTerms {
     /// Position of the mechanism.
-    pub place: CurvePose,
+    pub pose: CurvePose,
     /// M, kg m²
     pub m: f64,
     /// ½ M', kg m²
@@ -47,7 +47,7 @@ pub struct CurveTerms {
 impl CurveTerms {
     /// Returns Q of a load, N m.
     pub(super) fn along(&self, load: LoadValue) -> f64 {
-        load.torque * self.place.dtheta + load.force * self.place.dx
+        load.torque * self.pose.dtheta + load.force * self.pose.dx
     }
 
     /// Returns Q_n of a load, N.
@@ -84,9 +84,9 @@ impl CurveEquation {
 
     /// Computes the terms at coordinate q, rad.
     pub fn terms(&self, q: f64) -> CurveTerms {
-        let place = self.curve.place(q);
-        let path = place.path(self.curve.linkage(), &self.equation.rod);
-        self.equation.curve_terms(place, &path)
+        let pose = self.curve.pose(q);
+        let path = pose.path(self.curve.linkage(), &self.equation.rod);
+        self.equation.curve_terms(pose, &path)
     }
 
     /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
@@ -97,41 +97,41 @@ impl CurveEquation {
     /// Whether M vanishes at a limit or a dead centre.
     pub fn vanishes_somewhere(&self) -> bool {
         let curve = &self.curve;
-        let mut places = curve.limits().into_iter().chain(curve.dead_centres());
+        let mut coordinates = curve.limits().into_iter().chain(curve.dead_centres());
         *self
             .vanishing
-            .get_or_init(|| places.any(|q| self.vanishes_at(q)))
+            .get_or_init(|| coordinates.any(|q| self.vanishes_at(q)))
     }
 
     /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s).
-    pub fn instant(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
+    pub fn instant(&self, pose: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
         Instant {
             t,
             theta: self.curve.crank_angle(q).radians(),
-            omega: place.dtheta * speed,
-            x: place.x,
-            v: place.dx * speed,
+            omega: pose.dtheta * speed,
+            x: pose.x,
+            v: pose.dx * speed,
         }
     }
 
     /// Returns torque and force of the loads without guide friction; dry loads oppose this speed.
-    pub fn load(&self, place: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
-        self.loads().at(&self.instant(place, t, q, speed))
+    pub fn load(&self, pose: &CurvePose, t: f64, q: Angle, speed: f64) -> LoadValue {
+        self.loads().at(&self.instant(pose, t, q, speed))
     }
 
     /// Returns torque and force of the loads, with a known value of the dry ones.
     pub fn load_beside(
         &self,
         dry: LoadValue,
-        place: &CurvePose,
+        pose: &CurvePose,
         t: f64,
         q: Angle,
         speed: f64,
     ) -> LoadValue {
         let non_conservative = self
             .loads()
-            .non_conservative(&self.instant(place, t, q, speed));
-        let potential = self.loads().with_potential_at(place.x);
+            .non_conservative(&self.instant(pose, t, q, speed));
+        let potential = self.loads().with_potential_at(pose.x);
         potential.plus(non_conservative).plus(dry)
     }
 
@@ -150,7 +150,7 @@ impl CurveEquation {
         let terms = self.terms(q.rest);
         let mut free = self.without_dry(&terms, t, q, speed);
         if self.loads().are_dry() {
-            let now = self.instant(&terms.place, t, q, speed);
+            let now = self.instant(&terms.pose, t, q, speed);
             let sense = sense.unwrap_or_else(|| Sense::of(now.omega, now.v));
             free.push(&terms, self.loads().dry(&now, sense), speed);
         }
@@ -159,10 +159,10 @@ impl CurveEquation {
 
     /// Computes the motion without guide friction and without dry loads.
     pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
-        let place = &terms.place;
+        let pose = &terms.pose;
         let loads = self.loads();
-        let non_conservative = loads.non_conservative(&self.instant(place, t, q, speed));
-        let load = loads.with_potential_at(place.x).plus(non_conservative);
+        let non_conservative = loads.non_conservative(&self.instant(pose, t, q, speed));
+        let load = loads.with_potential_at(pose.x).plus(non_conservative);
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;
         let acceleration = (pull - terms.half_dm * squared) / terms.m;
@@ -170,12 +170,12 @@ impl CurveEquation {
         Free {
             acceleration,
             normal: terms.a * acceleration + normal_at_rest,
-            gain: place.dx / terms.m,
-            kappa: terms.a * place.dx / terms.m - terms.x_n,
+            gain: pose.dx / terms.m,
+            kappa: terms.a * pose.dx / terms.m - terms.x_n,
             pull,
             normal_at_rest,
             x_n: terms.x_n,
-            dx: place.dx,
+            dx: pose.dx,
             power: terms.along(non_conservative) * speed,
         }
     }
@@ -184,18 +184,18 @@ impl CurveEquation {
     /// the coordinate); none where the guide locks itself.
     pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
         let terms = self.terms(q.rest);
-        let load = self.load(&terms.place, t, q, speed);
-        let place = &terms.place;
+        let load = self.load(&terms.pose, t, q, speed);
+        let pose = &terms.pose;
         let squared = speed * speed;
         // Virtual displacement off the guide with the crank held, over which the drive does no work.
-        let share = terms.theta_n / place.dtheta;
-        let slope = terms.x_n - share * place.dx;
+        let share = terms.theta_n / pose.dtheta;
+        let slope = terms.x_n - share * pose.dx;
         let without = (terms.a - share * terms.m) * acceleration
             + (terms.b - share * terms.half_dm) * squared
             + (terms.dv_n - share * terms.dv)
             - load.force * slope;
         let mu = self.friction.map_or(0.0, |friction| friction.coefficient);
-        GuideForces::sliding(without, -slope, mu, place.dx * speed)
+        GuideForces::sliding(without, -slope, mu, pose.dx * speed)
     }
 
     /// Returns the kinetic energy, J.
@@ -206,24 +206,24 @@ impl CurveEquation {
     /// Returns the potential energy of gravity and of the loads that have a potential, J. The crank angle counts
     /// without `turns` whole turns, which would cost digits.
     pub fn potential_energy(&self, q: Angle, turns: f64) -> f64 {
-        let place = self.curve.place(q.rest);
+        let pose = self.curve.pose(q.rest);
         let mut theta = self.curve.crank_angle(q);
         theta.turns -= turns;
-        let (crank, axis) = ([place.cos, place.sin], [place.rod_cos, -place.rod_sin]);
-        let gravity = self.equation.gravity_at(crank, axis, place.x);
-        self.loads().potential(theta.radians(), place.x) + gravity
+        let (crank, axis) = ([pose.cos, pose.sin], [pose.rod_cos, -pose.rod_sin]);
+        let gravity = self.equation.gravity_at(crank, axis, pose.x);
+        self.loads().potential(theta.radians(), pose.x) + gravity
     }
 }
 
 impl Equation {
     /// Computes the terms along and across a curve at a position with a path of the rod.
     #[inline(always)]
-    pub(super) fn curve_terms(&self, place: CurvePose, path: &Path) -> CurveTerms {
+    pub(super) fn curve_terms(&self, pose: CurvePose, path: &Path) -> CurveTerms {
         let Linkage { r, l, .. } = *self.linkage();
-        let crank = [place.cos, place.sin];
-        let rod = [place.rod_cos, -place.rod_sin];
-        let turn = [place.dtheta, place.d2theta];
-        let [along, bend] = VirtualDisplacement::along(turn, path, [place.dx, place.d2x]);
+        let crank = [pose.cos, pose.sin];
+        let rod = [pose.rod_cos, -pose.rod_sin];
+        let turn = [pose.dtheta, pose.d2theta];
+        let [along, bend] = VirtualDisplacement::along(turn, path, [pose.dx, pose.d2x]);
         let arm = self.rod.arm(rod);
         let off_guide = VirtualDisplacement::off_guide(
             crank.map(|part| r * part),
@@ -239,7 +239,7 @@ impl Equation {
             dv_n: self.weight_over(crank, &off_guide) - self.weight.slider[1],
             theta_n: off_guide.theta,
             x_n: off_guide.x,
-            place,
+            pose,
         }
     }
 }

@@ -63,7 +63,7 @@ impl UnitLoadEffects {
 
 /// Ranges of a position over a range of a coordinate q.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Places {
+pub(super) struct PoseRanges {
     /// Angle at q, rad: φ of a linkage, θ of a curve.
     pub angle: Interval,
     /// Derivative of the angle with respect to q.
@@ -76,7 +76,7 @@ pub(super) struct Places {
 
 impl Linkage {
     /// Encloses φ, φ', x and x' over crank angles.
-    pub(super) fn enclose(&self, theta: Interval) -> Places {
+    pub(super) fn enclose(&self, theta: Interval) -> PoseRanges {
         let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
         let sin_phi = (point(self.e) + point(self.r) * sin) * point(1.0 / self.l);
@@ -85,7 +85,7 @@ impl Linkage {
         let cos_phi = Interval::new(squared.low.max(0.0), squared.high.max(0.0)).rising(f64::sqrt);
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
-        Places {
+        PoseRanges {
             angle: sin_phi.rising(f64::asin),
             dangle: along * point(1.0 / self.l) * per,
             x: along + point(self.s * self.l) * cos_phi,
@@ -93,10 +93,11 @@ impl Linkage {
         }
     }
 
-    /// Returns the enclosed state of a motion over the crank angle; `by_place`: with x and x', where loads need them.
-    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
-        let places = by_place.then(|| self.enclose(piece.angle));
-        let [x, dx] = places.map_or([Interval::WHOLE; 2], |places| [places.x, places.dx]);
+    /// Returns the enclosed state of a motion over the crank angle; `with_slider`: with x and x', if loads need
+    /// them.
+    pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
+        let ranges = with_slider.then(|| self.enclose(piece.angle));
+        let [x, dx] = ranges.map_or([Interval::WHOLE; 2], |ranges| [ranges.x, ranges.dx]);
         EnclosedState {
             t: piece.t,
             theta: piece.angle,
@@ -110,7 +111,7 @@ impl Linkage {
 
 impl Rocker {
     /// Encloses θ, θ', x and x' over coordinates.
-    fn enclose(&self, linkage: &Linkage, q: Interval) -> Places {
+    fn enclose(&self, linkage: &Linkage, q: Interval) -> PoseRanges {
         let point = Interval::point;
         let (mirror, fold) = (point(self.mirror), point(self.fold));
         let quarter_less = q - point(FRAC_PI_2);
@@ -120,7 +121,7 @@ impl Rocker {
         let (r, l) = (point(linkage.r), point(linkage.l));
         let (dtheta, drod) = (mirror * crank.slope, mirror * fold * rod.slope);
         let (y, rod_y) = (-(r * mirror * crank.cos), l * mirror * rod.cos);
-        Places {
+        PoseRanges {
             angle: mirror * (crank.angle - point(FRAC_PI_2)),
             dangle: dtheta,
             x: r * crank.sin + l * fold * rod.sin,
@@ -130,50 +131,50 @@ impl Rocker {
 }
 
 impl Curve {
-    fn enclose(&self, q: Interval) -> Places {
+    fn enclose(&self, q: Interval) -> PoseRanges {
         let point = Interval::point;
         let turns = point(self.turns * TAU);
         match &self.chart {
-            Chart::Crank => Places {
+            Chart::Crank => PoseRanges {
                 angle: q,
                 dangle: point(1.0),
                 ..self.linkage().enclose(q)
             },
             Chart::Rod(swapped) => {
-                let places = swapped.enclose(q);
+                let ranges = swapped.enclose(q);
                 let (angle, sign) = match swapped.s < 0.0 {
-                    true => (point(PI) - places.angle, -1.0),
-                    false => (places.angle, 1.0),
+                    true => (point(PI) - ranges.angle, -1.0),
+                    false => (ranges.angle, 1.0),
                 };
-                Places {
+                PoseRanges {
                     angle: angle + turns,
-                    dangle: point(sign) * places.dangle,
-                    ..places
+                    dangle: point(sign) * ranges.dangle,
+                    ..ranges
                 }
             }
             Chart::Rocker(rocker) => {
-                let places = rocker.enclose(self.linkage(), q);
-                Places {
-                    angle: places.angle + turns,
-                    ..places
+                let ranges = rocker.enclose(self.linkage(), q);
+                PoseRanges {
+                    angle: ranges.angle + turns,
+                    ..ranges
                 }
             }
         }
     }
 
-    /// Returns the enclosed state of a motion over the coordinate; `by_place`: with x and x', always if q is not θ.
-    pub fn enclosed_state(&self, piece: &MotionPiece, by_place: bool) -> EnclosedState {
+    /// Returns the enclosed state of a motion over the coordinate; `with_slider`: with x and x', always if q is not θ.
+    pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
         if self.is_crank_angle() {
-            return self.linkage().enclosed_state(piece, by_place);
+            return self.linkage().enclosed_state(piece, with_slider);
         }
-        let places = self.enclose(piece.angle);
+        let ranges = self.enclose(piece.angle);
         EnclosedState {
             t: piece.t,
-            theta: places.angle,
-            omega: places.dangle * piece.speed,
-            x: places.x,
-            v: places.dx * piece.speed,
-            dx: places.dx,
+            theta: ranges.angle,
+            omega: ranges.dangle * piece.speed,
+            x: ranges.x,
+            v: ranges.dx * piece.speed,
+            dx: ranges.dx,
         }
     }
 }

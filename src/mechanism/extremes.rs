@@ -120,7 +120,11 @@ impl Linkage {
     /// of the distance from the branch points. They are at most 1° apart; for `smooth` functions, of geometry and mass
     /// alone, at most 0.0625 rad, less than the distance between extremes.
     pub fn turn_grid(&self, smooth: bool) -> Vec<f64> {
-        let step = if smooth { 0.0625 } else { 1f64.to_radians() };
+        let longest = if smooth { 0.0625 } else { 1f64.to_radians() };
+        // Part of the distance from the nearest branch point.
+        let share = 0.125;
+        // Angle at which the turn is cut, rad: symmetry makes no quantity extreme there.
+        let seam = -1.7;
         let [[_, below], [_, above]] = self.branch_points();
         let widths = [below, above, below];
         let distance = |theta: f64| {
@@ -130,22 +134,17 @@ impl Linkage {
             };
             squared(0).min(squared(1)).min(squared(2)).sqrt()
         };
-        let end = SEAM + TAU;
+        let end = seam + TAU;
         // A long rod keeps all branch points far off.
-        let is_far = STEP_BY_DISTANCE * widths[0].min(widths[1]) >= step;
+        let is_far = share * below.min(above) >= longest;
         let next = |theta: &f64| {
             let step = match is_far {
-                true => step,
-                false => step.min(STEP_BY_DISTANCE * distance(*theta)),
+                true => longest,
+                false => longest.min(share * distance(*theta)),
             };
             let next = theta + step;
             (*theta < end).then_some(next.min(end))
         };
-        std::iter::successors(Some(SEAM), next).collect()
+        std::iter::successors(Some(seam), next).collect()
     }
 }
-
-/// Angle at which the turn is cut, rad: symmetry makes no quantity extreme there.
-const SEAM: f64 = -1.7;
-/// Step as a part of the distance from the nearest branch point.
-const STEP_BY_DISTANCE: f64 = 0.125;

@@ -26,9 +26,9 @@ impl CurveTerms {
         Normal {
             place: self.dv_n - share * self.dv,
             torque: share - self.theta_n,
-            force: share * self.place.dx - self.x_n,
+            force: share * self.pose.dx - self.x_n,
             square: self.b - share * self.half_dm,
-            dx: self.place.dx,
+            dx: self.pose.dx,
         }
     }
 }
@@ -39,12 +39,12 @@ impl Equation {
     pub(super) fn normal_without_cases(&self, terms: &Terms) -> Normal {
         let Terms { pose, inertia, dv } = terms;
         let path = Path::on_rod(self.linkage(), pose, self.rod.along, self.rod.lateral);
-        let place = CurvePose::of(self.linkage(), pose);
+        let curve_pose = CurvePose::of(self.linkage(), pose);
         CurveTerms {
             m: inertia.m,
             half_dm: inertia.half_dm,
             dv: *dv,
-            ..self.curve_terms(place, &path)
+            ..self.curve_terms(curve_pose, &path)
         }
         .normal()
     }

@@ -87,9 +87,6 @@ pub struct Limits {
     pub reach: Vec<[f64; 2]>,
 }
 
-/// cos φ at which the rod counts as normal to the guide: beyond, the crank angle determines the position poorly.
-const NEARLY_NORMAL: f64 = 1e-3;
-
 impl Limits {
     /// Computes the limits of a linkage, for a crank that turns in the direction of `speed` (only its sign counts; zero
     /// means counter-clockwise).
@@ -134,7 +131,9 @@ impl Limits {
     /// Returns the reachable crank angles, rad, with the rod at least 0.001 rad off the normal of the guide; empty:
     /// all.
     pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
-        let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * NEARLY_NORMAL * NEARLY_NORMAL));
+        // cos φ nearer to the normal, where the crank angle determines the position poorly.
+        let nearest = 1e-3;
+        let shorter = linkage.with_rod(linkage.l * (1.0 - 0.5 * nearest * nearest));
         let class = Class::of(linkage);
         if class == Class::RotatingCrank {
             return Vec::new();

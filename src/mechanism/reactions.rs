@@ -97,8 +97,8 @@ impl Reactor {
 
     /// Computes the forces of a motion (θ̇ in rad/s, θ̈ in rad/s²) under a load.
     pub fn reactions(&self, pose: &Pose, omega: f64, alpha: f64, load: &LoadValue) -> Reactions {
-        let place = CurvePose::of(&self.linkage, pose);
-        let motion = self.accelerations(&place, omega, alpha);
+        let pose = CurvePose::of(&self.linkage, pose);
+        let motion = self.accelerations(&pose, omega, alpha);
         self.forces(&motion, &Known::Load(load.force))
     }
 
@@ -106,13 +106,13 @@ impl Reactor {
     /// force on the slider along the guide, friction included, and the normal force of the guide, N.
     pub fn on_curve(
         &self,
-        place: &CurvePose,
+        pose: &CurvePose,
         speed: f64,
         acceleration: f64,
         force: f64,
         normal: f64,
     ) -> Reactions {
-        let motion = self.accelerations(place, speed, acceleration);
+        let motion = self.accelerations(pose, speed, acceleration);
         self.forces(&motion, &Known::Slider(force, normal))
     }
 
@@ -152,19 +152,19 @@ impl Reactor {
         self.forces(&motion, &known)
     }
 
-    fn accelerations(&self, place: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
+    fn accelerations(&self, pose: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
         let squared = speed * speed;
-        let [crank, rod] = [&self.crank, &self.rod].map(|body| place.path(&self.linkage, body));
+        let [crank, rod] = [&self.crank, &self.rod].map(|body| pose.path(&self.linkage, body));
         let second = |first: f64, second: f64| first * acceleration + second * squared;
         let of = |path: &Path| [0, 1].map(|i| second(path.dp[i], path.d2p[i]));
         Accelerations {
             crank: of(&crank),
             rod: of(&rod),
             rod_turn: second(rod.dpsi, rod.d2psi),
-            slider: second(place.dx, place.d2x),
-            crank_turn: second(place.dtheta, place.d2theta),
-            pin: [self.linkage.r * place.cos, self.linkage.r * place.sin],
-            axis: [place.rod_cos, -place.rod_sin],
+            slider: second(pose.dx, pose.d2x),
+            crank_turn: second(pose.dtheta, pose.d2theta),
+            pin: [self.linkage.r * pose.cos, self.linkage.r * pose.sin],
+            axis: [pose.rod_cos, -pose.rod_sin],
         }
     }
 
@@ -196,10 +196,10 @@ impl Reactor {
             Known::CrankPin(force) => force,
             _ => [0, 1].map(|i| rod_needs[i] + wrist_pin[i]),
         };
-        let place = [0, 1].map(|i| motion.pin[i] + centre[i]);
+        let rod_centre = [0, 1].map(|i| motion.pin[i] + centre[i]);
         let spin = self.crank.inertia * motion.crank_turn
             + rod_couple
-            + cross(place, rod_rate)
+            + cross(rod_centre, rod_rate)
             + e * slider_rate;
         Reactions {
             crank_bearing: [0, 1].map(|i| crank_needs[i] + crank_pin[i]),

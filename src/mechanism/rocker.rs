@@ -104,7 +104,7 @@ impl Rocker {
         self.rod.rest == 0.0
     }
 
-    pub fn place(&self, linkage: &Linkage, q: f64) -> CurvePose {
+    pub fn pose(&self, linkage: &Linkage, q: f64) -> CurvePose {
         let (sin_q, cos_q) = q.sin_cos();
         let Rocker { mirror, fold, .. } = *self;
         let crank = self.crank.double(sin_q, cos_q);

@@ -60,6 +60,14 @@ pub fn in_turn(theta: f64) -> f64 {
     theta.rem_euclid(TAU) % TAU
 }
 
+/// Iterates over angles of a turn, rad, repeated in each of several turns.
+pub fn in_turns(angles: &[f64], turns: impl Iterator<Item = i64>) -> impl Iterator<Item = f64> {
+    turns.flat_map(move |turn| {
+        let before = turn as f64 * TAU;
+        angles.iter().map(move |theta| theta + before)
+    })
+}
+
 /// Iterates over the angles of one turn, rad: from 0 to 2π inclusive, every `step`. A step that is a decimal number of
 /// degrees is converted as degrees: 90 degrees give the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {

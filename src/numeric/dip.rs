@@ -1,9 +1,5 @@
 //! Detection of dips of a function between places where its values are known, by the parabola through three of them.
 
-/// Largest minimum of the parabola, as a part of its sag over the wider of the two gaps, at which a dip below zero
-/// counts as possible.
-const NEAR_SAG: f64 = 0.25;
-
 /// Whether a function with these values at three places in order may fall below zero between them although the values
 /// do not.
 ///
@@ -23,5 +19,7 @@ pub fn may_dip(x: [f64; 3], y: [f64; 3]) -> bool {
     }
     let (from, on) = (lowest - x[0], lowest - x[1]);
     let gap = (x[1] - x[0]).max(x[2] - x[1]);
-    y[0] + from * (slopes[0] + bend * on) < NEAR_SAG * bend * gap * gap
+    // Part of the sag over the wider gap below which the lowest value is near zero.
+    let near = 0.25;
+    y[0] + from * (slopes[0] + bend * on) < near * bend * gap * gap
 }

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 /// Highest order in the outputs, per turn.
-pub const HIGHEST: u32 = 12;
+pub const HIGHEST_ORDER: u32 = 12;
 /// Samples of a turn: the rectangle rule is exact for signals of orders below this less the highest.
-pub const SAMPLES: u32 = 1024;
+pub const SAMPLES_PER_TURN: u32 = 1024;
 
 /// Returns the means of the columns times cosine and sine of order k of the cycle: half the Fourier coefficients.
 pub fn coefficients<const N: usize>(samples: &[[f64; N]], k: u32) -> [[f64; 2]; N] {

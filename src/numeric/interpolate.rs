@@ -193,11 +193,11 @@ fn reduced(at: f64, period: f64, period_remainder: f64) -> f64 {
 
 /// Returns the intended period minus its float: turns of 2π, or one of up to 720 equal parts of a turn; else zero.
 pub fn period_remainder(period: f64) -> f64 {
-    const MOST_PARTS: f64 = 720.0;
+    let most = 720.0;
     let turns = (period / TAU).round().max(1.0);
     let parts = (TAU / period).round().max(1.0);
     let whole = (turns * TAU - parts * period).abs() <= 4.0 * f64::EPSILON * turns * TAU;
-    if !whole || turns > MOST_PARTS || parts > MOST_PARTS {
+    if !whole || turns > most || parts > most {
         return 0.0;
     }
     let (meant, rest) = two_product(turns, TAU);

@@ -3,13 +3,13 @@
 /// (3 − √5)/2, the smaller part of the golden section.
 const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
 /// Final width of the interval, as a part of it: about where a smooth maximum differs by rounding alone.
-const WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
+const FINAL_WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
 
 /// Locates the maximum of a function with one maximum between a and b, and its value: by parabolas through three
 /// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without Derivatives,
 /// 1973, ch. 5).
 pub fn largest(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
-    largest_to(f, [a.min(b), a.max(b)], WIDTH * (b - a).abs())
+    largest_to(f, [a.min(b), a.max(b)], FINAL_WIDTH * (b - a).abs())
 }
 
 /// Locates the maximum as [`largest`], to about twice a width.
@@ -33,7 +33,7 @@ pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) 
         [low.0, high.0],
         [middle, next, last],
         width,
-        WIDTH * width,
+        FINAL_WIDTH * width,
     )
 }
 

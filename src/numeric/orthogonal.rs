@@ -4,7 +4,7 @@
 //! the matrix of powers, one after the other, in time and memory linear in the points.
 
 use super::double_double::Real;
-use super::{LANES, parallel};
+use super::{LANES, median, parallel};
 
 /// Expansion in orthonormal polynomials q_j of s = (t − middle)/half:
 /// norm_{j+1} q_{j+1} = (s − centre_j) q_j − norm_j q_{j−1}, q_0 = 1/norm_0.
@@ -32,11 +32,7 @@ pub fn fit<T: Real>(
     weight: Option<&[f64]>,
     mut go_on: impl FnMut(&[T]) -> bool,
 ) -> Expansion<T> {
-    let (first, last) = t
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), t| {
-            (low.min(*t), high.max(*t))
-        });
+    let (first, last) = median::range(t);
     let middle = 0.5 * first + 0.5 * last;
     let half = (0.5 * last - 0.5 * first).max(f64::MIN_POSITIVE);
     let zero = T::from(0.0);
@@ -57,17 +53,19 @@ pub fn fit<T: Real>(
         squares: Vec::new(),
     };
     let mut norm = now.iter().fold(zero, |sum, q| sum + *q * *q).root();
+    // Points that a thread takes at a time.
+    let size = 1 << 14;
     for degree in 0..t.len() {
         if norm.value() == 0.0 {
             break;
         }
         let inverse = T::from(1.0) / norm;
-        let pieces = now.chunks_mut(PIECE).zip(s.chunks(PIECE));
-        let pieces = pieces.zip(rest.chunks(PIECE));
+        let pieces = now.chunks_mut(size).zip(s.chunks(size));
+        let pieces = pieces.zip(rest.chunks(size));
         let [centre, coefficient] = summed(pieces, |((q, s), rest)| project(q, s, rest, inverse));
         let by = [centre, coefficient, norm];
-        let pieces = now.chunks_mut(PIECE).zip(before.chunks_mut(PIECE));
-        let pieces = pieces.zip(s.chunks(PIECE)).zip(rest.chunks_mut(PIECE));
+        let pieces = now.chunks_mut(size).zip(before.chunks_mut(size));
+        let pieces = pieces.zip(s.chunks(size)).zip(rest.chunks_mut(size));
         let [square, next] = summed(pieces, |(((q, p), s), rest)| advance(q, p, s, rest, by));
         fit.norms.push(norm);
         fit.centres.push(centre);
@@ -80,9 +78,6 @@ pub fn fit<T: Real>(
     }
     fit
 }
-
-/// Points that a thread takes at a time.
-const PIECE: usize = 1 << 14;
 
 /// Returns two sums over pieces.
 fn summed<T: Real, P: Send>(

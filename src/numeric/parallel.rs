@@ -2,9 +2,6 @@
 
 use rayon::prelude::*;
 
-/// Least number of entries of a list that a thread makes at a time.
-const ENTRIES: usize = 1 << 12;
-
 /// Returns the result of each job, in the order of the jobs.
 pub fn map<J: Send, R: Send>(
     jobs: impl Iterator<Item = J>,
@@ -16,8 +13,7 @@ pub fn map<J: Send, R: Send>(
 
 /// Returns the list of `f(0)`, `f(1)`, ... of this length.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let entries = (0..length).into_par_iter().with_min_len(ENTRIES);
-    entries.map(&f).collect()
+    entries(length).map(&f).collect()
 }
 
 /// Returns the lists of the first and of the second values of `f(0)`, `f(1)`, ...
@@ -25,6 +21,11 @@ pub fn pairs<A: Send, B: Send>(
     length: usize,
     f: impl Fn(usize) -> (A, B) + Sync,
 ) -> (Vec<A>, Vec<B>) {
-    let entries = (0..length).into_par_iter().with_min_len(ENTRIES);
-    entries.map(&f).unzip()
+    entries(length).map(&f).unzip()
+}
+
+/// Returns the indices of a list, in parts that pay for a thread.
+fn entries(length: usize) -> impl IndexedParallelIterator<Item = usize> {
+    let least = 1 << 12;
+    (0..length).into_par_iter().with_min_len(least)
 }

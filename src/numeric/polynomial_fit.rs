@@ -51,12 +51,6 @@ pub struct PolynomialFit {
     basis: Expansion<f64>,
 }
 
-/// Highest degree that is chosen from the samples.
-const HIGHEST_CHOSEN: usize = 12;
-
-/// Largest number of equations that are solved in double-double arithmetic.
-const MOST_IN_DOUBLE: usize = 10_000;
-
 impl PolynomialFit {
     /// Fits a polynomial of a degree, or of the degree with the least criterion of Schwarz (Ann. Statist. 6 (1978)
     /// 461). Akaike's criterion takes too high a degree in one record of four, with 1.6 times the error of the second
@@ -68,7 +62,8 @@ impl PolynomialFit {
         equations: &Equations<'_>,
         degree: Option<usize>,
     ) -> Result<PolynomialFit, TooFewArguments> {
-        if equations.t.len() <= MOST_IN_DOUBLE {
+        let most_in_double_double = 10_000;
+        if equations.t.len() <= most_in_double_double {
             PolynomialFit::with::<DoubleDouble>(equations, degree)
         } else {
             PolynomialFit::with::<f64>(equations, degree)
@@ -86,7 +81,8 @@ impl PolynomialFit {
             floor,
         } = *equations;
         let rows = t.len();
-        let most = degree.unwrap_or(HIGHEST_CHOSEN.min(rows.saturating_sub(3)));
+        let highest_chosen = 12;
+        let most = degree.unwrap_or(rows.saturating_sub(3).min(highest_chosen));
         let too_few = |found| TooFewArguments {
             found,
             needed: most + 2,

@@ -4,14 +4,13 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{gauss, root};
 
-/// Degrees of freedom from which the series is exact to rounding: its next term is below 8/freedom^5.
-const ASYMPTOTIC: f64 = 2000.0;
-
 /// Returns the half-width of a 95 % band in standard errors: the 97.5 % point of Student's distribution with this many
 /// degrees of freedom ν, at least 1 and not always whole. With t = √ν tan φ the density is proportional to cos^(ν−1) φ
 /// and negligible nine standard deviations out.
 pub fn half_band(freedom: f64) -> f64 {
-    if freedom > ASYMPTOTIC {
+    // The series is exact to rounding: its next term is below 8/freedom⁵.
+    let asymptotic = 2000.0;
+    if freedom > asymptotic {
         return expanded(freedom);
     }
     let end = FRAC_PI_2.min(9.0 / freedom.sqrt());

@@ -10,12 +10,6 @@ const QUARTER: [f64; 3] = [
     f64::from_bits(0x3BA3_198A_2E03_7073),
 ];
 
-/// Shift for rounding: added to a number of moderate size, it leaves the nearest whole number in the last bits.
-const ROUNDING_SHIFT: f64 = 6_755_399_441_055_744.0;
-
-/// Largest angle, rad, that the reduction to one quadrant leaves with all digits.
-const REDUCTION_RANGE: f64 = 1e4 * PI;
-
 /// Minimax coefficients on ±π/4 (fdlibm, k_sin.c and k_cos.c).
 const SINE: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
@@ -38,9 +32,11 @@ const COSINE: [f64; 6] = [
 #[inline]
 pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
+    // The reduction to one quadrant leaves smaller angles with all digits.
+    let range = 1e4 * PI;
     let mut near = true;
     for i in 0..N {
-        near &= angles[i].abs() < REDUCTION_RANGE;
+        near &= angles[i].abs() < range;
         (sin[i], cos[i]) = near_zero(angles[i]);
     }
     if !near {
@@ -53,8 +49,10 @@ pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
 
 #[inline(always)]
 fn near_zero(angle: f64) -> (f64, f64) {
-    let shifted = angle * FRAC_2_PI + ROUNDING_SHIFT;
-    let (quarters, bits) = (shifted - ROUNDING_SHIFT, shifted.to_bits());
+    // 1.5·2⁵², added to a number of moderate size, leaves the nearest whole number in the last bits.
+    let shift = 1.5 / f64::EPSILON;
+    let shifted = angle * FRAC_2_PI + shift;
+    let (quarters, bits) = (shifted - shift, shifted.to_bits());
     let r = ((angle - quarters * QUARTER[0]) - quarters * QUARTER[1]) - quarters * QUARTER[2];
     let z = r * r;
     let [s1, s2, s3, s4, s5, s6] = SINE;

@@ -166,36 +166,33 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
         (Method::Energy, Some(what)) => return Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
         _ => {}
     }
-    match (why_not_angle(scene, class), rubs) {
-        (None, true) => Ok(Choice::without_stepper(
+    match why_not_angle(scene, class) {
+        None => Ok(Choice::without_stepper(
             Engine::Angle,
-            "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over",
+            match rubs {
+                true => {
+                    "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over"
+                }
+                false => {
+                    "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over"
+                }
+            },
         )),
-        (None, false) => Ok(Choice::without_stepper(
-            Engine::Angle,
-            "the crank turns: its energy and the time over the crank angle; where it comes near to rest, integration in time takes over",
-        )),
-        (Some(why), _) if method == Method::Angle => {
-            let with = if rubs {
-                "motion with Coulomb friction"
-            } else {
-                "scene"
+        Some(why) if method == Method::Angle => {
+            let what = match rubs {
+                true => format!("this motion with Coulomb friction: {why}"),
+                false => format!("this scene: {why}"),
             };
-            Err(cannot_serve(
-                method,
-                &format!("this {with}: {why}"),
-                IN_TIME,
-            ))
+            Err(cannot_serve(method, &what, IN_TIME))
         }
-        (Some(why), true) => Ok(Choice::in_time(
+        Some(why) => Ok(Choice::in_time(
             Stepper::Picard,
-            format!(
-                "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
-            ),
-        )),
-        (Some(why), false) => Ok(Choice::in_time(
-            Stepper::Picard,
-            format!("{why}: integration in time, by sweeps over Gauss nodes"),
+            match rubs {
+                true => format!(
+                    "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
+                ),
+                false => format!("{why}: integration in time, by sweeps over Gauss nodes"),
+            },
         )),
     }
 }
@@ -228,18 +225,16 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     why
 }
 
-/// Number of equally spaced crank angles of a turn at which `jams` tests the guide.
-const ANGLES_OF_TURN: u32 = 64;
-
-/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of `ANGLES_OF_TURN` crank angles.
+/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of 64 equally spaced crank angles of a turn.
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
     let mu = guide
         .friction()
         .map_or(0.0, |friction| friction.coefficient);
-    let theta = |i: u32| TAU * f64::from(i) / f64::from(ANGLES_OF_TURN);
-    (0..ANGLES_OF_TURN).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
+    let angles = 64u32;
+    let theta = |i: u32| TAU * f64::from(i) / f64::from(angles);
+    (0..angles).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
 }
 
 /// Returns the first load whose corners are not known as crank angles, and why.

@@ -10,9 +10,6 @@ use crate::plan::{Engine, Method, Stepper};
 use crate::scene::Scene;
 use crate::simulate::{NoRows, Options, Summary, simulate_rows};
 
-/// Tolerance of reference runs, relative.
-const TIGHTEST: f64 = 1e-13;
-
 pub(super) fn run(
     scene: &Scene,
     method: Method,
@@ -29,19 +26,20 @@ pub(super) fn run(
     Ok(simulate_rows(scene, &options, &mut NoRows)?.summary)
 }
 
-/// Runs all methods at [`TIGHTEST`]; returns identity and final state of each, by ascending estimated angle error.
+/// Runs all methods at tolerance 1e-13; returns identity and final state of each, by ascending estimated angle error.
 pub(super) fn tight_runs(
     scene: &Scene,
     options: &PrecisionOptions,
 ) -> Vec<(Option<Identity>, Reference)> {
     let mut scene = scene.clone();
-    scene.run.tolerance = TIGHTEST;
+    let tightest = 1e-13;
+    scene.run.tolerance = tightest;
     let methods = Method::each().filter(|method| *method != Method::Auto);
     let runs = methods.filter_map(|method| {
         let run = run(&scene, method, true, options).ok()?;
         let error = run.error_estimate.filter(|_| run.stopped.is_none())?;
         let reference = Reference {
-            what: format!("{method} at tolerance {TIGHTEST:e}"),
+            what: format!("{method} at tolerance {tightest:e}"),
             theta: DoubleDouble::from(run.last.theta_rad),
             omega: DoubleDouble::from(run.last.omega_rad_per_s),
             theta_error: error.theta_rad,
@@ -166,17 +164,16 @@ impl MethodRun {
     }
 }
 
-/// Relative difference of end times below which two runs end at one place.
-const SAME_END: f64 = 1e-3;
-
 /// Returns the reason why a run does not end where the reference does; none if both end together.
 fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
+    // Relative difference of end times below which two runs end at one place.
+    let same_end = 1e-3;
     match (&summary.stopped, reference.and_then(|found| found.ends_at)) {
         (None, None) => None,
         (None, Some(t)) => Some(format!(
             "goes on beyond t = {t} s, where the equations of the reference end"
         )),
-        (Some(_), Some(t)) if (summary.last.t_s - t).abs() <= SAME_END * t => None,
+        (Some(_), Some(t)) if (summary.last.t_s - t).abs() <= same_end * t => None,
         (Some(why), _) => Some(why.to_string()),
     }
 }

@@ -1,8 +1,11 @@
-//! Energy balance of a run: residual of energy and work, and the largest energy that scales it.
+//! Energies along a motion, and the energy balance of a run: residual of energy and work, and the scale of it.
 
+use super::row::Row;
 use super::run_setup::RunSetup;
 use crate::engine::time::Start;
+use crate::mechanism::{Class, Equation};
 use crate::numeric::angle::Angle;
+use crate::scene::Scene;
 
 /// Residual of the energy balance: energy at the end minus energy at the start minus work of the loads.
 #[derive(Clone, Copy, Debug)]
@@ -33,5 +36,24 @@ impl Balance {
         let last =
             equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
         Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
+    }
+}
+
+/// Energies of a mechanism with ideal joints and a crank that turns fully: elsewhere the crank angle does not fix them.
+#[derive(Clone, Debug)]
+pub struct Energies(Equation);
+
+impl Energies {
+    /// Makes the energies of the mechanism of a scene; none with clearance or if the crank does not turn fully.
+    pub fn of(scene: &Scene) -> Option<Energies> {
+        let equation = Equation::new(scene);
+        let tells = Class::of(equation.linkage()) == Class::RotatingCrank;
+        (tells && scene.clearance.is_none()).then_some(Energies(equation))
+    }
+
+    /// Returns the kinetic energy, and the potential energy of gravity and of the loads that have one, J, at a row.
+    pub fn at(&self, row: &Row) -> [f64; 2] {
+        let kinetic = self.0.kinetic_energy(row.theta, row.omega);
+        [kinetic, self.0.potential_energy(row.theta)]
     }
 }

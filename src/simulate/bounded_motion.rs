@@ -5,9 +5,6 @@ use super::stop::Why;
 use crate::numeric::angle::Angle;
 use crate::scene::{Extent, Variable};
 
-/// Growth of the swing, as part of its range, at which a turning point is further out: far above errors in time.
-const FURTHER: f64 = 1e-3;
-
 /// Record of the turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swing {
@@ -49,7 +46,9 @@ impl Swing {
     pub fn turns_at(&mut self, at: Angle) {
         let [low, high] = self.reach;
         let (above, below) = (at.minus(high), low.minus(at));
-        if above.max(below) > FURTHER * high.minus(low) {
+        // Least growth of the swing, as part of its range: far above the errors of turning points.
+        let growth = 1e-3;
+        if above.max(below) > growth * high.minus(low) {
             self.reach[usize::from(above > 0.0)] = at;
             self.before += self.since + 1;
             self.since = 0;

@@ -42,14 +42,18 @@ pub(super) fn run<'a>(
         speed,
         end,
     };
-    // Towards a limit, or where the guide locks, torque and energy grow without bound.
-    let unbounded = Balance {
-        residual: f64::NAN,
-        largest: f64::NAN,
+    let (torque, warnings) = match blocked.is_none().then(|| drive.torque_range()) {
+        None => (None, Vec::new()),
+        Some(Ok(range)) => (Some(range), Vec::new()),
+        Some(Err(why)) => (None, vec![Warning::NoTorqueRange(why)]),
     };
-    let (torque, balance) = match blocked {
-        None => (drive.torque_range().map(Some), drive.energy_balance()),
-        Some(_) => (Ok(None), unbounded),
+    let balance = match blocked {
+        None => drive.energy_balance(),
+        // Towards a limit, or where the guide locks, torque and energy grow without bound.
+        Some(_) => Balance {
+            residual: f64::NAN,
+            largest: f64::NAN,
+        },
     };
     let wall_s = begun.elapsed().as_secs_f64();
     let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
@@ -78,18 +82,12 @@ pub(super) fn run<'a>(
         evaluations: 0,
         steps: 0,
         wall_s,
-        warnings: torque
-            .as_ref()
-            .err()
-            .cloned()
-            .map(Warning::NoTorqueRange)
-            .into_iter()
-            .collect(),
+        warnings,
         stopped,
         record,
     };
     let mut run = outcome.conclude(task);
-    run.summary.driving_torque = torque.ok().flatten();
+    run.summary.driving_torque = torque;
     run.trajectory = Some(Trajectory::uniform(start, speed, end));
     Ok(run)
 }

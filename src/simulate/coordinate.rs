@@ -58,7 +58,7 @@ impl<'a> AlongCurve<'a> {
     /// Returns the crank speed (rad/s) and the crank acceleration (rad/s²) at a time (s) of a step.
     pub fn crank_speed(&self, step: &Step, t: f64) -> (f64, f64) {
         let (q, speed) = step.at(t);
-        let place = self.motion.equation.curve().place(q);
+        let place = self.motion.equation.curve().pose(q);
         let rate = place.dtheta * step.acceleration_at(t) + place.d2theta * speed * speed;
         (place.dtheta * speed, rate)
     }
@@ -73,13 +73,13 @@ impl Coordinate for AlongCurve<'_> {
         let (q, speed) = step.at(t);
         let curve = self.motion.equation.curve();
         let angle = curve.crank_angle(step.angle(q));
-        (angle, curve.place(q).dtheta * speed)
+        (angle, curve.pose(q).dtheta * speed)
     }
 
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
         let motion = &self.motion;
         let curve = motion.equation.curve();
-        let place = curve.place(angle.rest);
+        let place = curve.pose(angle.rest);
         let (acceleration, touch, _) = motion.state(t, angle, speed);
         let reactions = self.reactor.map(|reactor| {
             let load = motion.load(&place, t, angle, speed);

@@ -3,7 +3,7 @@
 use crate::engine::{Batch, Motion};
 use crate::mechanism::{Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
 
 pub(super) struct CrankMotion<'a>(pub &'a Equation);
@@ -29,14 +29,14 @@ impl Motion for CrankMotion<'_> {
         self.0.loads().next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        self.0.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        self.0.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let loads = self.0.loads();
         let seen = self.0.linkage().enclosed_state(reach, loads.meet_slider());
-        let force = loads.detail(&seen, seen.unit_load_effects(), ellipse);
+        let force = loads.variation(&seen, seen.unit_load_effects(), ellipse);
         force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
     }
 

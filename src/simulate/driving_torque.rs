@@ -8,7 +8,7 @@ use super::row_maker::RowMaker;
 use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::{gauss, maximum};
 use crate::scene::Variable;
 
@@ -21,9 +21,6 @@ pub(super) struct Drive<'a> {
     /// Last time, s.
     pub end: f64,
 }
-
-/// Largest number of turns that are searched where the loads do not repeat from turn to turn.
-const MOST_TURNS: f64 = 100.0;
 
 impl Drive<'_> {
     fn equation(&self) -> &Equation {
@@ -115,8 +112,10 @@ impl Drive<'_> {
         let reads = self.equation().loads().reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
         let whole = repeats && self.end >= turn;
-        if !whole && self.end > MOST_TURNS * turn {
-            return Err(NoRange::TooManyTurns(MOST_TURNS));
+        // Bounds the work: turns that differ are all searched.
+        let most_turns = 100.0;
+        if !whole && self.end > most_turns * turn {
+            return Err(NoRange::TooManyTurns(most_turns));
         }
         // A quarter more than a turn: each place of the turn has two neighbours.
         let turned = if whole {
@@ -132,18 +131,12 @@ impl Drive<'_> {
     fn times(&self, until: f64) -> Vec<f64> {
         let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
         let grid = self.equation().linkage().turn_grid(smooth);
-        let sense = self.speed.signum();
-        let turns = 0..=(until / TAU).ceil() as i64;
-        let ahead = |theta: &f64| (sense * (theta - self.start.rest)).rem_euclid(TAU);
-        let all = turns.flat_map(|turn| {
-            let grid = grid.iter();
-            grid.map(move |theta| turn as f64 * TAU + ahead(theta))
-        });
+        let ahead = |theta: f64| (self.speed.signum() * (theta - self.start.rest)).rem_euclid(TAU);
+        let grid: Vec<f64> = grid.into_iter().map(ahead).collect();
+        let all = angle::in_turns(&grid, 0..=(until / TAU).ceil() as i64);
         let inside = all.filter(|turned| *turned <= until);
-        let times = inside
-            .chain([0.0, until])
-            .map(|turned| turned / self.speed.abs());
-        let mut times: Vec<f64> = times.collect();
+        let times = inside.chain([0.0, until]);
+        let mut times: Vec<f64> = times.map(|turned| turned / self.speed.abs()).collect();
         times.sort_by(f64::total_cmp);
         times
     }

@@ -10,10 +10,10 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::Interval;
 use crate::scene::{Instant, Scene};
 
-/// |x'|, as part of the crank length, below which the crank is at a dead centre and x' has no sign.
-const AT_DEAD_CENTRE: f64 = 1e-12;
-/// Distance from an angle, rad, at which signs are read and slopes are taken.
-pub(super) const BESIDE: f64 = 1e-6;
+/// Distance from a dead centre, rad, within which the crank is at it and x' has no sign: far above its rounding.
+pub(super) const DEAD_CENTRE_WIDTH: f64 = 1e-12;
+/// Distance from an angle, rad, at which signs are read and slopes are taken: far above rounding, far below a radian.
+pub(super) const NEARBY_ANGLE: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct GuideFriction {
@@ -155,10 +155,10 @@ impl GuideFriction {
         let free = self.equation.free(t, angle, omega);
         let crank = self.equation.curve().linkage().r;
         let mut dx = free.velocity(1.0);
-        if dx.abs() < AT_DEAD_CENTRE * crank {
+        if dx.abs() < DEAD_CENTRE_WIDTH * crank {
             // At a dead centre x' is taken just before it, at the start of the run just after it.
-            let way = BESIDE.copysign(if t == 0.0 { omega } else { -omega });
-            dx = self.equation.curve().place(angle.rest + way).dx;
+            let way = NEARBY_ANGLE.copysign(if t == 0.0 { omega } else { -omega });
+            dx = self.equation.curve().pose(angle.rest + way).dx;
         }
         let sgn_v = (dx * omega).signum();
         free.sliding(free.opposing(self.mu, sgn_v))

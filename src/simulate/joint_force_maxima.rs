@@ -12,14 +12,11 @@ use crate::mechanism::{Linkage, Reactions};
 use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
-/// Largest number of rows of a search, and number of steps that are kept for it.
-pub(super) const MOST_ROWS: usize = 400_000;
+/// Largest number of rows of a search, and of steps that are kept for it: 16 MB of forces.
+pub(super) const MOST_FORCE_ROWS: usize = 400_000;
 /// Relative difference of the maxima over all rows and over every second row up to which the grid counts as resolved.
-const PART: f64 = 0.02;
-/// Largest number of local maxima of a force that are refined.
-const MOST_TOPS: usize = 8;
-/// Uncertainty of the place of a maximum, as part of the distance of two rows.
-const LEFT: f64 = 1e-9;
+/// Errors fall fourfold as the distance of the rows halves: that of all rows is about a third of the difference.
+const GRID_ERROR: f64 = 0.02;
 
 /// Searches the largest forces of a finished run; none if the run is too long to search, or if a force has no value.
 pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
@@ -35,13 +32,13 @@ pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
         }
         let is_resolved = |k: usize| {
             let [all, half] = [1, 2].map(|stride| largest(&sizes, k, stride));
-            all - half <= PART * all
+            all - half <= GRID_ERROR * all
         };
         if (0..FORCES).all(is_resolved) {
             let peak = |k| peak(&way, run, k, &sizes);
             return Some(Peaks::new(std::array::from_fn(peak)));
         }
-        if 2 * way.parameters.len() > MOST_ROWS {
+        if 2 * way.parameters.len() > MOST_FORCE_ROWS {
             return None;
         }
         way.parameters = halved(&way.parameters);
@@ -67,14 +64,16 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
     let last = sizes.len() - 1;
     let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
-    let least = (1.0 - 2.0 * PART) * largest(sizes, k, 1);
+    let least = (1.0 - 2.0 * GRID_ERROR) * largest(sizes, k, 1);
     let is_top = |row: &usize| {
         let [before, here, after] = beside(*row).map(|row| sizes[row][k]);
         here >= least.max(before).max(after)
     };
     let mut tops: Vec<usize> = (0..=last).filter(is_top).collect();
     tops.sort_by(|a, b| sizes[*b][k].total_cmp(&sizes[*a][k]));
-    tops.truncate(MOST_TOPS);
+    // Bounds the work of a force that repeats or stays constant, as every row of it may be a top.
+    let most_refined = 8;
+    tops.truncate(most_refined);
     let ((at, value), width) = tops
         .into_iter()
         .map(|row| {
@@ -84,7 +83,10 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
         .reduce(|best, found| if found.0.1 > best.0.1 { found } else { best })
         .unwrap_or_default();
     let (first, last) = (way.parameters[0], way.parameters[last]);
-    let excess = [-LEFT, LEFT].map(|left| size((at + left * width).clamp(first, last)));
+    // Uncertainty of the place of a maximum, as part of the interval: the last width of Brent's iteration.
+    let place_error = 1e-9;
+    let beside = [-place_error, place_error].map(|off| (at + off * width).clamp(first, last));
+    let excess = beside.map(size);
     let t = (way.time)(at).clamp(0.0, run.summary.last.t_s);
     Peak {
         value_n: value,
@@ -93,9 +95,6 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
         added_n: (excess[0].max(excess[1]) - value).max(0.0),
     }
 }
-
-/// Least number of intervals between rows over time.
-const LEAST_ROWS: f64 = 720.0;
 
 /// Parametrization of a run, with the joint forces along it.
 struct AlongRun<'a> {
@@ -135,14 +134,18 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
     // The time of a place costs more than all else: it is computed only where a load reads it.
     let timed = maker.equation.loads().reads().has(Variable::T);
     let reactions = move |at: f64| {
-        let (angle, speed) = orbit.state_at_place(at)?;
-        let t = if timed { orbit.time_of_place(at)? } else { 0.0 };
+        let (angle, speed) = orbit.state_at_position(at)?;
+        let t = if timed {
+            orbit.time_of_position(at)?
+        } else {
+            0.0
+        };
         maker.row(t, angle, speed, None).reactions
     };
     Some(AlongRun {
-        parameters: orbit.places(end)?,
+        parameters: orbit.positions(end)?,
         sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
-        time: Box::new(move |at| orbit.time_of_place(at).unwrap_or(end)),
+        time: Box::new(move |at| orbit.time_of_position(at).unwrap_or(end)),
     })
 }
 
@@ -154,7 +157,7 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<AlongRun<'a>> {
     let step = first_step(scene, &run.summary);
     let rows = (span / step).ceil();
     let time = |index: usize| (index as f64 * step).min(span);
-    (rows <= MOST_ROWS as f64).then(|| AlongRun {
+    (rows <= MOST_FORCE_ROWS as f64).then(|| AlongRun {
         parameters: (0..=rows as usize).map(time).collect(),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),
@@ -167,7 +170,9 @@ fn first_step(scene: &Scene, summary: &Summary) -> f64 {
     let way = fastest * summary.last.t_s;
     let narrow = narrowest(&Linkage::new(&scene.geometry), scene.motion.angle, way);
     let angle = (PI / 180.0).min(0.1 * narrow);
-    summary.last.t_s / (way / angle).max(LEAST_ROWS)
+    // As many as of two turns, for loads that change while the crank hardly turns.
+    let least_rows = 720.0;
+    summary.last.t_s / (way / angle).max(least_rows)
 }
 
 /// Returns the least width in the crank angle, rad, of the peaks on a way (rad) from an angle. A rod that is hardly

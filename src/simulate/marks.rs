@@ -35,20 +35,20 @@ impl<'a> Marks<'a> {
     /// Returns the marks between two angles, rad, in rising order.
     pub fn between(&self, low: f64, high: f64) -> Vec<f64> {
         let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
-        if !loads.have_detail_of_place() || low >= high {
+        if !loads.vary_with_position_between_nodes() || low >= high {
             return Vec::new();
         }
-        let detail = |angle, ellipse| loads.detail_of_place(linkage, angle, ellipse);
+        let variation = |angle, ellipse| loads.variation_with_position(linkage, angle, ellipse);
         let (start, speed) = self.start;
         // Energy of the start and work of its forces over a radian, J: unit beside which small details are negligible.
         let unit = self.equation.kinetic_energy(start.rest, speed)
             + self.equation.size_of_terms(0.0, start, speed);
-        partition(detail, Interval::new(low, high), RESOLUTION, unit)
+        partition(variation, Interval::new(low, high), RESOLUTION, unit)
     }
 
     /// Returns the first mark after `from` on the way to `to`, in either direction, rad.
     pub fn next(&self, from: f64, to: f64) -> Option<f64> {
-        if !self.equation.loads().have_detail_of_place() {
+        if !self.equation.loads().vary_with_position_between_nodes() {
             return None;
         }
         let way = Interval::between(from, to);
@@ -69,13 +69,13 @@ impl<'a> Marks<'a> {
     }
 }
 
-/// Distance, rad, below which two angles are one but for rounding.
-pub(super) const SAME_ANGLE: f64 = 1e-9;
+/// Distance, rad, below which two corners are one: the rows of a table may be rounded to nine digits.
+pub(super) const SAME_CORNER: f64 = 1e-9;
 
 /// Sorts angles, rad, and merges equal ones: a corner doubled by rounding makes an empty panel.
 pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut angles: Vec<f64> = angles.collect();
     angles.sort_by(f64::total_cmp);
-    angles.dedup_by(|a, b| (*a - *b).abs() < SAME_ANGLE);
+    angles.dedup_by(|a, b| (*a - *b).abs() < SAME_CORNER);
     angles
 }

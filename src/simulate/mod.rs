@@ -9,7 +9,6 @@ mod configuration_curve;
 mod coordinate;
 mod crank_motion;
 mod driving_torque;
-mod energies;
 mod forward;
 mod guide_friction;
 mod joint_force_maxima;
@@ -37,8 +36,8 @@ mod warning;
 
 pub use crate::mechanism::Reactions;
 pub use crate::numeric::stop::Stop;
+pub use balance::Energies;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
-pub use energies::Energies;
 pub use options::Options;
 pub use result::{Cost, ErrorEstimate, Event, Final, Peak, Peaks, Piece, Summary, TorqueRange};
 pub use row::{LooseRow, NoRows, Row, RowSink};

@@ -59,7 +59,9 @@ impl Outcome {
     /// Shows speeds as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
     pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
         let usual = task.speed.abs().max(self.at.speed.abs());
-        let is_bounded = |speed: f64| speed.abs() < 1e6 * usual;
+        // An inertia that vanishes, of 1e-12 of that elsewhere, gives a speed of 1e6 times that elsewhere.
+        let unbounded = 1e6 * usual;
+        let is_bounded = |speed: f64| speed.abs() < unbounded;
         let (low, high) = self.record.speed;
         let mut at_events = self.record.events.iter().map(|event| event.omega_rad_per_s);
         let are_bounded = is_bounded(low) && is_bounded(high) && at_events.all(is_bounded);

@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use super::guide_friction::DEAD_CENTRE_WIDTH;
 use super::result::Event;
 use super::row::Row;
 use super::row_writer::RowSource;
 use super::run_setup::RunSetup;
 use crate::engine::energy::Orbit;
+use crate::engine::time::Start;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 
@@ -23,7 +25,7 @@ pub(super) struct OrbitPiece<'a> {
 
 /// Returns the angle within which a dead centre counts as reached, rad: far from zero angles are rounded more.
 fn near(way: f64) -> f64 {
-    (8.0 * f64::EPSILON * way).max(1e-12)
+    (8.0 * f64::EPSILON * way).max(DEAD_CENTRE_WIDTH)
 }
 
 /// Lists distance, rad in (0, 2π], and angle of each dead centre ahead in a direction: the start is not passed.
@@ -67,14 +69,16 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
     let (passed, total) = on_way(task, (start, speed.signum()), way, kept);
     let event = |(ahead, dead_centre): (f64, f64)| {
         let way = speed.signum() * ahead;
-        OrbitEvent::new((way / speed).min(end), start, way, dead_centre, speed).event()
+        let t = (way / speed).min(end);
+        Event::new(DEAD_CENTRE, passage(t, start, way, dead_centre, speed))
     };
     (passed.into_iter().map(event).collect(), total)
 }
 
 impl OrbitPiece<'_> {
-    /// Lists the dead centres passed until a time (s) by a motion that does not turn back: the first, at most `kept`.
-    fn one_way(&self, until: f64, kept: usize) -> Vec<OrbitEvent> {
+    /// Lists the dead centres passed until a time (s) by a motion that does not turn back, in the time of the orbit: the
+    /// first, at most `kept`.
+    fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, Start)> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());
         let (passed, _) = on_way(self.task, from, self.way(until), kept);
@@ -82,7 +86,7 @@ impl OrbitPiece<'_> {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
             let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
             let way = orbit.direction() * ahead;
-            OrbitEvent::new(t, start, way, dead_centre, speed)
+            (DEAD_CENTRE, passage(t, start, way, dead_centre, speed))
         });
         passages.collect()
     }
@@ -93,7 +97,7 @@ impl OrbitPiece<'_> {
     }
 
     /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
-    fn to_and_fro(&self, until: f64) -> Vec<OrbitEvent> {
+    fn to_and_fro(&self, until: f64) -> Vec<(&'static str, Start)> {
         let orbit = self.orbit;
         let turnings = orbit.turning_times(until).into_iter();
         let cuts = turnings.map(|t| (t, true)).chain([(until, false)]);
@@ -111,19 +115,19 @@ impl OrbitPiece<'_> {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
                     let t = root::bracketed(beyond, from, to).unwrap_or(to);
                     let (speed, way) = (orbit.state(t).1, direction * ahead);
-                    found.push(OrbitEvent::new(t, begin, way, dead_centre, speed));
+                    found.push((DEAD_CENTRE, passage(t, begin, way, dead_centre, speed)));
                     ahead += TAU;
                 }
             }
-            found.extend(turns_back.then_some(OrbitEvent {
-                kind: "turning-point",
+            let turning_point = Start {
                 t: to,
                 angle: end,
                 speed: 0.0,
-            }));
+            };
+            found.extend(turns_back.then_some(("turning-point", turning_point)));
             from = to;
         }
-        found.sort_by(|a, b| a.t.total_cmp(&b.t));
+        found.sort_by(|(_, a), (_, b)| a.t.total_cmp(&b.t));
         found
     }
 
@@ -138,8 +142,8 @@ impl OrbitPiece<'_> {
             (false, _) => self.one_way(period, kept),
         };
         let over = self.end * (1.0 + 1e-14);
-        let rounds = |passage: &OrbitEvent| match repeats {
-            Some(_) => ((over - passage.t) / period + 1.0).floor() as u64,
+        let rounds = |(_, at): &(&str, Start)| match repeats {
+            Some(_) => ((over - at.t) / period + 1.0).floor() as u64,
             None => 1,
         };
         let total = if turns_back {
@@ -151,51 +155,27 @@ impl OrbitPiece<'_> {
         let turns = if turns_back { 0.0 } else { orbit.direction() };
         let most = total.min(kept as u64) * u64::from(!once.is_empty());
         let again = (0u64..).map(|round| round as f64).flat_map(|round| {
-            once.iter().map(move |passage| {
-                let t = round.mul_add(period, passage.t) + round * low;
-                let again = OrbitEvent {
+            once.iter().map(move |(kind, at)| {
+                let t = round.mul_add(period, at.t) + round * low;
+                let again = Start {
                     t: self.begin + t.min(self.end),
-                    angle: Angle::new(passage.angle.turns + round * turns, passage.angle.rest),
-                    ..*passage
+                    angle: Angle::new(at.angle.turns + round * turns, at.angle.rest),
+                    speed: at.speed,
                 };
-                again.event()
+                Event::new(kind, again)
             })
         });
         (again.take(most as usize).collect(), total)
     }
 }
 
-/// Dead centre or turning point in the time of the orbit.
-struct OrbitEvent {
-    kind: &'static str,
-    /// Time of the orbit, s.
-    t: f64,
-    angle: Angle,
-    /// Crank speed, rad/s.
-    speed: f64,
-}
+const DEAD_CENTRE: &str = "dead-centre";
 
-impl OrbitEvent {
-    /// Makes the passage of a dead centre (rad) at a signed distance (rad) from an angle.
-    fn new(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> OrbitEvent {
-        let turns = ((from.rest + way - dead_centre) / TAU).round();
-        let angle = Angle::new(from.turns + turns, dead_centre);
-        OrbitEvent {
-            kind: "dead-centre",
-            t,
-            angle,
-            speed,
-        }
-    }
-
-    fn event(&self) -> Event {
-        Event {
-            kind: self.kind,
-            t_s: self.t,
-            theta_rad: self.angle.radians(),
-            omega_rad_per_s: self.speed,
-        }
-    }
+/// Returns the state at a dead centre (rad) at a signed distance (rad) from an angle.
+fn passage(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> Start {
+    let turns = ((from.rest + way - dead_centre) / TAU).round();
+    let angle = Angle::new(from.turns + turns, dead_centre);
+    Start { t, angle, speed }
 }
 
 impl RowSource for OrbitPiece<'_> {

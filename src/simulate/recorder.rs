@@ -11,7 +11,7 @@ use super::row_writer::{RowSource, RowWriter};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::second_run::Checkpoints;
-use super::simulation::{PhaseInterval, push_phase};
+use super::simulation::PhaseInterval;
 use super::stick_slip::Phase;
 use crate::engine::PIECES;
 use crate::engine::step::Step;
@@ -170,8 +170,11 @@ impl<'a> Recorder<'a> {
             step.refine(along.motion());
             self.steps.push(*step);
             if let Some(phase) = phase {
-                let times = [step.start.t, step.end.t];
-                push_phase(&mut self.record.phases, times, phase);
+                let (phases, from, until) = (&mut self.record.phases, step.start.t, step.end.t);
+                match phases.last_mut() {
+                    Some(last) if last.until == from && last.phase == phase => last.until = until,
+                    _ => phases.push(PhaseInterval { from, until, phase }),
+                }
             }
         }
         false

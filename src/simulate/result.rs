@@ -8,6 +8,7 @@ use super::clearance::ClearanceSummary;
 use super::steady::SteadyState;
 use super::stop::Stopped;
 use super::warning::Warning;
+use crate::engine::time::Start;
 use crate::plan::Plan;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
@@ -146,6 +147,17 @@ pub struct Event {
     pub theta_rad: f64,
     /// Crank speed, rad/s; infinite, and null in JSON, where the inertia vanishes and the speed has no bound.
     pub omega_rad_per_s: f64,
+}
+
+impl Event {
+    pub(super) fn new(kind: &'static str, at: Start) -> Event {
+        Event {
+            kind,
+            t_s: at.t,
+            theta_rad: at.angle.radians(),
+            omega_rad_per_s: at.speed,
+        }
+    }
 }
 
 /// Number of joint forces whose maxima are searched.

@@ -7,16 +7,9 @@ use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Equation};
 
-/// Standard deviation of one rounding, in units of the last place.
+/// Standard deviation of one rounding, in units of the last place: about 1/√12, for errors spread evenly over half a
+/// unit on either side.
 const ONE_ROUNDING: f64 = 0.3;
-/// Factor on the roundoff near a balance of forces, where several steps round in the same way.
-const CORRELATED_ROUNDING: f64 = 2.0;
-/// Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as much
-/// changes the stated errors of 200 random runs by 1 % at most.
-const BALANCED: f64 = 0.1;
-/// Rounding of acceleration and coordinate, evaluated on the configuration curve, in units of the last place.
-const EVALUATION_ON_CURVE: f64 = 8.0;
-const PLACE_ON_CURVE: f64 = 4.0;
 
 /// Roundoff of a run in time.
 #[derive(Clone, Copy, Debug)]
@@ -57,11 +50,16 @@ impl Rounding {
         let end = &step.end;
         let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
-        if size < BALANCED * slopes.by_angle().abs() {
+        // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as
+        // much changes the stated errors of 200 random runs by 1 % at most.
+        let balanced_within = 0.1;
+        if size < balanced_within * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);
             let inertia = equation.terms(end.theta).inertia.m;
             let terms = equation.size_of_terms(end.t, angle, end.omega);
-            size = size.max(CORRELATED_ROUNDING * terms / inertia);
+            // Several steps round in the same way.
+            let correlation = 2.0;
+            size = size.max(correlation * terms / inertia);
         }
         let carried = self.spread.carried(&transition);
         self.spread = carried.pushed(place.hypot(size), &transition, step.length());
@@ -96,8 +94,10 @@ impl Rounding {
         let slopes = Slopes::of(&motion, step);
         self.evaluations += motion.evaluations();
         let transition = slopes.transition(step);
-        let place = PLACE_ON_CURVE * end.theta.abs() * slopes.by_angle();
-        let within = place.abs() + EVALUATION_ON_CURVE * start.alpha.abs().max(end.alpha.abs());
+        // Roundings of coordinate and acceleration, evaluated on the curve, in units of the last place.
+        let (place_rounding, evaluation_rounding) = (4.0, 8.0);
+        let place = place_rounding * end.theta.abs() * slopes.by_angle();
+        let within = place.abs() + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
         let carried = spread.carried(&transition);

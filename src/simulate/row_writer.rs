@@ -26,9 +26,6 @@ pub(super) trait RowSource {
     fn row(&mut self, t: f64) -> Row;
 }
 
-/// Number of states of a step that a sink of steps receives: enough to show the shape of the motion.
-const PLACES: u32 = 4;
-
 pub(super) struct RowWriter<'a> {
     rows: &'a mut dyn RowSink,
     schedule: Schedule,
@@ -112,8 +109,10 @@ impl<'a> RowWriter<'a> {
     /// Hands states inside a part and at its end to the sink.
     fn inside(&mut self, part: &mut dyn RowSource) -> Result<(), Error> {
         let [from, until] = part.times();
-        (1..=PLACES).try_for_each(|k| {
-            let t = from + (until - from) * f64::from(k) / f64::from(PLACES);
+        // Enough to show the shape of the motion in a step.
+        let states = 4u32;
+        (1..=states).try_for_each(|k| {
+            let t = from + (until - from) * f64::from(k) / f64::from(states);
             self.rows.step(&part.row(t))
         })
     }

@@ -1,7 +1,7 @@
 //! Forward run: scene -> mechanism -> plan -> engine -> trajectory.
 
 use super::angle_model::AngleModel;
-use super::joint_force_maxima::{self, MOST_ROWS};
+use super::joint_force_maxima::{self, MOST_FORCE_ROWS};
 use super::options::Options;
 use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
@@ -63,7 +63,7 @@ fn run(
     let mut task = RunSetup::new(scene, options, kept)?;
     let looks = options.reactions && task.plan.engine != Engine::Contact;
     if looks {
-        task.kept = kept.max(MOST_ROWS);
+        task.kept = kept.max(MOST_FORCE_ROWS);
     }
     if is_open(&task) && rows.wants_rows() {
         let blind = Options {

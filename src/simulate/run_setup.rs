@@ -139,7 +139,7 @@ impl<'a> RunSetup<'a> {
             tolerance: self.scene.run.tolerance,
             t_end: match self.extent {
                 Extent::Duration(duration) => duration,
-                Extent::Revolutions(_) => time::FAR,
+                Extent::Revolutions(_) => time::UNLIMITED_TIME,
             },
             way: self.extent.angle().unwrap_or(f64::INFINITY),
             limit: self.options.limit(),

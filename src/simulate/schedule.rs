@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::scene::{Every, Extent, MOST_OUTPUT_ROWS};
 
-/// Number of rows of a run without `output_every`.
+/// Number of rows of a run without `output_every`: a smooth curve in a plot.
 const DEFAULT_ROWS: u32 = 500;
 
 /// Distance of two rows, as part of the row spacing, within which they are one but for rounding.
@@ -39,7 +39,7 @@ pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
         format!(
             "run.output_every: more than {MOST_OUTPUT_ROWS} output rows would be written, for the run has {rows:.0} of them until t = {until} s"
         ),
-        "give a larger step, leave it out for 500 rows, or shorten the run",
+        format!("give a larger step, leave it out for {DEFAULT_ROWS} rows, or shorten the run"),
     ))
 }
 

@@ -9,36 +9,27 @@ use crate::engine::step::Step;
 
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// Ratio of the tolerances of both runs where the second is by collocation: the error of the second run is negligible. At
-/// the order of collocation two more digits take a fifth more evaluations.
-const COLLOCATION_RATIO: f64 = 1e4;
-/// Largest tolerance of a second run by collocation, for the default 1e-10: short runs are far better than loose tolerances.
-const LARGEST_BY_COLLOCATION: f64 = 1e-14;
 /// Least tolerance of a second run: below it rounding inside a step dominates.
 pub(super) const LEAST_TOLERANCE: f64 = 1e-15;
 /// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
 pub(super) const TOLERANCE_RATIO: f64 = 50.0;
-/// Least ratio of the tolerances of both runs, near rounding.
-const LEAST_RATIO: f64 = 5.0;
-/// Least tolerance of a second run by the method of the first, unless [`LEAST_RATIO`] asks for less: below it rounding
-/// inside the steps would make them collapse.
-const LEAST_BY_SAME_METHOD: f64 = 1e-13;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Number of first steps of a run that are kept: 1 MB.
-const FIRST_KEPT: usize = 4096;
-/// Largest number of later steps that are kept; when it is reached, every other one is dropped.
-const LATER_KEPT: usize = 128;
-
 /// Returns the tolerance of a second run by collocation, with negligible error.
 pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
-    (tolerance / COLLOCATION_RATIO).clamp(LEAST_TOLERANCE, LARGEST_BY_COLLOCATION)
+    // At the order of collocation two more digits take a fifth more evaluations.
+    let ratio = 1e4;
+    // That for the default 1e-10: short runs are far better than loose tolerances.
+    let largest = 1e-14;
+    (tolerance / ratio).clamp(LEAST_TOLERANCE, largest)
 }
 
 /// Returns the tolerance of a second run by the method of the first.
 pub(super) fn same_method_tolerance(tolerance: f64) -> f64 {
-    (tolerance / TOLERANCE_RATIO).max(LEAST_BY_SAME_METHOD.min(tolerance / LEAST_RATIO))
+    // Least ratio of the tolerances near rounding, which below this tolerance would make the steps collapse.
+    let (least_ratio, least) = (5.0, 1e-13_f64);
+    (tolerance / TOLERANCE_RATIO).max(least.min(tolerance / least_ratio))
 }
 
 /// Steps of a run, kept for comparison with a second run and as a predictor for it.
@@ -54,12 +45,16 @@ pub(super) struct Checkpoints {
 impl Checkpoints {
     /// Takes a step of the first run.
     pub fn pass(&mut self, step: &Step) {
-        if self.first.len() < FIRST_KEPT {
+        // A megabyte of steps.
+        let most_first = 4096;
+        // When so many are kept, every other one is dropped.
+        let most_later = 128;
+        if self.first.len() < most_first {
             self.first.push(*step);
             return;
         }
         self.passed += 1;
-        if self.later.len() == LATER_KEPT {
+        if self.later.len() == most_later {
             let mut odd = false;
             self.later.retain(|_| {
                 odd = !odd;
@@ -74,16 +69,16 @@ impl Checkpoints {
 }
 
 /// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
-pub(super) struct Compared<'a> {
+pub(super) struct Comparison<'a> {
     left: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
     /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
     farthest: [f64; 2],
 }
 
-impl<'a> Compared<'a> {
-    pub fn with(checkpoints: &'a Checkpoints) -> Compared<'a> {
+impl<'a> Comparison<'a> {
+    pub fn with(checkpoints: &'a Checkpoints) -> Comparison<'a> {
         let Checkpoints { first, later, .. } = checkpoints;
-        Compared {
+        Comparison {
             left: first.iter().chain(later).peekable(),
             farthest: [0.0; 2],
         }

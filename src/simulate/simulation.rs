@@ -75,13 +75,6 @@ pub(super) struct PhaseInterval {
     pub phase: Phase,
 }
 
-pub(super) fn push_phase(phases: &mut Vec<PhaseInterval>, [from, until]: [f64; 2], phase: Phase) {
-    match phases.last_mut() {
-        Some(last) if last.until == from && last.phase == phase => last.until = until,
-        _ => phases.push(PhaseInterval { from, until, phase }),
-    }
-}
-
 /// Maker of the rows of a finished run.
 #[derive(Clone, Debug)]
 pub(super) struct DenseRows {

@@ -9,9 +9,6 @@ use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::scene::{Load, Variable};
 
-/// Distance to a balance, as part of the way the crank came, within which the crank has stalled.
-const OF_ITS_WAY: f64 = 1e-3;
-
 /// Returns the driving torque on the crank at rest at an angle (rad) and the load: forces on the slider and weight.
 pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
     let equation = task.equation();
@@ -35,7 +32,9 @@ pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
     }
     let net = |theta: f64| -equation.driving_torque(0.0, theta, 0.0, 0.0);
     let theta = last.theta_rad;
-    let width = OF_ITS_WAY * (theta - task.start().radians()).abs();
+    // Largest distance to the balance, as part of the rotation of the crank up to there.
+    let near_balance = 1e-3;
+    let width = near_balance * (theta - task.start().radians()).abs();
     let (below, above) = (theta - width, theta + width);
     let (up, down) = (net(below), net(above));
     let rest = Angle::from(theta).reduced().rest;

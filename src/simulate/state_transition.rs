@@ -14,29 +14,15 @@ use nalgebra::Matrix3;
 use crate::engine::step::Step;
 use crate::engine::{Batch, Motion};
 
+/// Values at the nodes of the rule.
+type AtNodes<T> = [T; 3];
+
 /// Nodes and weights of Gauss's rule with three points on [0, 1] (Abramowitz and Stegun, 25.4.30).
-const NODES: usize = 3;
-const RULE: [(f64, f64); NODES] = [
+const RULE: AtNodes<(f64, f64)> = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
-
-/// Differences for the slopes, about the square root of a rounding: of the angle, rad, no more than in the step, as
-/// slopes near a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
-/// time, relative to the step.
-const CHANGE: f64 = 1e-7;
-const LEAST_CHANGE: f64 = 1e-9;
-const LATER: f64 = 1e-5;
-
-/// Least rotation in a step, rad, for which the motion a little later is used: angle and speed are rounded.
-const SHORTEST_WAY: f64 = 1e-11;
-
-/// Largest element of a dimensionless system matrix for which a transition is computed.
-const STEEPEST: f64 = 1e12;
-
-/// Largest effect of the time in a step, relative to the motion, for which the motion a little later is used.
-const PUSHED: f64 = 0.3;
 
 /// Transition matrix of angle and speed, 2 by 2, row by row.
 pub(super) type StateTransition = [[f64; 2]; 2];
@@ -45,21 +31,27 @@ pub(super) type StateTransition = [[f64; 2]; 2];
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slopes {
     /// By the angle, 1/s².
-    by_angle: [f64; NODES],
+    by_angle: AtNodes<f64>,
     /// By the speed, 1/s.
-    by_speed: [f64; NODES],
+    by_speed: AtNodes<f64>,
     /// By the time, rad/s³.
-    by_time: [f64; NODES],
+    by_time: AtNodes<f64>,
 }
 
 impl Slopes {
     /// Computes the slopes at the nodes of a step, by forward differences.
     pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
-        let aside = (end.theta - start.theta).abs().clamp(LEAST_CHANGE, CHANGE);
+        // Differences, about the square root of a rounding: of the angle, rad, no more than in the step, as slopes near
+        // a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
+        // time, relative to the step.
+        let (least_angle, most_angle, speed_share) = (1e-9, 1e-7, 1e-7);
+        let aside = (end.theta - start.theta)
+            .abs()
+            .clamp(least_angle, most_angle);
         let timed = motion.depends_on_time();
-        let later = LATER * h;
-        let mut faster = [0.0; NODES];
+        let later = 1e-5 * h;
+        let mut faster = AtNodes::default();
         // Four states at each node: on the motion, and with another angle, speed and time.
         let mut beside = Batch {
             turns: step.turns,
@@ -68,7 +60,7 @@ impl Slopes {
         for (i, (part, _)) in RULE.into_iter().enumerate() {
             let t = start.t + part * h;
             let (theta, speed) = step.at(t);
-            faster[i] = CHANGE * speed.abs().max(start.omega.abs()).max(1.0);
+            faster[i] = speed_share * speed.abs().max(start.omega.abs()).max(1.0);
             for j in 0..4 {
                 let at = 4 * i + j;
                 (beside.t[at], beside.theta[at], beside.omega[at]) = (t, theta, speed);
@@ -104,7 +96,9 @@ impl Slopes {
         // The time changes the forces: this part of the state is no perturbation of the motion a little later.
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
         let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
-        if travel < SHORTEST_WAY || size(pushed) > PUSHED * size(along) {
+        // Rotation, rad, of which rounding leaves too little, and largest effect of the time beside the motion.
+        let (shortest_travel, most_pushed) = (1e-11, 0.3);
+        if travel < shortest_travel || size(pushed) > most_pushed * size(along) {
             return plain;
         }
         let found = self.with_motion(&plain, along, then, h);
@@ -118,7 +112,7 @@ impl Slopes {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
         // State of the linear system: angle, speed times h, and one.
-        let [first, middle, last]: [Matrix3<f64>; NODES] = from_fn(|i| {
+        let [first, middle, last]: AtNodes<Matrix3<f64>> = from_fn(|i| {
             let (by_angle, by_speed) = (h * h * self.by_angle[i], h * self.by_speed[i]);
             let push = h * h * self.by_time[i] / unit;
             Matrix3::new(0.0, 1.0, 0.0, by_angle, by_speed, push, 0.0, 0.0, 0.0)
@@ -165,10 +159,12 @@ impl Slopes {
 /// Solves y' = A(s) y over 0 < s < 1, from A at the nodes. Magnus's series of order six (Blanes, Casas, Oteo, Ros,
 /// Physics Reports 470, 2009, eq. 253) where it is known to converge, ∫ ‖A‖ < π (section 2.7 there); for steeper losses
 /// a product of exponentials, one A for each part of the step, which decays where A does.
-fn exponential([first, middle, last]: [Matrix3<f64>; NODES]) -> Matrix3<f64> {
+fn exponential([first, middle, last]: AtNodes<Matrix3<f64>>) -> Matrix3<f64> {
     let size = |a: &Matrix3<f64>| a.iter().fold(0.0f64, |most, entry| most.max(entry.abs()));
     let largest = [&first, &middle, &last].map(size);
-    if !largest.iter().all(|size| *size < STEEPEST) {
+    // Largest element for which a transition is computed: the exponential squares its matrix again and again.
+    let steepest = 1e12;
+    if !largest.iter().all(|size| *size < steepest) {
         return Matrix3::repeat(f64::NAN);
     }
     if mean(&[first.norm(), middle.norm(), last.norm()]) < PI {
@@ -184,7 +180,7 @@ fn exponential([first, middle, last]: [Matrix3<f64>; NODES]) -> Matrix3<f64> {
     }
 }
 
-fn mean(values: &[f64; NODES]) -> f64 {
+fn mean(values: &AtNodes<f64>) -> f64 {
     let weighted = RULE.iter().zip(values);
     weighted.map(|((_, weight), value)| weight * value).sum()
 }

@@ -2,26 +2,42 @@
 
 use std::cell::Cell;
 
-use super::guide_friction::BESIDE;
+use EventIndex::{Clear, Crank, DeadCentre, Limit, Normal, Speed, Turned};
+
+use super::guide_friction::NEARBY_ANGLE;
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
-use crate::engine::events::ROUNDED;
+use crate::engine::events::ANGLE_ROUNDING;
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
 
-/// Indices of the event functions, in the order of their values.
-pub(super) const SPEED: usize = 0;
-pub(super) const DEAD_CENTRE: usize = 1;
-pub(super) const LIMIT: usize = 2;
-pub(super) const TURNED: usize = 3;
-pub(super) const NORMAL: usize = 4;
-pub(super) const CLEAR: usize = 5;
-pub(super) const CRANK: usize = 6;
-pub(super) const QUANTITIES: usize = 7;
+/// Index of an event function of a motion on the configuration curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum EventIndex {
+    /// Speed of the coordinate.
+    Speed,
+    /// Derivative of the slider position.
+    DeadCentre,
+    /// Cosine of the rod inclination.
+    Limit,
+    /// Rotation of the crank that is left to the turn limit.
+    Turned,
+    /// Normal force of the guide.
+    Normal,
+    /// Distance from jamming.
+    Clear,
+    /// Derivative of the crank angle.
+    Crank,
+}
 
-pub(super) type Signs = [f64; QUANTITIES];
+impl EventIndex {
+    /// All indices, in the order of the values.
+    pub const ALL: [EventIndex; 7] = [Speed, DeadCentre, Limit, Turned, Normal, Clear, Crank];
+}
+
+pub(super) type Signs = [f64; EventIndex::ALL.len()];
 
 /// Phase of the slider in its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,20 +121,20 @@ impl Motion for InPhase<'_> {
         self.equation.loads().next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let Phase::Sliding { c, .. } = self.phase else {
-            return Detail::NONE;
+            return Variation::NONE;
         };
         let loads = self.equation.loads();
         let seen = self
             .equation
             .curve()
             .enclosed_state(reach, loads.meet_slider());
-        loads.detail(
+        loads.variation(
             &seen,
             self.equation.unit_load_effects(reach.angle, c),
             ellipse,
@@ -141,10 +157,10 @@ pub(super) struct Quantities<'a> {
     pub against: Cell<Sense>,
 }
 
-impl EventFunction<QUANTITIES> for Quantities<'_> {
+impl EventFunction<{ EventIndex::ALL.len() }> for Quantities<'_> {
     fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
         let curve = self.equation.curve();
-        let place = curve.place(angle.rest);
+        let place = curve.pose(angle.rest);
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
                 self.evaluations.update(|before| before + 1);
@@ -157,7 +173,7 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
         let turned = self.turning.map_or(1.0, |(start, limit)| {
             limit - curve.crank_angle(angle).minus(start).abs()
         });
-        // In the order of the indices.
+        // In the order of `EventIndex`.
         [
             speed,
             place.dx,
@@ -174,12 +190,12 @@ impl EventFunction<QUANTITIES> for Quantities<'_> {
 /// rounding of the angle, the value `ahead`, a little further on, decides.
 pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
     let mut signs: Signs = std::array::from_fn(|i| {
-        let nothing = values[i].abs() <= ROUNDED / BESIDE * ahead[i].abs();
+        let nothing = values[i].abs() <= ANGLE_ROUNDING / NEARBY_ANGLE * ahead[i].abs();
         let value = if nothing { ahead[i] } else { values[i] };
         if value < 0.0 { -1.0 } else { 1.0 }
     });
-    signs[SPEED] = direction;
-    (signs[TURNED], signs[CLEAR]) = (1.0, 1.0);
+    signs[Speed as usize] = direction;
+    (signs[Turned as usize], signs[Clear as usize]) = (1.0, 1.0);
     signs
 }
 
@@ -188,7 +204,7 @@ pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
     let friction = equation.friction();
     let mu = friction.map_or(0.0, |friction| friction.coefficient);
     Phase::Sliding {
-        c: -mu * signs[SPEED] * signs[DEAD_CENTRE] * signs[NORMAL],
+        c: -mu * signs[Speed as usize] * signs[DeadCentre as usize] * signs[Normal as usize],
         against: against(equation, signs),
     }
 }
@@ -197,8 +213,8 @@ pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
 pub(super) fn against(equation: &CurveEquation, signs: &Signs) -> Sense {
     match equation.loads().are_dry() {
         true => Sense::of(
-            signs[SPEED] * signs[CRANK],
-            signs[SPEED] * signs[DEAD_CENTRE],
+            signs[Speed as usize] * signs[Crank as usize],
+            signs[Speed as usize] * signs[DeadCentre as usize],
         ),
         false => Sense::default(),
     }

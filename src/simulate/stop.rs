@@ -252,7 +252,7 @@ impl fmt::Display for Torques {
 }
 
 /// Returns the reason that a motion over the crank angle is not applicable, as a clause of a message.
-pub(super) fn unserved(why: NotApplicable) -> &'static str {
+pub(super) fn why_not_applicable(why: NotApplicable) -> &'static str {
     match why {
         NotApplicable::Equilibrium => "it starts at rest without a force",
         NotApplicable::NotFinite => "a load has no finite value on the way",

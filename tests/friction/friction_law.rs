@@ -21,7 +21,7 @@ struct OnCurve {
 fn on_curve(case: &Case, omega: f64) -> OnCurve {
     let linkage = Linkage::new(&case.scene.geometry);
     let (curve, q) = Curve::through(&linkage, Angle::from(case.theta)).expect("a position");
-    let place = curve.place(q.rest);
+    let place = curve.pose(q.rest);
     OnCurve {
         equation: CurveEquation::new(&case.scene, curve),
         q,
@@ -256,10 +256,10 @@ fn the_curve_closes_and_is_smooth() {
                 };
                 let start = linkage.pose(theta);
                 close("start", curve.crank_angle(q0).radians(), theta, 1.0, 1e-14);
-                close("start x", curve.place(q0.rest).x, start.x, 1.0, 1e-14);
+                close("start x", curve.pose(q0.rest).x, start.x, 1.0, 1e-14);
                 for i in 0..400 {
                     let q = q0.rest + 0.0157 * f64::from(i);
-                    let place = curve.place(q);
+                    let place = curve.pose(q);
                     let closure = offset + crank * place.sin - rod * place.rod_sin;
                     close("closure", closure, 0.0, crank + rod, 1e-15);
                     close("unit", place.sin.hypot(place.cos), 1.0, 1.0, 1e-15);
@@ -285,7 +285,7 @@ fn the_curve_closes_and_is_smooth() {
                         continue;
                     }
                     let h = 1e-4;
-                    let (a, b) = (curve.place(q - h), curve.place(q + h));
+                    let (a, b) = (curve.pose(q - h), curve.pose(q + h));
                     let turn = |p: &slider_crank::mechanism::CurvePose| {
                         [p.sin, p.cos, p.rod_sin, p.rod_cos, p.x]
                     };
@@ -325,16 +325,16 @@ fn the_curve_closes_and_is_smooth() {
                     }
                 }
                 // A full cycle along the curve returns to the same position.
-                let round = curve.place(q0.rest + std::f64::consts::TAU);
+                let round = curve.pose(q0.rest + std::f64::consts::TAU);
                 close("round", round.x, start.x, 1.0, 1e-13);
                 for dead in curve.dead_centres() {
                     // The coordinate is rounded, and x' is steep next to a change point.
-                    let there = curve.place(dead);
+                    let there = curve.pose(dead);
                     let size = crank + rod + 6.0 * there.d2x.abs();
                     close("dead centre", there.dx, 0.0, size, 4e-15);
                 }
                 for limit in curve.limits() {
-                    close("limit", curve.place(limit).rod_cos, 0.0, 1.0, 1e-15);
+                    close("limit", curve.pose(limit).rod_cos, 0.0, 1.0, 1e-15);
                 }
             }
         }

@@ -43,7 +43,7 @@ fn every_position_lies_in_its_enclosure() {
                 let seen = curve.enclosed_state(&reach, true);
                 for part in 0..=20 {
                     let q = low + width * f64::from(part) / 20.0;
-                    let place = curve.place(q);
+                    let place = curve.pose(q);
                     let theta = curve.crank_angle(Angle::from(q)).radians();
                     let holds = |of: Interval, value: f64| {
                         assert!(

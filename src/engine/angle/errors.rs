@@ -6,35 +6,33 @@ use crate::engine::energy::piece::Piece;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
     /// Rounding error of the kinetic energy, J.
-    pub off: f64,
+    pub energy: f64,
     /// Time error due to rounding of the energy, s.
-    pub late: f64,
+    pub time: f64,
     /// Fraction of an initial error of the kinetic energy that remains at the end: losses reduce it.
-    pub kept: f64,
+    pub retained: f64,
     /// Advance of the end time per initial error of the kinetic energy, s/J.
-    pub early: f64,
+    pub advance: f64,
 }
 
 impl Errors {
     /// Returns the errors at the start for a kinetic energy, J, with an error `off` beyond its rounding, J.
     pub(super) fn at(kinetic: f64, off: f64) -> Errors {
         Errors {
-            off: off.hypot(0.5 * f64::EPSILON * kinetic),
-            late: 0.0,
-            kept: 1.0,
-            early: 0.0,
+            energy: off.hypot(0.5 * f64::EPSILON * kinetic),
+            time: 0.0,
+            retained: 1.0,
+            advance: 0.0,
         }
     }
 
-    /// Propagates the errors over a panel of some duration (s), which keeps the fraction `kept` and adds `noise` (J).
-    /// `early` (s/J) is the integral of dt/2K; `most` is the larger kinetic energy of the two ends, J.
-    pub(super) fn pass(&mut self, kept: f64, noise: f64, early: f64, duration: f64, most: f64) {
-        // The error arises mainly where the energy is large.
-        let added = 0.5 * duration / most;
-        self.late += (self.off * early).hypot(noise * added);
-        self.early += self.kept * early;
-        self.kept *= kept;
-        self.off = (kept * self.off).hypot(noise);
+    /// Propagates the errors over a panel that retains a fraction of an energy error and adds `noise`, J. An error at
+    /// the start advances the end by `advance`, the noise by `advance_of_noise`, s/J.
+    pub(super) fn pass(&mut self, retained: f64, noise: f64, advance: f64, advance_of_noise: f64) {
+        self.time += (self.energy * advance).hypot(noise * advance_of_noise);
+        self.advance += self.retained * advance;
+        self.retained *= retained;
+        self.energy = (retained * self.energy).hypot(noise);
     }
 }
 

@@ -6,13 +6,6 @@
 use super::super::energy::NotApplicable;
 use crate::numeric::root;
 
-/// Search range from the first energy, as ln of the energy ratio.
-const FARTHEST: f64 = 60.0;
-/// Largest search step, as ln of the energy ratio.
-const LONGEST_LOG_STEP: f64 = 0.4;
-/// Bisections between an energy at which the crank stops within the cycle and one at which it loses energy.
-const HALVINGS: usize = 40;
-
 /// Reason why there is no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoCycle {
@@ -96,27 +89,24 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     })
 }
 
-/// Evaluated cycle.
+/// Energy gained by a cycle.
 #[derive(Clone, Copy, Debug)]
-struct Looked {
+struct CycleGain {
     /// Kinetic energy at the start, J.
     kinetic: f64,
     /// Energy gained, J.
     gain: f64,
 }
 
-/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated.
+/// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated; over shorter
+/// ones where the crank does not complete a cycle.
 fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
-    let mut slope = Err(NotApplicable::TooSlow);
-    for part in [2.5e-3, 1e-5, 1e-7] {
-        slope = slope_over(map, kinetic, part);
-        if slope.is_ok() {
-            break;
-        }
-    }
-    slope
+    slope_over(map, kinetic, 2.5e-3)
+        .or_else(|_| slope_over(map, kinetic, 1e-5))
+        .or_else(|_| slope_over(map, kinetic, 1e-7))
 }
 
+/// Computes the slope over distances of `part` of the energy, twice and four times as much.
 fn slope_over(
     map: &mut dyn CycleMap,
     kinetic: f64,
@@ -138,9 +128,9 @@ fn slope_over(
 }
 
 /// Evaluates a cycle; none if the crank does not complete it.
-fn look(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<Looked>, NoCycle> {
+fn evaluate(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<CycleGain>, NoCycle> {
     match map.gain(kinetic) {
-        Ok(gain) => Ok(Some(Looked { kinetic, gain })),
+        Ok(gain) => Ok(Some(CycleGain { kinetic, gain })),
         Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
         Err(why) => Err(why.into()),
     }
@@ -151,11 +141,11 @@ fn bracket(
     map: &mut dyn CycleMap,
     first: f64,
     step: f64,
-) -> Result<(Looked, Looked, bool), NoCycle> {
-    let at_first = look(map, first)?;
-    let gain = at_first.map(|looked| looked.gain);
-    if let Some(looked) = at_first.filter(|looked| looked.gain <= 0.0)
-        && let Some((low, high)) = below(map, looked, step)?
+) -> Result<(CycleGain, CycleGain, bool), NoCycle> {
+    let at_first = evaluate(map, first)?;
+    let gain = at_first.map(|cycle| cycle.gain);
+    if let Some(cycle) = at_first.filter(|cycle| cycle.gain <= 0.0)
+        && let Some((low, high)) = below(map, cycle, step)?
     {
         return Ok((low, high, true));
     }
@@ -163,24 +153,35 @@ fn bracket(
     Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
 }
 
+/// True if the search goes on at this ratio of energies; no machine turns beyond it, with speeds in the ratio 1e13.
+fn is_in_range(ratio: f64) -> bool {
+    ratio.ln() < 60.0
+}
+
+/// Returns the next search step, as ln of the energy ratio: twice this one, up to a factor of 1.5.
+fn longer(step: f64) -> f64 {
+    let longest = 0.4;
+    (2.0 * step).min(longest)
+}
+
 /// Returns the nearest bracket below a cycle that loses.
 fn below(
     map: &mut dyn CycleMap,
-    first: Looked,
-    step: f64,
-) -> Result<Option<(Looked, Looked)>, NoCycle> {
-    let (mut high, mut step) = (first, step);
+    first: CycleGain,
+    mut step: f64,
+) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
+    let mut high = first;
     if first.gain == 0.0 {
         return Ok(Some((first, first)));
     }
-    while (first.kinetic / high.kinetic).ln() < FARTHEST {
+    while is_in_range(first.kinetic / high.kinetic) {
         let kinetic = high.kinetic * (-step).exp();
-        match look(map, kinetic)? {
-            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, high))),
-            Some(looked) => high = looked,
+        match evaluate(map, kinetic)? {
+            Some(cycle) if cycle.gain >= 0.0 => return Ok(Some((cycle, high))),
+            Some(cycle) => high = cycle,
             None => return near_stop(map, kinetic, high),
         }
-        step = (2.0 * step).min(LONGEST_LOG_STEP);
+        step = longer(step);
     }
     Ok(None)
 }
@@ -188,18 +189,18 @@ fn below(
 /// Returns the nearest bracket above the first energy.
 fn above(
     map: &mut dyn CycleMap,
-    at_first: Option<Looked>,
+    at_first: Option<CycleGain>,
     first: f64,
-    step: f64,
-) -> Result<(Looked, Looked), NoCycle> {
-    let (mut kinetic, mut step) = (first, step);
+    mut step: f64,
+) -> Result<(CycleGain, CycleGain), NoCycle> {
+    let mut kinetic = first;
     let (mut gains, mut stops, mut turned) = (None, None, false);
-    let mut looked = at_first;
-    while (kinetic / first).ln() < FARTHEST {
-        turned |= looked.is_some();
-        match looked {
+    let mut cycle = at_first;
+    while is_in_range(kinetic / first) {
+        turned |= cycle.is_some();
+        match cycle {
             None => (gains, stops) = (None, Some(kinetic)),
-            Some(looked) if looked.gain >= 0.0 => gains = Some(looked),
+            Some(cycle) if cycle.gain >= 0.0 => gains = Some(cycle),
             Some(loses) => {
                 if let Some(low) = gains {
                     return Ok((low, loses));
@@ -212,8 +213,8 @@ fn above(
             }
         }
         kinetic *= step.exp();
-        step = (2.0 * step).min(LONGEST_LOG_STEP);
-        looked = look(map, kinetic)?;
+        step = longer(step);
+        cycle = evaluate(map, kinetic)?;
     }
     Err(match (gains, turned) {
         (Some(_), _) => NoCycle::Gains,
@@ -226,16 +227,17 @@ fn above(
 /// Returns a bracket between an energy at which the cycle is not completed and a cycle that loses.
 fn near_stop(
     map: &mut dyn CycleMap,
-    stops: f64,
-    loses: Looked,
-) -> Result<Option<(Looked, Looked)>, NoCycle> {
-    let (mut stops, mut loses) = (stops, loses);
-    for _ in 0..HALVINGS {
+    mut stops: f64,
+    mut loses: CycleGain,
+) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
+    // A search step halved so often is 4e-13 of the energy.
+    let halvings = 40;
+    for _ in 0..halvings {
         let kinetic = (stops * loses.kinetic).sqrt();
-        match look(map, kinetic)? {
+        match evaluate(map, kinetic)? {
             None => stops = kinetic,
-            Some(looked) if looked.gain >= 0.0 => return Ok(Some((looked, loses))),
-            Some(looked) => loses = looked,
+            Some(cycle) if cycle.gain >= 0.0 => return Ok(Some((cycle, loses))),
+            Some(cycle) => loses = cycle,
         }
     }
     Ok(None)

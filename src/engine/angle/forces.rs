@@ -1,19 +1,18 @@
 //! Generalized forces at the points of a panel, from the kinetic energy there.
 
-use super::Driven;
+use super::Dynamics;
 use super::panel::{PanelStart, PanelTable};
 use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::Interval;
 
 /// Generalized forces at the points of a panel, N m.
-#[derive(Clone)]
 pub(super) struct Forces {
     pub total: Values,
     /// Non-conservative forces.
-    pub spent: Values,
+    pub non_conservative: Values,
     /// Speeds, rad/s.
-    speeds: Values,
+    pub speeds: Values,
     /// Times after the start of the panel, s.
     times: Values,
 }
@@ -23,51 +22,59 @@ impl Forces {
         let zero = [0.0; MAX_DEGREE + 1];
         Forces {
             total: zero,
-            spent: zero,
+            non_conservative: zero,
             speeds: zero,
             times: zero,
         }
     }
 
     /// Evaluates the forces from the kinetic energy at the points, J. None where they are not finite.
-    pub fn evaluate<D: Driven>(
+    pub fn evaluate<D: Dynamics>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
         kinetic: &Values,
     ) -> Option<()> {
         let count = panel.rule.degree() + 1;
-        self.clear_from(count);
+        for values in [
+            &mut self.total,
+            &mut self.non_conservative,
+            &mut self.speeds,
+        ] {
+            values[count..].fill(0.0);
+        }
         self.take_speeds(panel, start, kinetic);
         let (push, damping) = (&panel.table.push[..count], &panel.table.damping[..count]);
-        let (speeds, spent) = (&self.speeds[..count], &mut self.spent[..count]);
+        let (speeds, non_conservative) =
+            (&self.speeds[..count], &mut self.non_conservative[..count]);
         for j in 0..count {
-            spent[j] = push[j] - damping[j] * speeds[j];
+            non_conservative[j] = push[j] - damping[j] * speeds[j];
         }
         if let Some(switch) = &panel.table.switch {
             for j in 0..count {
-                spent[j] += switch.force[j] * (speeds[j] * speeds[j]);
+                non_conservative[j] += switch.force[j] * (speeds[j] * speeds[j]);
             }
         }
-        if driven.is_driven() {
-            if driven.reads_time() {
+        if dynamics.has_state_loads() {
+            if dynamics.reads_time() {
                 let mut slopes = [0.0; MAX_DEGREE + 1];
                 self.fill_slopes(panel, &mut slopes)?;
                 self.times = panel.rule.integrals(&slopes);
             }
             let whole = count - count % LANES;
             for j in (0..whole).step_by(LANES) {
-                self.drive::<D, LANES>(driven, panel, start, j);
+                self.add_state_loads::<D, LANES>(dynamics, panel, start, j);
             }
             for j in whole..count {
-                self.drive::<D, 1>(driven, panel, start, j);
+                self.add_state_loads::<D, 1>(dynamics, panel, start, j);
             }
         }
-        let (force, spent) = (&panel.table.force[..count], &self.spent[..count]);
+        let (force, non_conservative) =
+            (&panel.table.force[..count], &self.non_conservative[..count]);
         let total = &mut self.total[..count];
         for j in 0..count {
-            total[j] = force[j] + spent[j];
+            total[j] = force[j] + non_conservative[j];
         }
         is_finite(total).then_some(())
     }
@@ -80,11 +87,6 @@ impl Forces {
         for j in 0..count {
             speeds[j] = start.direction * (kinetic[j] * mobility[j]).sqrt();
         }
-    }
-
-    /// Returns the speeds at the points, rad/s.
-    pub fn speeds(&self) -> &Values {
-        &self.speeds
     }
 
     /// Returns the range of the speed at the first `count` points, rad/s.
@@ -104,29 +106,18 @@ impl Forces {
         is_finite(filled).then_some(())
     }
 
-    /// Sets the values beyond the points to zero.
-    fn clear_from(&mut self, count: usize) {
-        for values in [&mut self.total, &mut self.spent, &mut self.speeds] {
-            values[count..].fill(0.0);
-        }
-    }
-
-    /// Adds the driven loads at N points.
-    fn drive<D: Driven, const N: usize>(
+    /// Adds the state loads at N points.
+    fn add_state_loads<D: Dynamics, const N: usize>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
         first: usize,
     ) {
         let state = |j| panel.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
-        let mut at = [state(first); N];
-        for (i, at) in at.iter_mut().enumerate().skip(1) {
-            *at = state(first + i);
-        }
-        let forces = driven.drive(&at);
-        for (spent, force) in self.spent[first..].iter_mut().zip(forces) {
-            *spent += force;
+        let forces = dynamics.state_loads(&std::array::from_fn::<_, N, _>(|i| state(first + i)));
+        for (non_conservative, force) in self.non_conservative[first..].iter_mut().zip(forces) {
+            *non_conservative += force;
         }
     }
 
@@ -148,14 +139,14 @@ impl Forces {
     }
 
     /// Returns the derivatives of all forces with respect to the kinetic energy at the points, 1/rad.
-    pub fn rates<D: Driven>(
+    pub fn rates<D: Dynamics>(
         &self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
     ) -> Values {
         let mut rates = self.rates_of_table(panel);
-        if !driven.is_driven() {
+        if !dynamics.has_state_loads() {
             return rates;
         }
         // Relative step of least error for a central difference.
@@ -165,7 +156,7 @@ impl Forces {
             let (speed, t) = (self.speeds[j], start.t + self.times[j]);
             let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
             let at = speeds.map(|speed| panel.state(start.turns, j, t, speed));
-            let [less, more] = driven.drive(&at);
+            let [less, more] = dynamics.state_loads(&at);
             let slope = (more - less) / (speeds[1] - speeds[0]);
             *rate += slope / (panel.table.inertia[j] * speed);
         }

@@ -1,5 +1,7 @@
 //! Known run as first guess of a finer one: the change made by a sweep is then the defect of the guide.
 
+use std::cmp::Ordering;
+
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::{Orbit, panel::Panel};
@@ -21,7 +23,7 @@ impl<'a> Guide<'a> {
     /// Makes a guide from a motion in one direction whose series have decayed to `tail`.
     pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
         Guide {
-            segment: orbit.last_leg(),
+            segment: orbit.last_segment(),
             tail,
             index: 0,
         }
@@ -43,10 +45,8 @@ impl<'a> Guide<'a> {
             let known = self.panel(turns, kinetic[done])?;
             let local = |angle: &f64| Self::local(known, turns, *angle);
             let left = &mut kinetic[done..count];
-            let on_it = left
-                .iter()
-                .take_while(|angle| Self::is_on(known, local(angle)));
-            let here = on_it.count();
+            let is_on = |angle: &&f64| Self::compare(known, local(angle)) == Ordering::Equal;
+            let here = left.iter().take_while(is_on).count();
             let points = &mut left[..here];
             points.iter_mut().for_each(|angle| *angle = local(angle));
             known.slowness(points);
@@ -67,17 +67,16 @@ impl<'a> Guide<'a> {
         Angle::new(turns - panel.turns, angle).radians()
     }
 
-    fn is_on(panel: &Panel, angle: f64) -> bool {
-        Self::before(panel, angle) <= SAME_ANGLE && Self::beyond(panel, angle) <= SAME_ANGLE
-    }
-
-    /// Returns the distance of an angle before the start of a panel, rad.
-    fn before(panel: &Panel, angle: f64) -> f64 {
-        (panel.piece.from - angle) * panel.piece.span().signum()
-    }
-
-    fn beyond(panel: &Panel, angle: f64) -> f64 {
-        (angle - panel.piece.to) * panel.piece.span().signum()
+    /// Compares an angle, rad, with the range of a panel in the direction of motion.
+    fn compare(panel: &Panel, angle: f64) -> Ordering {
+        let direction = panel.piece.span().signum();
+        if (angle - panel.piece.to) * direction > SAME_ANGLE {
+            Ordering::Greater
+        } else if (panel.piece.from - angle) * direction > SAME_ANGLE {
+            Ordering::Less
+        } else {
+            Ordering::Equal
+        }
     }
 
     /// Returns the panel in which an angle lies.
@@ -85,13 +84,10 @@ impl<'a> Guide<'a> {
         let segment = self.segment;
         loop {
             let (panel, _) = segment.panel(self.index)?;
-            let local = Self::local(panel, turns, angle);
-            if Self::beyond(panel, local) > SAME_ANGLE {
-                self.index += 1;
-            } else if Self::before(panel, local) > SAME_ANGLE {
-                self.index = self.index.checked_sub(1)?;
-            } else {
-                return Some(panel);
+            match Self::compare(panel, Self::local(panel, turns, angle)) {
+                Ordering::Greater => self.index += 1,
+                Ordering::Less => self.index = self.index.checked_sub(1)?,
+                Ordering::Equal => return Some(panel),
             }
         }
     }

@@ -10,29 +10,29 @@
 //! The forces may have two forms, one on each side of a zero of the switch, a function of the state. A panel ends at
 //! the zero, and the rest of it is solved with the other form.
 
-mod driven;
-mod driving;
+mod angle_run;
+mod cycle_panels;
+mod dynamics;
 mod errors;
 mod fixed_point;
 mod forces;
 mod guide;
+mod load_resolution;
 mod panel;
 mod poincare_map;
 mod predictor;
 mod progress;
 mod refine;
 mod run;
-mod seen;
 mod solution;
 mod stepper;
 mod sweep;
 mod switch;
 mod table;
-mod turn;
 mod undamped;
 
-pub use driven::{Driven, Panels, State};
-pub use driving::{Driving, Goal, Resolution, Short};
+pub use angle_run::{AngleRun, EarlyEnd, Goal, Resolution};
+pub use dynamics::{Dynamics, Panels, State};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;

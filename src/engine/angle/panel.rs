@@ -3,7 +3,7 @@
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
-use super::{Driven, State, Table};
+use super::{Dynamics, State, Table};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
@@ -21,7 +21,6 @@ pub(super) struct PanelStart {
 }
 
 /// Panel with the tables of all that depends on the position alone, equal in each cycle.
-#[derive(Clone)]
 pub(super) struct PanelTable<P> {
     /// Whole turns to be added to the angles of the piece, in the first cycle.
     pub turns: f64,
@@ -49,11 +48,10 @@ pub(super) struct PanelTable<P> {
     /// Rests of the panel after each switching in the last turn.
     pub rests: Vec<Rest>,
     /// Index of this panel among the rests of another one.
-    pub is_rest: Option<usize>,
+    pub rest_index: Option<usize>,
 }
 
 /// Rest of a panel after a switching: guess for the next turn.
-#[derive(Clone)]
 pub(super) struct Rest {
     rule: &'static Rule,
     /// Kinetic energy at the points, J.
@@ -69,21 +67,20 @@ pub(super) struct Fineness {
     pub speed: f64,
 }
 
-/// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end. Forces
-/// are continuous at a switching: the effect is of second order in this length.
+/// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end, and a
+/// switch as small there, beside its parts, as zero. Forces are continuous at a switching: the effect is of second
+/// order in this length.
 pub(super) const SHORTEST_PANEL: f64 = 1e-9;
-/// Reduction of the truncation error of forces, which adds up over the turns.
-const ADDED_UP: f64 = 0.1;
 /// Convergence factor above which sweeps give way to Newton's method; also the first estimate of the factor.
 pub(super) const SLOW_FACTOR: f64 = 0.3;
-/// Degree of the series tried first.
+/// Degree of the series tried first: a higher one costs no less than more panels.
 pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> PanelTable<P> {
     /// Makes the panel between two angles (rad); its degree is the least that resolves inertia and forces, after a
     /// trial with the degree `first`.
-    pub fn new<D: Driven<Place = P>>(
-        driven: &D,
+    pub fn new(
+        dynamics: &impl Dynamics<Place = P>,
         turns: f64,
         ends: [f64; 2],
         side: f64,
@@ -91,15 +88,15 @@ impl<P: Copy> PanelTable<P> {
         first: usize,
     ) -> Result<Self, NotApplicable> {
         let mut panel = Self::empty(turns, ends, Rule::of(first), side);
-        panel.tabulate(driven)?;
-        panel.resolve(driven, fine, MAX_DEGREE)?;
+        panel.tabulate(dynamics)?;
+        panel.resolve(dynamics, fine, MAX_DEGREE)?;
         Ok(panel)
     }
 
     /// Sets the least degree that resolves inertia and forces, or `most`; true if they are resolved.
-    pub fn resolve<D: Driven<Place = P>>(
+    pub fn resolve(
         &mut self,
-        driven: &D,
+        dynamics: &impl Dynamics<Place = P>,
         fine: Fineness,
         most: usize,
     ) -> Result<bool, NotApplicable> {
@@ -117,7 +114,7 @@ impl<P: Copy> PanelTable<P> {
             let degree = enough.unwrap_or(next);
             if degree != tried {
                 self.rule = Rule::of(degree);
-                self.tabulate(driven)?;
+                self.tabulate(dynamics)?;
             }
             if enough.is_some() {
                 return Ok(true);
@@ -141,15 +138,15 @@ impl<P: Copy> PanelTable<P> {
             factor: SLOW_FACTOR,
             failed: false,
             rests: Vec::new(),
-            is_rest: None,
+            rest_index: None,
         }
     }
 
     /// Makes the rest of the panel from an angle (rad) on, after switching number `index`, for the other side; `known`
     /// is the same rest in the last turn.
-    pub fn rest<D: Driven<Place = P>>(
+    pub fn rest(
         &self,
-        driven: &D,
+        dynamics: &impl Dynamics<Place = P>,
         from: f64,
         index: usize,
         known: Option<&Rest>,
@@ -157,56 +154,49 @@ impl<P: Copy> PanelTable<P> {
     ) -> Result<Self, NotApplicable> {
         let ends = [from, self.piece.to];
         let mut panel = match known {
-            None => Self::new(driven, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
+            None => Self::new(dynamics, self.turns, ends, -self.side, fine, FIRST_DEGREE)?,
             Some(known) => {
                 let mut panel = Self::empty(self.turns, ends, known.rule, -self.side);
                 panel.past.remember(&known.kinetic);
-                panel.tabulate(driven)?;
+                panel.tabulate(dynamics)?;
                 panel
             }
         };
-        panel.is_rest = Some(index);
+        panel.rest_index = Some(index);
         Ok(panel)
     }
 
     /// Converts this panel to the rest that it is of another, with its index; none if it is none or is not solved.
     pub fn as_rest(&self) -> Option<(usize, Rest)> {
         let (rule, kinetic) = (self.rule, *self.past.last()?);
-        Some((self.is_rest?, Rest { rule, kinetic }))
+        Some((self.rest_index?, Rest { rule, kinetic }))
     }
 
     /// Changes to the other side of the switch.
-    pub fn turn_over<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), NotApplicable> {
+    pub fn turn_over(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<(), NotApplicable> {
         self.side = -self.side;
         self.past.forget();
-        self.tabulate(driven)
+        self.tabulate(dynamics)
     }
 
-    pub fn tabulate<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<(), NotApplicable> {
+    pub fn tabulate(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<(), NotApplicable> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
-        driven.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
-        let known = |values: &Values| values[..count].iter().all(|value| value.is_finite());
-        let forces = self.table.force[..count].iter();
-        self.largest_force = forces.fold(0.0, |largest, force| largest.max(force.abs()));
-        for (mobility, inertia) in self
-            .mobility
-            .iter_mut()
-            .zip(&self.table.inertia)
-            .take(count)
-        {
+        dynamics.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
+        self.largest_force = largest(&self.table.force[..count]);
+        let inertias = self.table.inertia[..count].iter();
+        for (mobility, inertia) in self.mobility.iter_mut().zip(inertias) {
             *mobility = 2.0 / inertia;
         }
-        self.damped = self.table.damping[..count]
-            .iter()
-            .any(|damping| *damping != 0.0);
+        let damping = &self.table.damping[..count];
+        self.damped = damping.iter().any(|damping| *damping != 0.0);
         self.fill_work();
-        if known(&self.table.inertia) && known(&self.table.force) && known(&self.table.push) {
-            Ok(())
-        } else {
-            Err(NotApplicable::NotFinite)
-        }
+        let table = &self.table;
+        let finite = [&table.inertia, &table.force, &table.push]
+            .iter()
+            .all(|values| values[..count].iter().all(|value| value.is_finite()));
+        finite.then_some(()).ok_or(NotApplicable::NotFinite)
     }
 
     /// Returns the least degree that resolves the speed at constant kinetic energy and the forces relative to that
@@ -215,7 +205,9 @@ impl<P: Copy> PanelTable<P> {
         let kinetic = 0.5 * self.table.inertia[0] * fine.speed * fine.speed;
         let slowness = self.rule.series(&self.table.inertia.map(f64::sqrt));
         let force = self.rule.series(&self.force_of_position());
-        let share = (force.largest() * self.half().abs() / kinetic / ADDED_UP).min(1.0);
+        // Fraction of the tail for the truncation error of forces, which adds up over the turns.
+        let error_share = 0.1;
+        let share = (force.largest() * self.half().abs() / kinetic / error_share).min(1.0);
         let degrees = Rule::DEGREES.into_iter();
         let mut smaller = degrees.take_while(|degree| *degree <= self.rule.degree());
         smaller.find(|degree| {
@@ -233,20 +225,20 @@ impl<P: Copy> PanelTable<P> {
     }
 
     /// Raises the degree to the next; false if there is none.
-    pub fn raise<D: Driven<Place = P>>(&mut self, driven: &D) -> Result<bool, NotApplicable> {
+    pub fn raise(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<bool, NotApplicable> {
         let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
             return Ok(false);
         };
         self.rule = Rule::of(*next);
         self.past.forget();
-        self.tabulate(driven)?;
+        self.tabulate(dynamics)?;
         Ok(true)
     }
 
     /// Cuts the panel at the fraction `share`; none if it is too short.
-    pub fn parts<D: Driven<Place = P>>(
+    pub fn parts(
         &self,
-        driven: &D,
+        dynamics: &impl Dynamics<Place = P>,
         share: f64,
         fine: Fineness,
     ) -> Result<Option<[Self; 2]>, NotApplicable> {
@@ -255,7 +247,7 @@ impl<P: Copy> PanelTable<P> {
             return Ok(None);
         }
         let middle = from + share * (to - from);
-        let part = |ends| Self::new(driven, self.turns, ends, self.side, fine, FIRST_DEGREE);
+        let part = |ends| Self::new(dynamics, self.turns, ends, self.side, fine, FIRST_DEGREE);
         Ok(Some([part([from, middle])?, part([middle, to])?]))
     }
 
@@ -288,10 +280,5 @@ impl<P: Copy> PanelTable<P> {
     /// Returns the largest magnitude of the work of the position-dependent forces from the start to a point, J.
     pub fn largest_work(&self) -> f64 {
         largest(&self.work[..=self.rule.degree()])
-    }
-
-    /// Keeps the kinetic energy of this turn for the next.
-    pub fn remember(&mut self, kinetic: &Values) {
-        self.past.remember(kinetic);
     }
 }

@@ -1,58 +1,40 @@
 //! First guess of the kinetic energy on a panel, by extrapolation of its profiles in the last turns.
 
+use std::collections::VecDeque;
+
 use crate::numeric::chebyshev::Values;
 
-/// Number of profiles kept.
+/// Number of profiles kept: one more than the degree of the polynomial through them.
 const PROFILES_KEPT: usize = 5;
-/// Largest sum of the magnitudes of the weights: larger weights amplify the errors of the profiles.
-const MOST_SHARES: f64 = 40.0;
 
-/// Kinetic energy profiles at the points of a panel in the last turns.
-#[derive(Clone)]
-pub(super) struct Predictor {
-    /// Ring buffer: the profile after the latest is the oldest.
-    profiles: Vec<Values>,
-    latest: usize,
-}
+/// Kinetic energy profiles at the points of a panel in the last turns, the latest first.
+pub(super) struct Predictor(VecDeque<Values>);
 
 impl Predictor {
     pub fn new() -> Predictor {
-        Predictor {
-            profiles: Vec::with_capacity(PROFILES_KEPT),
-            latest: 0,
-        }
+        Predictor(VecDeque::with_capacity(PROFILES_KEPT))
     }
 
     pub fn forget(&mut self) {
-        self.profiles.clear();
+        self.0.clear();
     }
 
     /// Stores the kinetic energy (J) at the points.
     pub fn remember(&mut self, kinetic: &Values) {
-        if self.profiles.len() < PROFILES_KEPT {
-            self.latest = self.profiles.len();
-            self.profiles.push(*kinetic);
-        } else {
-            self.latest = (self.latest + 1) % PROFILES_KEPT;
-            self.profiles[self.latest] = *kinetic;
-        }
+        self.0.truncate(PROFILES_KEPT - 1);
+        self.0.push_front(*kinetic);
     }
 
     /// Returns the latest profile.
     pub fn last(&self) -> Option<&Values> {
-        self.profiles.get(self.latest)
-    }
-
-    fn profile(&self, age: usize) -> &Values {
-        let count = self.profiles.len();
-        &self.profiles[(self.latest + count - age) % count]
+        self.0.front()
     }
 
     /// Computes the profile that starts with a kinetic energy (J), for turns that depend on this energy alone: the
     /// polynomial in it through the last `most` profiles, or through fewer if they are too close together. None without
     /// profiles.
     pub fn carry_on(&self, start: f64, most: usize, kinetic: &mut Values) -> Option<()> {
-        let most = self.profiles.len().min(most);
+        let most = self.0.len().min(most);
         let Some((count, shares)) = (2..=most)
             .rev()
             .find_map(|count| Some((count, self.shares(start, count)?)))
@@ -61,9 +43,9 @@ impl Predictor {
             *kinetic = last.map(|kinetic| kinetic + (start - last[0]));
             return Some(());
         };
-        *kinetic = self.profile(0).map(|kinetic| shares[0] * kinetic);
-        for (age, share) in shares.iter().enumerate().take(count).skip(1) {
-            for (sum, kinetic) in kinetic.iter_mut().zip(self.profile(age)) {
+        *kinetic = self.0[0].map(|kinetic| shares[0] * kinetic);
+        for (share, profile) in shares.iter().zip(&self.0).take(count).skip(1) {
+            for (sum, kinetic) in kinetic.iter_mut().zip(profile) {
                 *sum += share * kinetic;
             }
         }
@@ -77,8 +59,8 @@ impl Predictor {
         let variable = |kinetic: f64| if count > 2 { kinetic.sqrt() } else { kinetic };
         let here = variable(start);
         let mut at = [0.0; PROFILES_KEPT];
-        for (age, at) in at.iter_mut().enumerate().take(count) {
-            *at = variable(self.profile(age)[0]);
+        for (at, profile) in at.iter_mut().zip(&self.0).take(count) {
+            *at = variable(profile[0]);
         }
         let mut shares = [0.0; PROFILES_KEPT];
         let mut size = 0.0;
@@ -91,6 +73,8 @@ impl Predictor {
             shares[i] = above / below;
             size += shares[i].abs();
         }
-        (size <= MOST_SHARES).then_some(shares)
+        // Larger weights would amplify the errors of the profiles by more than this factor.
+        let most_amplified = 40.0;
+        (size <= most_amplified).then_some(shares)
     }
 }

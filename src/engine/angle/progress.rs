@@ -4,11 +4,10 @@ use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::errors::{Errors, uncertain};
 use super::panel::PanelTable;
-use super::solution::{PanelSolution, Spent};
+use super::solution::{NonConservativeForce, PanelSolution};
 use crate::numeric::exact::two_sum;
 
 /// Sums over the panels since the start of a run or of a turn.
-#[derive(Clone, Copy)]
 pub(super) struct Progress {
     /// Time, s: rounded value and remainder.
     pub t: (f64, f64),
@@ -29,7 +28,7 @@ pub(super) struct Progress {
     /// True if a panel was cut or its degree raised.
     pub refined: bool,
     /// True if the points of a panel missed a load.
-    pub hid: bool,
+    pub missed_load: bool,
 }
 
 impl Progress {
@@ -45,7 +44,7 @@ impl Progress {
             work: 0.0,
             fastest: kinetic,
             refined: false,
-            hid: false,
+            missed_load: false,
         }
     }
 
@@ -55,10 +54,10 @@ impl Progress {
         table: &PanelTable<P>,
         piece: Piece,
         solution: &PanelSolution,
-    ) -> Done {
+    ) -> SolvedPanel {
         let rule = table.rule;
-        let spent = solution.spent();
-        let work = spent.work(rule, piece.to - piece.from, 1.0);
+        let force = solution.non_conservative();
+        let work = force.work(rule, piece.to - piece.from, 1.0);
         // Under steep loads the end energy is not the sum of start and gain.
         let summed = solution.end == self.kinetic + solution.gain;
         (self.kinetic, self.kinetic_low) = if summed {
@@ -69,28 +68,30 @@ impl Progress {
         self.gain += solution.gain;
         self.fastest = self.fastest.max(self.kinetic);
         self.work += work;
-        let kept = (0.5 * work.min(0.0) / self.kinetic).exp();
+        let retained = (0.5 * work.min(0.0) / self.kinetic).exp();
         let count = rule.degree() + 1;
         let misplaced = [&table.table.force, &table.table.push]
             .map(|forces| uncertain(&piece, &forces[..count]));
         let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1]);
-        let (early, most) = solution.early(rule);
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;
-        let duration = panel.duration.0;
-        self.errors.pass(kept, noise, early, duration, most);
+        // The noise arises mainly where the energy is large.
+        let largest = solution.kinetic[0].max(solution.kinetic[rule.degree()]);
+        let advance_of_noise = 0.5 * panel.duration.0 / largest;
+        let advance = solution.advance(rule);
+        self.errors.pass(retained, noise, advance, advance_of_noise);
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
-        Done { panel, spent, work }
+        SolvedPanel { panel, force, work }
     }
 }
 
 /// Solved panel with the work done on it.
-pub(super) struct Done {
+pub(super) struct SolvedPanel {
     pub panel: Panel,
     /// Non-conservative force on the panel.
-    pub spent: Spent,
+    pub force: NonConservativeForce,
     /// Work of the non-conservative force on the panel, J.
     pub work: f64,
 }

@@ -5,14 +5,14 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
 /// Non-conservative force on a panel, or on its first part.
 #[derive(Clone, Copy)]
-pub(super) struct Spent {
+pub(super) struct NonConservativeForce {
     /// Force at the points of the whole panel, N m.
     pub values: Values,
     /// Length of the first part, as a fraction of the panel.
     share: f64,
 }
 
-impl Spent {
+impl NonConservativeForce {
     /// Returns the work, J, from the start of the part, of signed length `span` (rad), to x in [−1, 1] on it.
     pub fn work(&self, rule: &Rule, span: f64, x: f64) -> f64 {
         let half = 0.5 * span / self.share;
@@ -25,7 +25,6 @@ impl Spent {
 }
 
 /// Motion on a panel.
-#[derive(Clone)]
 pub(super) struct PanelSolution {
     /// Kinetic energy at the points, J.
     pub kinetic: Values,
@@ -61,17 +60,16 @@ impl PanelSolution {
     }
 
     /// Returns the non-conservative force.
-    pub fn spent(&self) -> Spent {
-        Spent {
-            values: self.forces.spent,
+    pub fn non_conservative(&self) -> NonConservativeForce {
+        NonConservativeForce {
+            values: self.forces.non_conservative,
             share: self.share,
         }
     }
 
-    /// Returns the integral of dt/2K over the panel, s/J, and the larger kinetic energy of the two ends, J.
-    pub fn early(&self, rule: &Rule) -> (f64, f64) {
-        let early: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
-        let most = self.kinetic[0].max(self.kinetic[rule.degree()]);
-        (rule.rounded_integral(&early), most)
+    /// Returns the advance of the end time per error of the kinetic energy at the start, ∫ dt/2K, s/J.
+    pub fn advance(&self, rule: &Rule) -> f64 {
+        let advance: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
+        rule.rounded_integral(&advance)
     }
 }

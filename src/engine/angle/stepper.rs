@@ -1,113 +1,119 @@
 //! Stepper over the angle: solves panel after panel and accumulates time, energy, work and errors.
 
+use std::cell::RefCell;
+
 use super::super::energy::NotApplicable;
-use super::super::energy::error_bound::off_by_place;
+use super::super::energy::error_bound::energy_error_of_angle;
 use super::super::energy::piece::Piece;
+use super::cycle_panels::{self, CyclePanels};
 use super::guide::Guide;
+use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable};
-use super::progress::{Done, Progress};
-use super::seen::hides;
+use super::progress::{Progress, SolvedPanel};
 use super::solution::PanelSolution;
-use super::sweep::{SETTLED, Tails, sweep};
-use super::switch::{Side, begins_beyond, side};
-use super::{Driven, Panels, Resolution, turn};
+use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
+use super::switch::{Switching, begins_beyond, switching};
+use super::{Dynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
-use crate::numeric::angle::Angle;
+use crate::engine::run_in_time::Start;
 use crate::numeric::enclosure::Interval;
 
 /// State of a run over the angle, with the panels of a cycle.
-#[derive(Clone)]
-pub(super) struct PanelStepper<'a, D: Driven> {
-    pub(super) driven: &'a D,
+pub(super) struct PanelStepper<'a, D: Dynamics> {
+    pub(super) dynamics: &'a D,
     pub(super) fine: Fineness,
-    direction: f64,
-    pub(super) panels: Vec<PanelTable<D::Place>>,
-    /// Parts of a panel that was too long in this turn, the next one last.
-    pub(super) parts: Vec<PanelTable<D::Place>>,
-    pub(super) next: usize,
+    pub(super) panels: CyclePanels<D::Place>,
+    /// Store that the panels are left to after the run; none for a comparison.
+    shared: Option<&'a RefCell<Panels<D::Place>>>,
     /// Motion on the last panel.
-    pub(super) solution: PanelSolution,
+    solution: PanelSolution,
     /// Known run that supplies the first guess.
-    pub(super) guide: Option<Guide<'a>>,
-    /// Start time of the run, s.
-    pub begin: f64,
+    guide: Option<Guide<'a>>,
+    /// Start of the run, with an angle reduced to less than a turn.
+    pub start: Start,
     /// Sums up to the next panel.
     pub progress: Progress,
     /// Evaluations of the loads.
     pub evaluations: u64,
     /// Positions tabulated before the run.
     positions: u64,
-    start: Angle,
-    /// True if the run is a comparison: it shares no panels with other runs.
-    other: bool,
     pub limit: WorkLimit<'a>,
     /// True if a crank that seems to stop is given up before its panels become tiny.
-    pub gives_up: bool,
+    pub(super) gives_up: bool,
 }
 
-impl<'a, D: Driven> PanelStepper<'a, D> {
+impl<'a, D: Dynamics> PanelStepper<'a, D> {
     pub fn new(
-        driven: &'a D,
-        start: Angle,
-        speed: f64,
+        dynamics: &'a D,
+        from: Start,
         resolution: Resolution<'a>,
     ) -> Result<PanelStepper<'a, D>, NotApplicable> {
+        let angle = from.angle.reduced();
         let fine = Fineness {
             tail: resolution.tail,
-            speed,
+            speed: from.speed,
         };
-        let positions = driven.positions();
-        let cuts: &[f64] = if resolution.other {
+        let positions = dynamics.positions();
+        let cuts: &[f64] = if resolution.cuts_unevenly {
             &[0.37, 1.0]
         } else {
             &[1.0]
         };
-        let shared = driven.shared().filter(|_| !resolution.other);
+        let shared = dynamics.shared().filter(|_| !resolution.cuts_unevenly);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
-            panels = turn::panels(driven, start, fine, cuts)?;
+            panels = cycle_panels::panels(dynamics, angle, fine, cuts)?;
         }
-        let kinetic = 0.5 * panels[0].table.inertia[0] * speed * speed;
+        let first = &panels[0];
+        let [here, next, ..] = first.table.inertia;
+        let kinetic = 0.5 * here * from.speed * from.speed;
         if !kinetic.is_finite() {
             return Err(NotApplicable::NotFinite);
         }
         if kinetic == 0.0 {
             return Err(NotApplicable::TooSlow);
         }
-        let first = &panels[0];
-        let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
-        let [here, next, ..] = first.table.inertia;
-        let off = off_by_place(start.rest, kinetic, [here, next], beside);
+        let off = if from.t == 0.0 && angle.turns == 0.0 {
+            // An angle as given, not reduced, is not rounded.
+            0.0
+        } else {
+            let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
+            energy_error_of_angle(angle.rest, kinetic, [here, next], beside)
+        };
         Ok(PanelStepper {
-            driven,
+            dynamics,
             fine,
-            direction: speed.signum(),
-            panels,
-            parts: Vec::new(),
-            next: 0,
+            panels: CyclePanels::new(panels),
+            shared,
             solution: PanelSolution::new(),
             guide: resolution.guide,
-            begin: 0.0,
+            start: Start { angle, ..from },
             progress: Progress::at(kinetic, off),
             evaluations: 0,
             positions,
-            start,
-            other: resolution.other,
             limit: resolution.limit,
-            gives_up: false,
+            gives_up: true,
         })
+    }
+
+    /// Restarts at the start of a cycle with another kinetic energy, J.
+    pub fn restart(&mut self, kinetic: f64, gives_up: bool) {
+        self.panels.restart();
+        self.guide = None;
+        self.progress = Progress::at(kinetic, 0.0);
+        self.gives_up = gives_up;
     }
 
     /// Leaves the panels to the next run, if they are shared.
     pub fn leave_panels(&mut self) {
-        if let Some(shared) = self.driven.shared().filter(|_| !self.other) {
-            shared.replace(Panels(std::mem::take(&mut self.panels)));
+        if let Some(shared) = self.shared {
+            shared.replace(Panels(std::mem::take(&mut self.panels.panels)));
         }
     }
 
     /// Returns the number of load evaluations and tabulated positions.
-    pub fn spent(&self) -> u64 {
-        self.evaluations + self.driven.positions() - self.positions
+    pub fn cost(&self) -> u64 {
+        self.evaluations + self.dynamics.positions() - self.positions
     }
 
     /// Returns the range of the speed at the points of the last panel, rad/s.
@@ -116,116 +122,112 @@ impl<'a, D: Driven> PanelStepper<'a, D> {
         self.solution.forces.speed_range(count)
     }
 
-    /// True if the next panel begins a cycle.
-    pub fn at_cycle(&self) -> bool {
-        self.next == 0 && self.parts.is_empty()
-    }
-
     /// Solves the next panel, after cuts and changes of side where needed.
-    pub fn panel(&mut self) -> Result<Done, NotApplicable> {
+    pub fn panel(&mut self) -> Result<SolvedPanel, NotApplicable> {
         let mut turned_over = 0;
         loop {
-            if self.limit.is_reached(self.spent()) {
+            if self.limit.is_reached(self.cost()) {
                 return Err(NotApplicable::WorkLimit);
             }
             let start = PanelStart {
-                t: self.begin + self.progress.t.0,
+                t: self.start.t + self.progress.t.0,
                 kinetic: self.progress.kinetic,
-                turns: self.start.turns + self.progress.turns,
-                direction: self.direction,
+                turns: self.start.angle.turns + self.progress.turns,
+                direction: self.start.speed.signum(),
             };
-            let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
-            if turned_over == 0 && panel.is_new() && begins_beyond(self.driven, panel, start) {
-                panel.turn_over(self.driven)?;
+            let panel = self.panels.next_mut();
+            if turned_over == 0 && panel.is_new() && begins_beyond(self.dynamics, panel, start) {
+                panel.turn_over(self.dynamics)?;
             }
-            let tails = self.guess(start);
-            let panel = self.parts.last_mut().unwrap_or(&mut self.panels[self.next]);
-            let solution = &mut self.solution;
-            if let Err(why) = sweep(self.driven, panel, start, tails, solution) {
-                self.evaluations += self.solution.evaluations;
-                self.refine(why)?;
+            if !self.solve(start)? {
                 continue;
             }
-            let hidden = hides(self.driven, panel, start, self.fine, solution);
-            let parts = hidden.map(|at| panel.parts(self.driven, at, self.fine));
-            if let Some([first, second]) = parts.transpose()?.flatten() {
-                self.evaluations += self.solution.evaluations;
-                self.progress.hid = true;
-                self.parts.pop();
-                self.parts.extend([second, first]);
-                continue;
-            }
-            match side(self.driven, panel, start, solution) {
-                Side::Stays => {
-                    panel.remember(&solution.kinetic);
-                    let piece = panel.piece;
-                    self.remember_rest();
-                    return Ok(self.pass(piece, None));
+            let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
+            let piece = panel.piece;
+            match switching(self.dynamics, panel, start, solution) {
+                Switching::AtStart if turned_over < 2 => {
+                    turned_over += 1;
+                    panel.turn_over(self.dynamics)?;
+                    self.evaluations += self.solution.evaluations;
                 }
                 // Still on the other side after two changes: the switch has no sign.
-                Side::Other if turned_over == 2 => {
-                    let piece = panel.piece;
+                Switching::AtStart => return Ok(self.pass(piece, None)),
+                Switching::Never => {
+                    panel.past.remember(&solution.kinetic);
+                    self.panels.remember_rest();
                     return Ok(self.pass(piece, None));
                 }
-                Side::Other => {
-                    turned_over += 1;
-                    panel.turn_over(self.driven)?;
-                }
-                Side::Leaves(share) => {
-                    panel.remember(&solution.kinetic);
-                    let [first, rest] = panel.piece.cut(share);
+                Switching::At(share) => {
+                    panel.past.remember(&solution.kinetic);
                     solution.end_at(panel.rule, start, share);
-                    let rest = self.rest(rest.from)?;
-                    self.remember_rest();
+                    let [first, rest] = piece.cut(share);
+                    let rest = self.panels.rest(self.dynamics, rest.from, self.fine)?;
+                    self.panels.remember_rest();
                     return Ok(self.pass(first, Some(rest)));
                 }
             }
-            self.evaluations += self.solution.evaluations;
         }
+    }
+
+    /// Solves the next panel as it stands; false, with the panel refined, if it is not solved or misses a load.
+    fn solve(&mut self, start: PanelStart) -> Result<bool, NotApplicable> {
+        let tails = self.guess(start);
+        let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
+        if let Err(why) = sweep(self.dynamics, panel, start, tails, solution) {
+            self.evaluations += self.solution.evaluations;
+            self.refine(why)?;
+            return Ok(false);
+        }
+        let end = unresolved_at(self.dynamics, panel, start, self.fine, solution);
+        let parts = end.map(|share| panel.parts(self.dynamics, share, self.fine));
+        let Some(parts) = parts.transpose()?.flatten() else {
+            return Ok(true);
+        };
+        self.evaluations += self.solution.evaluations;
+        self.progress.missed_load = true;
+        self.panels.cut_in_turn(parts);
+        Ok(false)
     }
 
     /// Sets the kinetic energy at the points of the next panel to a guess: that of the guide, whose error the sweeps
     /// are to show, or one from the last turns. The guide is not used for panels with a switch: after a switching they
     /// are solved as if there was none, which the guide does not know.
     fn guess(&mut self, start: PanelStart) -> Tails {
-        let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
+        let (panel, dynamics) = (self.panels.next(), self.dynamics);
         let series = self.fine.tail;
-        let needs_none = panel.is_in_closed_form(self.driven).then_some(series);
-        let smooth = panel.table.switch.is_none();
-        let guide = self.guide.as_mut().filter(|_| smooth);
-        let of_guide = |guide: &mut Guide<'_>| {
-            self.solution.kinetic = guide.kinetic(panel, self.progress.turns, start.kinetic)?;
-            Some(SETTLED * guide.tail)
+        let mut tails = Tails {
+            series,
+            sweeps: series,
         };
-        let known = needs_none.or_else(|| guide.and_then(of_guide));
-        if known.is_none() {
-            let reads_time = self.driven.is_driven() && self.driven.reads_time();
+        if panel.is_in_closed_form(dynamics) {
+            return tails;
+        }
+        let guide = self.guide.as_mut();
+        let of_guide = guide
+            .filter(|_| panel.table.switch.is_none())
+            .and_then(|guide| {
+                let kinetic = guide.kinetic(panel, self.progress.turns, start.kinetic)?;
+                Some((kinetic, guide.tail))
+            });
+        if let Some((kinetic, tail)) = of_guide {
+            self.solution.kinetic = kinetic;
+            tails.sweeps = SWEEP_ERROR_SHARE * tail;
+        } else {
+            let reads_time = dynamics.reads_time();
             panel.guess(start.kinetic, reads_time, &mut self.solution.kinetic);
         }
-        Tails {
-            series,
-            sweeps: known.unwrap_or(series),
-        }
+        tails
     }
 
     /// Moves on over a piece of the next panel; `rest` is the remainder of the panel in this turn.
-    fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> Done {
-        let panel = self.parts.last().unwrap_or(&self.panels[self.next]);
-        let done = self.progress.pass(panel, piece, &self.solution);
+    fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> SolvedPanel {
+        let solved = self
+            .progress
+            .pass(self.panels.next(), piece, &self.solution);
         self.evaluations += self.solution.evaluations;
-        self.parts.pop();
-        self.parts.extend(rest);
-        if self.parts.is_empty() {
-            let turns = self.panels[self.next].turns;
-            self.next += 1;
-            let next = self.panels.get(self.next);
-            if next.is_none_or(|next| next.turns != turns) {
-                self.progress.turns += self.direction;
-            }
-            if next.is_none() {
-                self.next = 0;
-            }
+        if self.panels.advance(rest) {
+            self.progress.turns += self.start.speed.signum();
         }
-        done
+        solved
     }
 }

@@ -1,22 +1,14 @@
 //! Collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at its points, by Picard iteration and Newton's method.
 
-use super::Driven;
+use super::Dynamics;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
-/// Most sweeps over a panel.
-const MOST_SWEEPS: u32 = 40;
-/// Error that the sweeps may leave, relative to the tail: it adds up over the turns.
-pub(super) const SETTLED: f64 = 1e-3;
-/// Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
-const ROUNDED: f64 = 2.0 * f64::EPSILON;
-/// Least convergence factor that a sweep is assumed to have.
-const LEAST_FACTOR: f64 = 1e-3;
-/// Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
-const REMAINDER: f64 = 0.25;
+/// Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns.
+pub(super) const SWEEP_ERROR_SHARE: f64 = 1e-3;
 
 /// Reason why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,35 +29,42 @@ pub(super) struct Tails {
 }
 
 /// Solves a panel from the guess of the kinetic energy at its points in `solution`.
-pub(super) fn sweep<D: Driven>(
-    driven: &D,
+pub(super) fn sweep<D: Dynamics>(
+    dynamics: &D,
     panel: &mut PanelTable<D::Place>,
     start: PanelStart,
     tails: Tails,
     solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
-    // Evaluations of driven loads cost more than the sweeps that they spare.
-    let is_driven = driven.is_driven();
-    let settled = if is_driven {
-        SETTLED
-    } else {
-        // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
-        10.0 * SETTLED
-    };
     solution.evaluations = 0;
     solution.share = 1.0;
-    if panel.is_in_closed_form(driven) {
-        return solution.take_undamped(driven, panel, start, tails);
+    if panel.is_in_closed_form(dynamics) {
+        return solution.take_undamped(dynamics, panel, start, tails);
     }
+    // Evaluations of state loads cost more than the sweeps that they spare.
+    let has_state_loads = dynamics.has_state_loads();
+    let error_share = if has_state_loads {
+        SWEEP_ERROR_SHARE
+    } else {
+        // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
+        10.0 * SWEEP_ERROR_SHARE
+    };
+    // Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
+    let energy_rounding = 2.0 * f64::EPSILON;
+    let largest_error = (error_share * tails.sweeps).max(energy_rounding);
+    // Convergence factor that a sweep is assumed to have at least, however much the last one gained.
+    let least_factor = 1e-3;
+    // Sweeps that gain the factor SLOW_FACTOR each reach rounding after 30.
+    let most_sweeps = 40;
     let mut newton = false;
     let linear = panel.varies_with_speed();
     let mut before = f64::INFINITY;
-    for _ in 0..MOST_SWEEPS {
-        solution.evaluate(driven, panel, start)?;
+    for _ in 0..most_sweeps {
+        solution.evaluate(dynamics, panel, start)?;
         let mut change = solution.change(panel, start);
         newton = newton || linear && !solution.linearise(panel, &mut change);
         if newton {
-            let rates = solution.forces.rates(driven, panel, start);
+            let rates = solution.forces.rates(dynamics, panel, start);
             correction(panel.rule, panel.half(), &rates, &mut change).ok_or(Unsolved::TooLong)?;
             keep_positive(&solution.kinetic, &mut change);
         }
@@ -76,33 +75,34 @@ pub(super) fn sweep<D: Driven>(
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
         // the forces depend on the square root of the kinetic energy or on the energy itself.
-        let factor = if linear && !newton && !is_driven {
-            largest
-        } else if before.is_finite() {
-            (largest / before).max(LEAST_FACTOR)
-        } else {
-            panel.factor
+        let measured = before
+            .is_finite()
+            .then(|| (largest / before).max(least_factor));
+        let factor = match measured {
+            _ if linear && !newton && !has_state_loads => largest,
+            Some(measured) => measured,
+            None => panel.factor,
         };
         let gains = before.is_finite() && largest < SLOW_FACTOR * before;
         let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
-                solution.evaluate(driven, panel, start)?;
+                solution.evaluate(dynamics, panel, start)?;
                 return solution.finish(panel, start, tails.series);
             }
-        } else if largest * factor <= (settled * tails.sweeps).max(ROUNDED) || at_rounding {
-            if is_driven {
+        } else if largest * factor <= largest_error || at_rounding {
+            if has_state_loads {
                 solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
-                solution.evaluate(driven, panel, start)?;
+                solution.evaluate(dynamics, panel, start)?;
             }
             solution.finish(panel, start, tails.series)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             solution.end = start.kinetic + solution.gain;
             return Ok(());
-        } else if before.is_finite() {
-            panel.factor = (largest / before).max(LEAST_FACTOR);
-            newton = panel.factor > SLOW_FACTOR;
+        } else if let Some(measured) = measured {
+            panel.factor = measured;
+            newton = measured > SLOW_FACTOR;
         }
         before = largest;
     }
@@ -129,21 +129,21 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 
 impl PanelSolution {
     /// Evaluates the forces at the present kinetic energy.
-    fn evaluate<D: Driven>(
+    fn evaluate<D: Dynamics>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
     ) -> Result<(), Unsolved> {
         self.evaluations += panel.rule.degree() as u64 + 1;
-        let known = self.forces.evaluate(driven, panel, start, &self.kinetic);
+        let known = self.forces.evaluate(dynamics, panel, start, &self.kinetic);
         known.ok_or(Unsolved::TooLong)
     }
 
     /// Computes the motion in closed form.
-    fn take_undamped<D: Driven>(
+    fn take_undamped<D: Dynamics>(
         &mut self,
-        driven: &D,
+        dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
         tails: Tails,
@@ -153,7 +153,7 @@ impl PanelSolution {
         if points.iter().any(|kinetic| *kinetic <= 0.0) {
             return Err(Unsolved::Stops);
         }
-        self.evaluate(driven, panel, start)?;
+        self.evaluate(dynamics, panel, start)?;
         self.finish(panel, start, tails.series)
     }
 
@@ -200,7 +200,9 @@ impl PanelSolution {
         known.ok_or(Unsolved::TooLong)?;
         self.slope = rule.series(&self.slopes);
         let noise = noise_of_angle(panel);
-        let wanted = (REMAINDER * tail).max(tail.min(SUM_ROUNDING));
+        // Ratio of the last terms of a slowly decaying series of speeds to its truncation error.
+        let terms_per_error = 0.25;
+        let wanted = (terms_per_error * tail).max(tail.min(SUM_ROUNDING));
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }

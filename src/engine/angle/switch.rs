@@ -2,53 +2,53 @@
 
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::solution::PanelSolution;
-use super::{Driven, Switch};
+use super::{Dynamics, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::maximum;
 use crate::numeric::root;
 
-/// Behaviour of the switch on a panel.
+/// Change of the motion on a panel to the other side of the switch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Side {
+pub(super) enum Switching {
     /// Motion on the side of the panel throughout.
-    Stays,
+    Never,
     /// Motion on the other side from the start.
-    Other,
+    AtStart,
     /// Motion that changes to the other side at this fraction of the panel.
-    Leaves(f64),
+    At(f64),
 }
 
-/// Determines the side of the motion on a panel that was solved for one side.
-pub(super) fn side<D: Driven>(
-    driven: &D,
+/// Determines the switching of the motion on a panel that was solved for one side.
+pub(super) fn switching<D: Dynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     solution: &PanelSolution,
-) -> Side {
+) -> Switching {
     let Some(switch) = &panel.table.switch else {
-        return Side::Stays;
+        return Switching::Never;
     };
-    let (values, noise) = values(driven, switch, panel, start, solution);
+    let (values, noise) = values(dynamics, switch, panel, start, solution);
     let Some(x) = first_below(panel, &values, noise) else {
-        return Side::Stays;
+        return Switching::Never;
     };
     let length = 2.0 * panel.half().abs();
     let share = 0.5 * (x + 1.0);
     if share * length < SHORTEST_PANEL {
-        Side::Other
+        Switching::AtStart
     } else if (1.0 - share) * length < SHORTEST_PANEL {
-        Side::Stays
+        Switching::Never
     } else {
-        Side::Leaves(share)
+        Switching::At(share)
     }
 }
 
 /// True if the motion starts on the other side of the switch, judged at the start alone: under a steep loss the wrong
 /// side produces a transient, which is harder to resolve than the motion.
-pub(super) fn begins_beyond<D: Driven>(
-    driven: &D,
+pub(super) fn begins_beyond<D: Dynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
 ) -> bool {
@@ -56,18 +56,28 @@ pub(super) fn begins_beyond<D: Driven>(
         return false;
     };
     let speed = start.direction * (start.kinetic * panel.mobility[0]).sqrt();
-    let others = if driven.is_driven() {
-        driven.drive_switch(&panel.state(start.turns, 0, start.t, speed))
+    let (value, size) = value(dynamics, switch, panel, start, (0, start.t, speed));
+    value < -SHORTEST_PANEL * size
+}
+
+/// Returns the switch at point `j` at a time (s) and a speed (rad/s), positive on the side of the panel, and the
+/// largest magnitude of its parts.
+fn value<D: Dynamics>(
+    dynamics: &D,
+    switch: &Switch,
+    panel: &PanelTable<D::Place>,
+    start: PanelStart,
+    (j, t, speed): (usize, f64, f64),
+) -> (f64, f64) {
+    let of_state_loads = if dynamics.has_state_loads() {
+        dynamics.switch_of_state_loads(&panel.state(start.turns, j, t, speed))
     } else {
         0.0
     };
-    let parts = [
-        switch.place[0],
-        switch.rate[0] * speed,
-        switch.square[0] * speed * speed,
-        others,
-    ];
-    panel.side * parts.iter().sum::<f64>() < -SHORTEST_PANEL * largest(&parts)
+    let (rate, square) = (switch.rate[j] * speed, switch.square[j] * speed * speed);
+    let parts = [switch.place[j], rate, square, of_state_loads];
+    let value = panel.side * (switch.place[j] + rate + square + of_state_loads);
+    (value, largest(&parts))
 }
 
 impl PanelSolution {
@@ -85,41 +95,27 @@ impl PanelSolution {
 }
 
 /// Returns the switch at the points, positive on the side of the panel, and its rounding error.
-fn values<D: Driven>(
-    driven: &D,
+fn values<D: Dynamics>(
+    dynamics: &D,
     switch: &Switch,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     solution: &PanelSolution,
 ) -> (Values, f64) {
-    let count = panel.rule.degree() + 1;
-    let speeds = solution.forces.speeds();
-    let mut parts = [[0.0; MAX_DEGREE + 1]; 4];
-    let [place, rate, square, others] = &mut parts;
-    for j in 0..count {
-        let speed = speeds[j];
-        place[j] = switch.place[j];
-        rate[j] = switch.rate[j] * speed;
-        square[j] = switch.square[j] * speed * speed;
-    }
-    if driven.is_driven() {
-        let times = if driven.reads_time() {
-            panel.rule.integrals(&solution.slopes)
-        } else {
-            [0.0; MAX_DEGREE + 1]
-        };
-        for j in 0..count {
-            let at = [start.t + times[j], speeds[j]];
-            others[j] = driven.drive_switch(&panel.state(start.turns, j, at[0], at[1]));
-        }
-    }
-    let size = parts.each_ref().map(|part| largest(part));
+    let times = if dynamics.reads_time() {
+        panel.rule.integrals(&solution.slopes)
+    } else {
+        [0.0; MAX_DEGREE + 1]
+    };
     let mut values = [0.0; MAX_DEGREE + 1];
-    let [place, rate, square, others] = &parts;
-    for j in 0..count {
-        values[j] = panel.side * (place[j] + rate[j] + square[j] + others[j]);
+    let mut size = 0.0f64;
+    for j in 0..=panel.rule.degree() {
+        let (t, speed) = (start.t + times[j], solution.forces.speeds[j]);
+        let largest_part;
+        (values[j], largest_part) = value(dynamics, switch, panel, start, (j, t, speed));
+        size = size.max(largest_part);
     }
-    (values, SUM_ROUNDING * largest(&size))
+    (values, SUM_ROUNDING * size)
 }
 
 /// Returns the first x at which the values fall below zero, by more than `noise`; −1 if they start there.

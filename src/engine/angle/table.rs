@@ -13,14 +13,14 @@ pub struct Table<P> {
     pub push: Values,
     /// Damping coefficient, N m s/rad: the force −damping·ω.
     pub damping: Values,
-    /// Data for [`super::Driven::drive`]; empty if there are no driven loads.
+    /// Data for [`super::Dynamics::state_loads`]; empty if there are no state loads.
     pub places: Vec<P>,
     /// Switch between two forms of the forces, if there are two.
     pub switch: Option<Box<Switch>>,
 }
 
-/// Switch between two forms of the forces, one on each side of its zero: place + rate·ω + square·ω² + driven part. The
-/// forces are continuous at the zero.
+/// Switch between two forms of the forces, one on each side of its zero: place + rate·ω + square·ω² + the part of the
+/// state loads. The forces are continuous at the zero.
 #[derive(Clone, Debug)]
 pub struct Switch {
     /// Force of this side per square of the speed, N m s²/rad².

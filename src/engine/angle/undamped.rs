@@ -1,6 +1,6 @@
-//! Motion on a panel without damping and driven loads in closed form: K' = b K + F with the integrating factor exp ∫ b.
+//! Motion on a panel without damping and state loads in closed form: K' = b K + F with the integrating factor exp ∫ b.
 
-use super::Driven;
+use super::Dynamics;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 
@@ -29,12 +29,12 @@ impl<P: Copy> PanelTable<P> {
         }
     }
 
-    /// True if the panel has neither damping nor driven loads: its motion is known in closed form.
-    pub fn is_in_closed_form<D: Driven>(&self, driven: &D) -> bool {
-        !self.damped && !driven.is_driven()
+    /// True if the panel has neither damping nor state loads: its motion is known in closed form.
+    pub fn is_in_closed_form(&self, dynamics: &impl Dynamics) -> bool {
+        !self.damped && !dynamics.has_state_loads()
     }
 
-    /// Returns the kinetic energy at the points, J, without damping and driven loads, from that at the start, J.
+    /// Returns the kinetic energy at the points, J, without damping and state loads, from that at the start, J.
     pub fn undamped(&self, start: f64) -> Values {
         let mut kinetic = self.work.map(|work| start + work);
         if let Some(growth) = &self.growth {

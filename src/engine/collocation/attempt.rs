@@ -26,9 +26,14 @@ pub enum Failed {
     Meets { at: f64, factor: f64 },
 }
 
+impl Failed {
+    /// Rejection of a step with an acceleration that is not finite.
+    pub const NOT_FINITE: Failed = Failed::TooLong(0.25);
+}
+
 /// Requested step.
 #[derive(Clone, Copy, Debug)]
-pub struct Try {
+pub struct Attempt {
     /// Length, s.
     pub h: f64,
     /// Whether the step begins and ends at a corner, where the acceleration may jump.
@@ -57,29 +62,7 @@ impl Collocation<'_> {
         };
         self.update(state, h);
     }
-}
 
-/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
-/// without its own polynomial, which is less accurate inside than at its ends.
-fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
-    let past = guide.partition_point(|step| step.end.t < t[0]);
-    let mut steps = guide[past..].iter();
-    let mut step = steps.next()?;
-    let mut alpha = [0.0; NODES];
-    for (alpha, t) in alpha.iter_mut().zip(t) {
-        while step.end.t < *t {
-            step = steps.next()?;
-        }
-        let knows = step.start.t <= *t && step.has_polynomial();
-        *alpha = knows.then(|| step.acceleration_at(*t))?;
-    }
-    Some(alpha)
-}
-
-/// Time shift of the difference quotient of the acceleration, as a fraction of the step.
-const TIME_APART: f64 = 1e-3;
-
-impl Collocation<'_> {
     /// Scales an error of angle (rad) and speed (rad/s) by the tolerance.
     pub(super) fn in_units(&self, state: &State, angle: f64, speed: f64) -> f64 {
         let angle = angle / (1.0 + state.theta.abs());
@@ -101,7 +84,8 @@ impl Collocation<'_> {
     /// Rejects a step as too long, and estimates the rounding error due to its times: no shorter step reduces it.
     pub(super) fn too_long(&mut self, h: f64, factor: f64) -> Failed {
         if self.motion.depends_on_time() {
-            let apart = TIME_APART * h;
+            // Time shift of the difference quotient of the acceleration: a small fraction of the step.
+            let apart = 1e-3 * h;
             let mut later = self.batch;
             later.t = later.t.map(|t| t + apart);
             later.of_time = later.t.map(|t| self.motion.of_time(t));
@@ -131,4 +115,21 @@ impl Collocation<'_> {
         let n = 2.0 * NODES as f64;
         self.in_units(state, h * h * term / (n * n), h * term / n)
     }
+}
+
+/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
+/// without its own polynomial, which is less accurate inside than at its ends.
+fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
+    let past = guide.partition_point(|step| step.end.t < t[0]);
+    let mut steps = guide[past..].iter();
+    let mut step = steps.next()?;
+    let mut alpha = [0.0; NODES];
+    for (alpha, t) in alpha.iter_mut().zip(t) {
+        while step.end.t < *t {
+            step = steps.next()?;
+        }
+        let knows = step.start.t <= *t && step.has_polynomial();
+        *alpha = knows.then(|| step.acceleration_at(*t))?;
+    }
+    Some(alpha)
 }

@@ -16,14 +16,10 @@ use std::f64::consts::TAU;
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use attempt::{Accepted, Failed, Try};
+use attempt::{Accepted, Attempt, Failed};
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
-
-/// Bounds of the ratio of a step to the one before.
-const LEAST_FACTOR: f64 = 0.1;
-const GREATEST_FACTOR: f64 = 4.0;
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step and the number of steps.
@@ -44,6 +40,8 @@ pub fn run(
     let mut wanted = first_length(&node, settings.way);
     let (mut steps, mut at_corner) = (0, false);
     let mut hidden = f64::INFINITY;
+    // Bounds of the ratio of a step to the one before, and of its ratio to one that was too long.
+    let (least_factor, greatest_factor, greatest_retry) = (0.1, 4.0, 0.9);
     while state.t < settings.t_end {
         if hidden <= state.t {
             hidden = f64::INFINITY;
@@ -64,7 +62,7 @@ pub fn run(
         let is_last = state.t + h >= until;
         // The end of the run is no corner: the acceleration there must be that of the step.
         let ends_at_corner = is_last && corner <= settings.t_end;
-        let attempt = Try {
+        let attempt = Attempt {
             h,
             corners: [at_corner, ends_at_corner],
         };
@@ -73,20 +71,19 @@ pub fn run(
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);
             }
-            Err(Failed::TooLong(factor)) => wanted = h * factor.clamp(LEAST_FACTOR, 0.9),
+            Err(Failed::TooLong(factor)) => {
+                wanted = h * factor.clamp(least_factor, greatest_retry);
+            }
             Err(Failed::Hides(at)) => hidden = state.t + at * h,
             Err(Failed::Meets { at, factor }) => {
                 hidden = state.t + at * h;
-                wanted = h * factor.clamp(LEAST_FACTOR, 0.9);
+                wanted = h * factor.clamp(least_factor, greatest_retry);
             }
             Ok(Accepted { step, next, factor }) => {
-                let whole = length >= way;
                 // A step cut short by a corner says little about the length of the next.
-                wanted = if whole || factor < 1.0 {
-                    length * factor.clamp(LEAST_FACTOR, GREATEST_FACTOR)
-                } else {
-                    wanted
-                };
+                if length >= way || factor < 1.0 {
+                    wanted = length * factor.clamp(least_factor, greatest_factor);
+                }
                 state = next;
                 last = step;
                 if is_last {
@@ -98,14 +95,8 @@ pub fn run(
                 }
                 at_corner = ends_at_corner;
                 steps += 1;
-                if sink(&last) {
-                    let at_end = state.t >= settings.t_end;
-                    let finish = if at_end {
-                        Finish::AtEnd
-                    } else {
-                        Finish::Stopped
-                    };
-                    return (finish, last, steps);
+                if sink(&last) && state.t < settings.t_end {
+                    return (Finish::Stopped, last, steps);
                 }
             }
         }

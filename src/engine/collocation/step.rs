@@ -1,25 +1,14 @@
 //! One collocation step: sweeps to convergence, then error estimate and next length.
 
-use super::super::sight::{Hidden, NodeCriterion, OnStep, hidden};
+use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
-use super::attempt::{Accepted, Failed, Try};
+use super::attempt::{Accepted, Attempt, Failed};
 use super::newton::Newton;
 use super::state::State;
 use super::tableau::Tableau;
 use crate::numeric::gauss::legendre_series;
-
-/// Most sweeps per step; a step that needs more is too long.
-const SWEEPS: usize = 14;
-/// Sweeps of a step of suitable length.
-const FEW_SWEEPS: usize = 9;
-/// Fraction of the tolerance that unconverged sweeps may leave.
-const LEFT_BY_SWEEPS: f64 = 1e-2;
-/// Fraction of a step beyond which a corner is too near its end to shorten a failed step to the corner.
-const WELL_INSIDE: f64 = 0.9;
-/// Relative rounding error of a state.
-const STATE_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Collocation method with the data that a step hands to the next.
 pub struct Collocation<'a> {
@@ -28,7 +17,7 @@ pub struct Collocation<'a> {
     pub(super) tolerance: f64,
     /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
-    has_detail: bool,
+    varies_between_nodes: bool,
     has_power: bool,
     pub(super) batch: Batch,
     /// Length (s) and Legendre coefficients of the acceleration (rad/s²) of the last step.
@@ -48,7 +37,7 @@ impl<'a> Collocation<'a> {
             tableau: Tableau::get(),
             tolerance: settings.tolerance,
             guide: settings.guide,
-            has_detail: motion.has_detail(),
+            varies_between_nodes: motion.varies_between_nodes(),
             has_power: motion.has_power(),
             batch: Batch::default(),
             last: None,
@@ -65,13 +54,15 @@ impl<'a> Collocation<'a> {
     }
 
     /// Tries a step from a state; a step that is too long because of a corner is to end there.
-    pub fn attempt(&mut self, state: &State, step: Try) -> Result<Accepted, Failed> {
+    pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Failed> {
         let result = self.attempt_whole(state, step);
         match result {
-            Err(Failed::TooLong(factor)) if self.has_detail => match self.corner(state, step.h) {
-                Some(at) => Err(Failed::Meets { at, factor }),
-                None => result,
-            },
+            Err(Failed::TooLong(factor)) if self.varies_between_nodes => {
+                match self.corner(state, step.h) {
+                    Some(at) => Err(Failed::Meets { at, factor }),
+                    None => result,
+                }
+            }
             _ => result,
         }
     }
@@ -84,15 +75,62 @@ impl<'a> Collocation<'a> {
         }
         let (step, ..) = self.finish(state, h, &coefficients);
         let found = self.hides(state, &step, &coefficients)?;
-        (found.is_corner && found.at < WELL_INSIDE).then_some(found.at)
+        // Nearer to the end, a corner is not the reason why the step is too long.
+        let last_position = 0.9;
+        (found.is_corner && found.at < last_position).then_some(found.at)
     }
 
     /// Tries a step from a state without a search for corners.
     fn attempt_whole(
         &mut self,
         state: &State,
-        Try { h, corners }: Try,
+        Attempt { h, corners }: Attempt,
     ) -> Result<Accepted, Failed> {
+        let (sweeps, newton) = self.converge(state, h)?;
+        let coefficients = self.coefficients();
+        let (step, next, alpha) = self.finish(state, h, &coefficients);
+        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
+        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
+        let mut error = self.error(state, h, &coefficients);
+        for (jump, at_corner) in jumps.into_iter().zip(corners) {
+            if !jump.is_finite() {
+                return Err(Failed::NOT_FINITE);
+            } else if !at_corner {
+                error = error.max(self.error_of(state, h, jump, &coefficients));
+            }
+        }
+        // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
+        let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
+        if error > 1.0 {
+            return Err(self.too_long(h, factor));
+        }
+        // Sweeps of a step of suitable length.
+        let few_sweeps = 9;
+        if sweeps > few_sweeps {
+            factor = factor.min(0.9);
+        } else if sweeps == few_sweeps {
+            factor = factor.min(1.0);
+        }
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Failed::Hides(hidden.at));
+        }
+        self.last = Some((h, coefficients));
+        self.alpha = alpha;
+        self.steep = newton.is_some();
+        let next = match newton {
+            Some(newton) if !corners[1] => self.with_loss(next, &step, newton.loss),
+            _ => next,
+        };
+        Ok(Accepted { step, next, factor })
+    }
+
+    /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone fail. Returns the
+    /// number of sweeps and the factors of Newton's method, if it was used.
+    fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Failed> {
+        // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
+        let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
+        // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
+        let (fast, slow, most_sweeps) = (0.3, 0.7, 14);
         self.prepare(state, h);
         let mut before = f64::INFINITY;
         let mut sweeps = 0;
@@ -102,7 +140,7 @@ impl<'a> Collocation<'a> {
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
-                return Err(Failed::TooLong(0.25));
+                return Err(Failed::NOT_FINITE);
             }
             if self.steep && newton.is_none() {
                 newton = Newton::new(self.motion, &self.batch, self.tableau, h);
@@ -114,20 +152,19 @@ impl<'a> Collocation<'a> {
             let rate = change / before;
             // Change that the next sweep would make.
             let left = change * rate.min(1.0);
-            if sweeps > 1 && left <= LEFT_BY_SWEEPS && change < 1.0 {
-                break;
+            // The next sweep would change little, or this one changed no more than the rounding.
+            if sweeps > 1 && left <= sweep_error && change < 1.0
+                || change <= state_rounding / self.tolerance
+            {
+                return Ok((sweeps, newton));
             }
-            // Smaller changes are rounding.
-            if change <= STATE_ROUNDING / self.tolerance {
-                break;
-            }
-            if sweeps > 2 && rate > 0.3 {
+            if sweeps > 2 && rate > fast {
                 let noise = self.rounding(state, h, &self.coefficients());
                 if change <= self.in_units(state, h * h * noise, h * noise) {
-                    break;
+                    return Ok((sweeps, newton));
                 }
             }
-            if sweeps == SWEEPS || (sweeps > 2 && rate > 0.7) {
+            if sweeps == most_sweeps || (sweeps > 2 && rate > slow) {
                 if self.steep {
                     // A steep slope due to a jump does not persist beyond it.
                     self.steep = false;
@@ -140,54 +177,21 @@ impl<'a> Collocation<'a> {
             }
             if sweeps == 2 {
                 let error = self.error(state, h, &self.coefficients());
+                // Beyond hope, in units of the tolerance.
                 if error > 1e3 {
                     return Err(Failed::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
                 }
             }
             before = change;
         }
-        let coefficients = self.coefficients();
-        let (step, next, alpha) = self.finish(state, h, &coefficients);
-        // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
-        let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
-        let mut error = self.error(state, h, &coefficients);
-        for (jump, at_corner) in jumps.into_iter().zip(corners) {
-            if !jump.is_finite() {
-                return Err(Failed::TooLong(0.25));
-            } else if !at_corner {
-                error = error.max(self.error_of(state, h, jump, &coefficients));
-            }
-        }
-        let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
-        if error > 1.0 {
-            return Err(self.too_long(h, factor));
-        }
-        if sweeps > FEW_SWEEPS {
-            factor = factor.min(0.9);
-        } else if sweeps == FEW_SWEEPS {
-            factor = factor.min(1.0);
-        }
-        if let Some(hidden) = self.hides(state, &step, &coefficients) {
-            return Err(Failed::Hides(hidden.at));
-        }
-        self.last = Some((h, coefficients));
-        self.alpha = alpha;
-        self.steep = newton.is_some();
-        let next = match newton {
-            Some(newton) if !corners[1] => self.settled(next, &step, newton.loss),
-            _ => next,
-        };
-        Ok(Accepted { step, next, factor })
     }
 
     /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
     /// component that the loss would damp at once persists in Gauss methods (A-stable, not L-stable).
-    fn settled(&mut self, next: State, step: &Step, loss: f64) -> State {
-        let settled = next.faster((step.end.alpha - self.alpha) / loss);
-        self.alpha = self
-            .motion
-            .acceleration(settled.t, settled.angle(), settled.omega);
-        settled
+    fn with_loss(&mut self, next: State, step: &Step, loss: f64) -> State {
+        let next = next.faster((step.end.alpha - self.alpha) / loss);
+        self.alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
+        next
     }
 
     /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
@@ -225,16 +229,17 @@ impl<'a> Collocation<'a> {
     }
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
-    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Hidden> {
-        if !self.has_detail {
+    fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Unresolved> {
+        if !self.varies_between_nodes {
             return None;
         }
         let h = step.length();
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
         let allowed = term.max(self.rounding(state, h, coefficients));
-        let (times, part) = ([state.t, state.t + h], LEFT_BY_SWEEPS * self.tolerance);
+        // Fraction of the tolerance to which the terms of a load that the nodes resolve have decayed.
+        let (times, part) = ([state.t, state.t + h], 1e-2 * self.tolerance);
         let look = NodeCriterion {
-            compares: true,
+            has_interpolant: true,
             ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {
@@ -242,7 +247,7 @@ impl<'a> Collocation<'a> {
             step,
             nodes: Some(coefficients),
         };
-        hidden(&way, look)
+        unresolved(&way, look)
     }
 
     /// Returns the step, the state at its end, and the acceleration there, rad/s².

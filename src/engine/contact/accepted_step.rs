@@ -1,8 +1,9 @@
 //! Accepted step: acceptance, and the view of the observer of a run on it.
 
+use super::dop853::{Dense, Stages};
 use super::run::{Halt, Runner};
-use super::step::{Dense, Stages};
-use super::{Contact, Finish, Phase, Sample};
+use super::{Contact, Phase, Sample};
+use crate::engine::run_in_time::Finish;
 use crate::numeric::root;
 
 /// Accepted step of the motion in one phase.
@@ -92,7 +93,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         end: [f64; N],
         then: Sample<N>,
     ) -> Halt {
-        let mut stretch = AcceptedStep {
+        let mut step = AcceptedStep {
             phase: self.phase,
             start: self.y,
             end,
@@ -102,11 +103,15 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             rates,
             dense: None,
         };
-        self.stop_at_break(&mut stretch)?;
+        self.stop_at_break(&mut step)?;
         self.steps += 1;
-        let stop = (self.follower)(&mut stretch);
+        let stop = (self.observer)(&mut step);
         (self.y, self.now) = (end, then);
         self.near = self.model.near_after(&self.near, &self.y);
-        if stop { Err(Finish::Stopped) } else { Ok(()) }
+        if stop {
+            Err(Some(Finish::Stopped))
+        } else {
+            Ok(())
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Contact phase: its start and end with the square root of the depth as independent variable, the middle in time.
 
-use super::flight::{depth, nudged};
+use super::dop853::Stages;
+use super::flight::{END_CORRECTION, depth};
 use super::run::{Halt, Runner, growth};
-use super::step::Stages;
 use super::{Contact, Phase};
 use crate::numeric::root;
 
@@ -19,7 +19,10 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 true => depth.sqrt(),
                 false => 0.0,
             };
-            if depth < 1e-3 * reach && self.by_root(approach, from, reach.sqrt())? {
+            // A contact that is deeper already is integrated in time.
+            let begins = depth < 1e-3 * reach;
+            if begins && self.by_root(approach, from, reach.sqrt())? {
+                // First step in time, as a part of the time over the square root of the depth.
                 self.h = 0.7 * (self.y[0] - began);
                 self.enter(self.phase);
             }
@@ -45,9 +48,10 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 
     /// Takes one step in time; false if the contact no longer transmits force.
-    fn press(&mut self, approach: f64) -> Result<bool, super::Finish> {
+    fn press(&mut self, approach: f64) -> Halt<bool> {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
         let longest = if rate < 0.0 && depth > 0.0 {
+            // The step is to end before the contact does.
             0.8 * depth / -rate
         } else {
             f64::INFINITY
@@ -59,6 +63,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             if then.depth > 0.0 || depth <= self.model.rounding(&self.y) {
                 break (stages, h, end, then);
             }
+            // The step has passed the end of the contact.
             self.h = 0.3 * h;
         };
         let model = self.model;
@@ -79,11 +84,12 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Returns the depth (m) up to which its square root may be the independent variable, from trial decelerations.
     fn reach(&mut self, rate: f64) -> f64 {
-        const TRIAL_DEPTH: f64 = 1e-6;
         let y = self.y;
-        let free = self.sample(Some(0.0), &y).depth_acceleration;
-        let pressed = self.sample(Some(TRIAL_DEPTH), &y).depth_acceleration;
-        let growth = (free - pressed).max(0.0) / (TRIAL_DEPTH * TRIAL_DEPTH.sqrt());
+        let trial = 1e-6;
+        let [free, pressed] =
+            [0.0, trial].map(|depth| self.sample(Some(depth), &y).depth_acceleration);
+        // The deceleration grows with the 3/2 power of the depth.
+        let growth = (free - pressed).max(0.0) / (trial * f64::sqrt(trial));
         let energy = 0.5 * RATE_CHANGE * rate * rate;
         let by_wall = (energy / growth.max(1e-300)).powf(0.4);
         by_wall.min(energy / free.abs().max(1e-300))
@@ -101,22 +107,23 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Integrates from one square root of the depth to another. False, at the last valid state, where that is
     /// impossible: beyond `until`, without force, with a vanishing depth rate, or with a missed load.
-    fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Result<bool, super::Finish> {
+    fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Halt<bool> {
         let (model, phase) = (self.model, self.phase);
         let (mut s, mut ds) = (from, to - from);
         let scale = self.scale(0.0);
+        let shortest = 1e-3 * (to - from).abs();
         while s != to {
             self.check_work()?;
             let near = self.near;
-            let along = |s: f64, y: &[f64; N]| {
+            let slope = 2.0 * s / self.now.depth_rate;
+            let first = self.now.rates.map(|each| each * slope);
+            let (s0, length) = (s, ds);
+            let mut rates = |c: f64, y: &[f64; N]| {
+                let s = s0 + c * length;
                 let sample = model.sample(&near, phase, Some(s * s), y);
                 let slope = 2.0 * s / sample.depth_rate;
                 sample.rates.map(|each| each * slope)
             };
-            let slope = 2.0 * s / self.now.depth_rate;
-            let first = self.now.rates.map(|each| each * slope);
-            let (s0, length) = (s, ds);
-            let mut rates = |c: f64, y: &[f64; N]| along(s0 + c * length, y);
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;
             let error = stages.error(&scale, self.counted);
@@ -131,13 +138,16 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                     0.2
                 };
                 ds *= shrink;
-                if ds.abs() < 1e-3 * (to - from).abs() {
+                if ds.abs() < shortest {
                     return Ok(false);
                 }
                 continue;
             }
-            let hides = self.hides(&end).is_some();
-            if hides || end[0] > self.until || model.pressing(approach, then.depth_rate) < 0.0 {
+            let is_unresolved = self.unresolved_after(&end).is_some();
+            if is_unresolved
+                || end[0] > self.until
+                || model.pressing(approach, then.depth_rate) < 0.0
+            {
                 return Ok(false);
             }
             s = next;
@@ -154,15 +164,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Ends the contact; a small step in time removes the remaining depth.
     fn part(&mut self) {
-        let model = self.model;
-        let (depth, rate) = depth(model, Phase::Flight, &self.y);
+        let (depth, rate) = depth(self.model, Phase::Flight, &self.y);
         let dt = -depth / rate;
-        if dt.is_finite() && dt.abs() < 1e-3 * self.flight_h {
-            let near = self.near;
-            let rates = |y: &[f64; N]| model.sample(&near, Phase::Flight, None, y).rates;
-            self.y = nudged(&self.y, dt, rates);
-            self.near = model.near_after(&near, &self.y);
-            self.evaluations += 2;
+        if dt.is_finite() && dt.abs() < END_CORRECTION * self.flight_h {
+            self.y = self.nudged(&{ self.y }, dt, Phase::Flight);
+            self.near = self.model.near_after(&self.near, &self.y);
         }
         self.enter(Phase::Flight);
     }

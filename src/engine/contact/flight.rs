@@ -1,19 +1,14 @@
 //! Phases without force: free flight until the gap closes, and release from an indentation.
 
+use super::dop853::{Dense, Stages};
 use super::run::{Halt, Runner};
-use super::step::{Dense, Stages};
 use super::{Contact, Phase, Sample};
 use crate::engine::PIECES;
 use crate::numeric::root;
 
-/// Shortest piece in the search for a closing gap, as a fraction of a step: longer ones are bisected until the cubic
-/// through their ends excludes a closing or narrows all along. In the shortest the rate of the gap is taken to change
-/// sign at most once.
-const FINEST_PIECE: f64 = 1.0 / 1024.0;
-/// Bound of the deviation of the gap from the cubic, as a multiple of the deviation at the middle of a piece.
-const CUBIC_MARGIN: f64 = 4.0;
-/// Width of the bracket of a closing, as a fraction of a step: the step that ends there meets it by its own rates.
-const NEAR_CLOSING: f64 = 1e-9;
+/// Largest correction of the end of a step by one step of the midpoint rule, as a fraction of the step: its error, of
+/// third order, is 1e-9 of that of the rule over the whole step.
+pub(super) const END_CORRECTION: f64 = 1e-3;
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn fly(&mut self) -> Halt {
@@ -49,21 +44,17 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let depth = |u: f64| depth(model, self.phase, &dense.at(u));
         let apart = first_sign_change(|u| depth(u).0);
         let pressed = first_sign_change(|u| -model.pressing(approach, depth(u).1));
-        match (apart, pressed) {
-            (None, None) => {
-                let end = self.snapped(*stages.end(), h);
-                self.accept_to(&stages, end, then)
-            }
-            (Some(u), other) if other.is_none_or(|other| u <= other) => {
-                self.cut(u * h, M::gap)?;
-                self.enter(Phase::Flight);
-                Ok(())
-            }
-            (_, Some(u)) | (Some(u), None) => {
-                self.cut_at(u * h)?;
-                self.enter(Phase::Contact { approach });
-                Ok(())
-            }
+        if let Some(u) = apart.filter(|apart| pressed.is_none_or(|pressed| *apart <= pressed)) {
+            self.cut(u * h, M::gap)?;
+            self.enter(Phase::Flight);
+            Ok(())
+        } else if let Some(u) = pressed {
+            self.cut_at(u * h)?;
+            self.enter(Phase::Contact { approach });
+            Ok(())
+        } else {
+            let end = self.snapped(*stages.end(), h);
+            self.accept_to(&stages, end, then)
         }
     }
 
@@ -86,21 +77,28 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Accepts the first part of a step, about h (s) long, up to the zero of `value` (Newton, value and rate).
     fn cut(&mut self, h: f64, value: impl Fn(&M, &[f64; N]) -> (f64, f64)) -> Halt {
-        let (model, phase) = (self.model, self.phase);
         let stages = self.try_step(h);
         let mut end = *stages.end();
         for _ in 0..3 {
-            let (now, rate) = value(model, &end);
+            let (now, rate) = value(self.model, &end);
             let dt = -now / rate;
             // At an extreme with value zero the rate vanishes.
-            if dt == 0.0 || !dt.is_finite() || dt.abs() > 1e-3 * h {
+            if dt == 0.0 || !dt.is_finite() || dt.abs() > END_CORRECTION * h {
                 break;
             }
-            let near = self.near;
-            end = nudged(&end, dt, |y| model.sample(&near, phase, None, y).rates);
-            self.evaluations += 2;
+            end = self.nudged(&end, dt, self.phase);
         }
         self.accept_at(stages, end)
+    }
+
+    /// Takes a tiny step of length dt (s) from a state in a phase by the midpoint rule.
+    pub(super) fn nudged(&mut self, y: &[f64; N], dt: f64, phase: Phase) -> [f64; N] {
+        self.evaluations += 2;
+        let rates = |y: &[f64; N]| self.model.sample(&self.near, phase, None, y).rates;
+        let first = rates(y);
+        let middle = std::array::from_fn(|i| y[i] + 0.5 * dt * first[i]);
+        let slope = rates(&middle);
+        std::array::from_fn(|i| y[i] + dt * slope[i])
     }
 }
 
@@ -112,18 +110,6 @@ pub(super) fn depth<M: Contact<N>, const N: usize>(
 ) -> (f64, f64) {
     let sample = model.sample(&model.near(y), phase, None, y);
     (sample.depth, sample.depth_rate)
-}
-
-/// Takes a tiny step by the midpoint rule.
-pub(super) fn nudged<const N: usize>(
-    y: &[f64; N],
-    dt: f64,
-    rates: impl Fn(&[f64; N]) -> [f64; N],
-) -> [f64; N] {
-    let first = rates(y);
-    let middle = std::array::from_fn(|i| y[i] + 0.5 * dt * first[i]);
-    let slope = rates(&middle);
-    std::array::from_fn(|i| y[i] + dt * slope[i])
 }
 
 /// Gap at a fraction u of a step.
@@ -151,7 +137,8 @@ fn closing<M: Contact<N>, const N: usize>(model: &M, dense: &Dense<N>, h: f64) -
     })
 }
 
-/// Returns the first closing of the gap between two positions; the Bézier points of the cubic bound it from below.
+/// Returns the first closing of the gap between two positions. The Bézier points of the cubic through the ends bound
+/// the gap from below; pieces are bisected until it excludes a closing or narrows all along.
 fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Option<f64> {
     let width = (to.u - from.u) * h;
     let cubic = [
@@ -164,12 +151,16 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
     let middle = gap(0.5 * (from.u + to.u));
     let off = middle.value - 0.125 * (a + 3.0 * (b + c) + d);
     let turned = middle.rate * width - 0.75 * (c + d - a - b);
-    let doubt = CUBIC_MARGIN * (off.abs() + 0.25 * turned.abs());
-    // Its rate is three times the differences of the control points; what is off in four parts of a piece changes in one.
+    // Bound of the deviation from the cubic, as a multiple of that at the middle of the piece.
+    let margin = 4.0;
+    let doubt = margin * (off.abs() + 0.25 * turned.abs());
+    // Its rate is three times the differences of the control points; what is off in four parts changes in one.
     let narrows = 3.0 * (b - a).max(c - b).max(d - c) < -4.0 * doubt;
+    // Fraction of a step in which the rate of the gap is taken to change sign at most once.
+    let finest = 1.0 / 1024.0;
     if cubic.into_iter().fold(f64::INFINITY, f64::min) > doubt {
         None
-    } else if to.u - from.u > FINEST_PIECE && !(narrows && a > 0.0) {
+    } else if to.u - from.u > finest && !(narrows && a > 0.0) {
         closing_between(gap, from, middle, h).or_else(|| closing_between(gap, middle, to, h))
     } else {
         closing_in(gap, from, to)
@@ -180,7 +171,10 @@ fn closing_between(gap: &impl Fn(f64) -> Gap, from: Gap, to: Gap, h: f64) -> Opt
 /// between them, which includes a graze. A step that starts with a gap of zero and opens is searched from the end of
 /// the piece backwards: at the start the sign is rounding.
 fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
+    // A gap below what opens in a nanosecond counts as zero.
     let opens = start.u == 0.0 && start.value <= start.rate * 1e-9;
+    // Width of the bracket, as a fraction of a step: the step that ends there meets the closing by its own rates.
+    let width = 1e-9;
     let mut last = end;
     if end.value >= 0.0 && start.rate < 0.0 && end.rate > 0.0 {
         last = gap(root::bracketed(|u| gap(u).rate, start.u, end.u)?);
@@ -191,14 +185,14 @@ fn closing_in(gap: &impl Fn(f64) -> Gap, start: Gap, end: Gap) -> Option<f64> {
     let (mut from, mut to) = (start.u, last.u);
     if opens {
         from = 0.5 * to;
-        while gap(from).value <= 0.0 && from > 1e-9 * end.u {
+        while gap(from).value <= 0.0 && from > width * end.u {
             (from, to) = (0.5 * from, from);
         }
     }
     if gap(from).value <= 0.0 {
         return Some(from);
     }
-    root::within(|u| gap(u).value, from, to, NEAR_CLOSING)
+    root::within(|u| gap(u).value, from, to, width)
 }
 
 /// Returns the first zero of a value that is positive at the start and sampled as negative later.

@@ -11,13 +11,12 @@ mod discontinuities;
 mod dop853;
 mod flight;
 mod run;
-mod step;
 
 use super::WorkLimit;
-use crate::numeric::enclosure::{Detail, Interval};
+use crate::numeric::enclosure::{Interval, Variation};
 
 pub use accepted_step::AcceptedStep;
-pub use run::{ContactEnd, Finish, run};
+pub use run::{ContactEnd, run};
 
 /// Phase of the contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,14 +65,14 @@ pub trait Contact<const N: usize> {
     /// kink; none if there is a single law with smooth rates.
     fn breaks(&self, near: &Self::Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]>;
 
-    /// Changes to the law of motion that holds after this state; `soon` is a later state under the law before, which
+    /// Changes to the law of motion that holds after this state; `beyond` is a later state under the law before, which
     /// tells the direction of the change.
     fn change(
         &self,
         near: &Self::Near,
         phase: Phase,
         y: &mut [f64; N],
-        soon: &[f64; N],
+        beyond: &[f64; N],
     ) -> Self::Near;
 
     /// Computes rates and depth in a phase; in contact `depth` (m) overrides the less accurate depth of the state.
@@ -101,11 +100,11 @@ pub trait Contact<const N: usize> {
     fn next_corner(&self, t: f64) -> f64;
 
     /// True if loads may vary between the stages of a step without a trace in its error estimate.
-    fn has_detail(&self) -> bool;
+    fn varies_between_nodes(&self) -> bool;
 
     /// Returns the variation of the rates due to loads, over the sizes of the state, 1/s, on intervals of the state and
     /// in the Bernstein ellipse with parameter ρ = `ellipse` around them.
-    fn detail(&self, over: &[Interval; N], ellipse: f64) -> Detail;
+    fn variation(&self, over: &[Interval; N], ellipse: f64) -> Variation;
 
     /// Returns the sizes of the state, to which the tolerance is relative; the first `counted` are error-controlled.
     fn sizes(&self) -> ([f64; N], usize);
@@ -117,9 +116,9 @@ pub trait Contact<const N: usize> {
     fn receded(&self, start: &[f64; N], end: &[f64; N]) -> [f64; N];
 }
 
-/// Settings of a run.
+/// Settings of a run with contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings<'a> {
+pub struct ContactSettings<'a> {
     /// Tolerance of the local error, relative to the sizes.
     pub tolerance: f64,
     /// Last time, s.

@@ -1,31 +1,14 @@
 //! Loop of a run over its phases, with step-size control.
 
 use super::discontinuities::Breaks;
-use super::step::Stages;
-use super::{AcceptedStep, Contact, Phase, Sample, Settings};
-
-/// Largest relative error of the force that is attributed to rounding of the depth.
-const MAX_FORCE_DOUBT: f64 = 1e-6;
-
-/// Reason for the end of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finish {
-    /// Last time reached.
-    AtEnd,
-    /// Stopped by the observer.
-    Stopped,
-    /// Evaluation limit reached.
-    WorkLimit,
-    /// Rates not finite, or too steep.
-    StepTooSmall,
-    /// Internal: a step beyond a change of the law of motion is repeated.
-    Broken,
-}
+use super::dop853::Stages;
+use super::{AcceptedStep, Contact, ContactSettings, Phase, Sample};
+use crate::engine::run_in_time::Finish;
 
 /// End of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactEnd<const N: usize> {
-    /// Reason for the end.
+    /// Reason for the end: last time, observer, work limit, or rates that are not finite or too steep.
     pub finish: Finish,
     /// Last state.
     pub last: [f64; N],
@@ -38,12 +21,12 @@ pub struct ContactEnd<const N: usize> {
 }
 
 /// Observer of accepted steps; returning true ends the run.
-pub(super) type Follower<'a, const N: usize> = &'a mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool;
+pub(super) type Observer<'a, const N: usize> = &'a mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool;
 
 pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub model: &'a M,
-    pub settings: Settings<'a>,
-    pub follower: Follower<'a, N>,
+    pub settings: ContactSettings<'a>,
+    pub observer: Observer<'a, N>,
     pub y: [f64; N],
     pub phase: Phase,
     /// Evaluation data prepared at `y`.
@@ -63,41 +46,41 @@ pub(super) struct Runner<'a, M: Contact<N>, const N: usize> {
     pub counted: usize,
 }
 
-/// Continuation, or the reason for the end of a run.
-pub(super) type Halt = Result<(), Finish>;
+/// Outcome of a part of a run. The error is the reason for the end of the run, or none where the last step goes beyond
+/// a change of the law of motion and is repeated up to it.
+pub(super) type Halt<T = ()> = Result<T, Option<Finish>>;
 
 /// Integrates from a state to the last time; `linked` keeps [`Phase::Link`] throughout.
 pub fn run<M: Contact<N>, const N: usize>(
     model: &M,
     start: [f64; N],
     linked: bool,
-    settings: Settings<'_>,
-    follower: &mut dyn FnMut(&mut AcceptedStep<'_, N>) -> bool,
+    settings: ContactSettings<'_>,
+    observer: Observer<'_, N>,
 ) -> ContactEnd<N> {
     let (sizes, counted) = model.sizes();
+    let phase = if linked { Phase::Link } else { Phase::Flight };
+    let near = model.near(&start);
     let mut runner = Runner {
         model,
         settings,
-        follower,
+        observer,
         y: start,
-        phase: if linked { Phase::Link } else { Phase::Flight },
-        near: model.near(&start),
-        now: model.sample(&model.near(&start), Phase::Flight, None, &start),
+        phase,
+        near,
+        now: model.sample(&near, phase, None, &start),
         h: 0.0,
         flight_h: 0.0,
         until: settings.t_end,
         breaks: Breaks::default(),
-        evaluations: 0,
+        evaluations: 1,
         steps: 0,
         sizes,
         counted,
     };
-    let finish = match runner.all() {
-        Ok(()) => Finish::AtEnd,
-        Err(finish) => finish,
-    };
+    let ended = runner.all();
     ContactEnd {
-        finish,
+        finish: ended.err().flatten().unwrap_or(Finish::AtEnd),
         last: runner.y,
         phase: runner.phase,
         evaluations: runner.evaluations,
@@ -112,7 +95,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             self.until = self.model.next_corner(self.y[0]).min(self.settings.t_end);
             while self.y[0] < self.until {
                 match self.go_on() {
-                    Err(Finish::Broken) => {}
+                    Err(None) => {}
                     ended => ended?,
                 }
             }
@@ -132,9 +115,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         }
     }
 
-    /// Sets the phase and the first step at the start.
+    /// Begins in contact where the bodies touch at rest and are pressed together, and sets the first step.
     fn begin(&mut self) {
-        self.enter(self.phase);
         let Sample {
             depth,
             depth_rate: rate,
@@ -153,9 +135,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let fastest = (0..self.counted).fold(0.0, |most: f64, i| {
             most.max(self.now.rates[i].abs() / self.sizes[i])
         });
-        self.flight_h = 0.01 / fastest.max(1e-300);
+        // Part of the time in which the fastest number would change by its size; of that, where a contact begins.
+        let first = 0.01;
+        self.flight_h = first / fastest.max(1e-300);
         self.h = match self.phase {
-            Phase::Contact { .. } => 1e-2 * self.flight_h,
+            Phase::Contact { .. } => first * self.flight_h,
             _ => self.flight_h,
         };
     }
@@ -175,9 +159,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Returns the admissible error of a step of length `h` (s). Rounding sets a floor: that of the state, and that of
     /// the depth, which makes the force of a shallow contact uncertain however short the step is.
     pub fn scale(&self, h: f64) -> [f64; N] {
+        // Largest relative error of the force that is attributed to rounding of the depth.
+        let most_doubt = 1e-6;
         let doubt = match self.phase {
             Phase::Contact { .. } if self.now.depth > 0.0 => {
-                (2.0 * self.model.rounding(&self.y) / self.now.depth).min(MAX_FORCE_DOUBT)
+                (2.0 * self.model.rounding(&self.y) / self.now.depth).min(most_doubt)
             }
             _ => 0.0,
         };
@@ -199,7 +185,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     }
 
     /// Returns the next step within tolerance and its length, s; sets `h` to the length proposed for the one after.
-    pub fn controlled_step(&mut self, longest: f64) -> Result<(Stages<N>, f64), Finish> {
+    pub fn controlled_step(&mut self, longest: f64) -> Halt<(Stages<N>, f64)> {
         let mut rejected = false;
         loop {
             self.check_work()?;
@@ -210,12 +196,12 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 h = 0.5 * left;
             }
             if h < left && (h <= 4.0 * f64::EPSILON * self.y[0].abs() || h < 1e-300) {
-                return Err(Finish::StepTooSmall);
+                return Err(Some(Finish::StepTooSmall));
             }
             let stages = self.try_step(h);
             let error = stages.error(&self.scale(h), self.counted);
             if error <= 1.0 {
-                if let Some(shorter) = self.hides(stages.end()) {
+                if let Some(shorter) = self.unresolved_after(stages.end()) {
                     self.h = shorter;
                     rejected = true;
                     continue;
@@ -240,7 +226,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             stop.reach(self.y[0] / self.settings.t_end);
         }
         if self.settings.limit.is_reached(self.evaluations) {
-            return Err(Finish::WorkLimit);
+            return Err(Some(Finish::WorkLimit));
         }
         Ok(())
     }

@@ -2,75 +2,66 @@
 
 use std::f64::consts::TAU;
 
-use super::panel::{Panel, Tried, Uncertain};
-use super::piece::{HALF_TURN, Piece, SAME_ANGLE, Turning, longest_analytic, missing, next_end};
+use super::panel::{Attempt, KnownEnergy, Panel};
+use super::piece::{
+    HALF_TURN, Piece, SAME_ANGLE, Turning, longest_analytic, next_end, turn_remainder,
+};
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
-use super::turn_closure::Return;
+use super::turn_end::TurnEnd;
 
-/// Initial state of a segment.
+/// State of a motion over the crank angle.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Begin {
+pub(in crate::engine) struct KineticState {
     /// Crank angle, rad.
-    pub start: f64,
+    pub angle: f64,
     /// Direction of motion, +1 or −1.
     pub direction: f64,
     /// Kinetic energy, J; zero at a turning point.
     pub kinetic: f64,
     /// Error bound of the kinetic energy beyond its own rounding, J.
-    pub off: f64,
+    pub energy_error: f64,
 }
-
-/// Length of a panel that is accepted unresolved, rad: it holds a corner that the profile does not announce.
-const CORNER_PANEL: f64 = 1e-13;
-/// Fraction of the largest kinetic energy below which the sum of the energy over panels has lost digits.
-const NEAR_REST: f64 = 1e-3;
 
 /// Turning point ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Ahead {
+struct TurningPoint {
     /// Signed distance to the turning point, rad.
     way: f64,
     /// True if the turning point was located from the end of the turn.
-    from_home: bool,
+    from_turn_end: bool,
     /// Residual of the energy balance on the last panel that ended at the turning point, J.
-    missed: f64,
+    residual: f64,
 }
 
-/// Rounding floor of the energy balance on a panel that ends at a turning point, in units of rounding.
-const SEEN_UNITS: f64 = 2.0;
-
 /// Improvement to make on a panel.
-enum Better {
+enum Improvement {
     None,
     /// Replacement by a panel that ends at this turning point.
-    Turning(Ahead),
+    Turning(TurningPoint),
     Shorter,
 }
 
 /// Segment under construction.
 struct Builder<'a> {
     profile: &'a dyn Profile,
-    begin: Begin,
+    begin: KineticState,
     /// Angle one turn after the start, rad.
     whole_turn: f64,
     /// Kinetic energy gained per turn, if it is equal for all turns, and its error bound, J.
     gain: Option<f64>,
     gain_error: f64,
-    home: Option<Return<'a>>,
+    turn_end: Option<TurnEnd<'a>>,
     segment: Segment,
-    /// Angle at which the next panel begins, rad.
-    at: f64,
-    /// Kinetic energy at that angle, and the largest so far, J.
-    kinetic: f64,
+    /// State in which the next panel begins.
+    now: KineticState,
+    /// Largest kinetic energy so far, J.
     largest: f64,
-    /// Error bound of the kinetic energy beyond its own rounding, J.
-    off: f64,
     /// Largest length of the next panel, rad.
     length: f64,
     /// True if branch points limit the panels: once a longer panel has failed.
     is_cut: bool,
-    ahead: Option<Ahead>,
+    ahead: Option<TurningPoint>,
     turns: f64,
 }
 
@@ -79,12 +70,12 @@ impl Segment {
     /// tails of their series are below `tolerance`.
     pub fn build(
         profile: &dyn Profile,
-        begin: Begin,
+        begin: KineticState,
         until: f64,
         tolerance: f64,
         most_turns: f64,
     ) -> Result<Segment, NotApplicable> {
-        let whole_turn = begin.start + begin.direction * TAU;
+        let whole_turn = begin.angle + begin.direction * TAU;
         let work = profile.work_of_turn();
         let mut builder = Builder {
             profile,
@@ -92,12 +83,10 @@ impl Segment {
             whole_turn,
             gain: work.map(|(work, _)| begin.direction * work),
             gain_error: work.map_or(0.0, |(_, error)| error),
-            home: Return::new(profile, whole_turn, begin.kinetic),
+            turn_end: TurnEnd::new(profile, whole_turn, begin.kinetic),
             segment: Segment::open(),
-            at: begin.start,
-            kinetic: begin.kinetic,
+            now: begin,
             largest: begin.kinetic,
-            off: begin.off,
             length: HALF_TURN,
             is_cut: false,
             ahead: None,
@@ -115,7 +104,7 @@ impl Segment {
                 break;
             }
             builder.panel(tolerance)?;
-            if builder.is_home() {
+            if builder.is_turn_complete() {
                 builder.turn(until, most_turns);
             }
         }
@@ -127,30 +116,32 @@ impl Builder<'_> {
     /// Tries the next panel: accepts it, shortens it, or ends it at a turning point.
     fn panel(&mut self, tolerance: f64) -> Result<(), NotApplicable> {
         let piece = self.piece();
-        let uncertain = self.uncertain(piece.turning);
+        let known = self.known_energy(piece.turning);
         let at = piece.from;
-        let short = piece.span().abs() <= CORNER_PANEL * at.abs().max(1.0);
+        // A panel of this length, rad, is accepted unresolved: it holds a corner that the profile does not announce.
+        let shortest = 1e-13 * at.abs().max(1.0);
+        let short = piece.span().abs() <= shortest;
         let accepted = if short { f64::INFINITY } else { tolerance };
-        match Panel::attempt(self.profile, piece, self.kinetic, accepted, uncertain)? {
-            Tried::Done(panel, off) => match self.better(&panel, uncertain) {
-                Better::None => self.take(*panel, off),
-                Better::Turning(ahead) => self.ahead = Some(ahead),
-                Better::Shorter if self.length <= CORNER_PANEL * at.abs().max(1.0) => {
+        match Panel::attempt(self.profile, piece, self.now.kinetic, accepted, known)? {
+            Attempt::Done(panel, energy_error) => match self.improvement(&panel, known) {
+                Improvement::None => self.take(*panel, energy_error),
+                Improvement::Turning(ahead) => self.ahead = Some(ahead),
+                Improvement::Shorter if self.length <= shortest => {
                     return Err(NotApplicable::NotFinite);
                 }
-                Better::Shorter => {
+                Improvement::Shorter => {
                     // The turning point may be an artefact of rounding on the panel on which it was found.
                     self.ahead = None;
                     self.length *= 0.5;
                 }
             },
-            Tried::TurnsAfter(way) if way != 0.0 => {
-                let home = self.home.as_ref();
-                let exact = home.and_then(|again| again.turning_point(at, at + way));
-                self.ahead = Some(Ahead {
+            Attempt::TurnsAfter(way) if way != 0.0 => {
+                let turn_end = self.turn_end.as_ref();
+                let exact = turn_end.and_then(|turn_end| turn_end.turning_point(at, at + way));
+                self.ahead = Some(TurningPoint {
                     way: exact.map_or(way, |end| end - at),
-                    from_home: exact.is_some(),
-                    missed: f64::INFINITY,
+                    from_turn_end: exact.is_some(),
+                    residual: f64::INFINITY,
                 });
             }
             _ if short => return Err(NotApplicable::NotFinite),
@@ -167,27 +158,31 @@ impl Builder<'_> {
     }
 
     fn analytic(&self) -> f64 {
-        let direction = self.begin.direction;
-        longest_analytic(self.at, direction, self.profile.branch_points())
+        let branch_points = self.profile.branch_points();
+        longest_analytic(self.now.angle, self.now.direction, branch_points)
     }
 
     fn piece(&self) -> Piece {
-        let direction = self.begin.direction;
+        let KineticState {
+            angle: at,
+            direction,
+            ..
+        } = self.now;
         let length = match self.is_cut {
             true => self.length.min(self.analytic()),
             false => self.length,
         };
-        let mut to = next_end(self.profile.corners(), self.at, direction, length);
-        to = self.profile.corner_between(self.at, to).unwrap_or(to);
+        let mut to = next_end(self.profile.corners(), at, direction, length);
+        to = self.profile.corner_between(at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
             to = self.whole_turn;
         }
-        let at_rest = self.kinetic == 0.0;
+        let at_rest = self.now.kinetic == 0.0;
         let turns = self.ahead.map(|ahead| ahead.way);
-        match turns.filter(|way| direction * (to - self.at - way) >= 0.0) {
+        match turns.filter(|way| direction * (to - at - way) >= 0.0) {
             // A panel cannot have turning points at both ends: the first half ends in the middle.
-            Some(way) if at_rest => to = self.at + 0.5 * way,
-            Some(way) => return Piece::until_turning(self.at, way),
+            Some(way) if at_rest => to = at + 0.5 * way,
+            Some(way) => return Piece::until_turning(at, way),
             None => {}
         }
         let turning = if at_rest {
@@ -195,73 +190,75 @@ impl Builder<'_> {
         } else {
             Turning::Nowhere
         };
-        Piece::between(self.at, to, turning)
+        Piece::between(at, to, turning)
     }
 
     /// Returns the error bound of the kinetic energy on the next panel, J; near rest from the integral to the end of
     /// the turn, which keeps the digits.
-    fn uncertain(&mut self, turning: Turning) -> Uncertain {
-        if let Some(home) = &self.home
+    fn known_energy(&mut self, turning: Turning) -> KnownEnergy {
+        if let Some(turn_end) = &self.turn_end
             && turning == Turning::AtEnd
-            && self.ahead.is_some_and(|ahead| ahead.from_home)
+            && self.ahead.is_some_and(|ahead| ahead.from_turn_end)
         {
-            return Uncertain::AtTurn(home.rounding());
+            return KnownEnergy::AtTurn(turn_end.rounding());
         }
-        if let Some(home) = &self.home
-            && self.kinetic < NEAR_REST * self.largest
-            && let Some(exact) = home.kinetic(self.at)
+        // The sum of smaller energies over panels has lost digits.
+        let near_rest = 1e-3 * self.largest;
+        if let Some(turn_end) = &self.turn_end
+            && self.now.kinetic < near_rest
+            && let Some(exact) = turn_end.kinetic(self.now.angle)
         {
-            self.kinetic = exact;
-            let to_go = (self.whole_turn - self.at).abs();
+            self.now.kinetic = exact;
+            let at = self.now.angle;
+            let to_go = (self.whole_turn - at).abs();
             let size = exact.max(self.begin.kinetic);
-            return Uncertain::AtStart(f64::EPSILON * size * (1.0 + self.at.abs() / to_go));
+            return KnownEnergy::AtStart(f64::EPSILON * size * (1.0 + at.abs() / to_go));
         }
-        Uncertain::AtStart(self.off + f64::EPSILON * self.largest)
+        KnownEnergy::AtStart(self.now.energy_error + f64::EPSILON * self.largest)
     }
 
     /// Returns the improvement to make on a panel. A turning point found on a longer panel is accurate to the rounding
     /// of that panel; the residual of the energy balance on the last panel is its correction (Newton), as long as the
     /// force hardly changes over the correction. Otherwise the last panel has to begin nearer.
-    fn better(&self, panel: &Panel, uncertain: Uncertain) -> Better {
-        let (Some(ahead), Uncertain::AtStart(off)) = (self.ahead, uncertain) else {
-            return Better::None;
+    fn improvement(&self, panel: &Panel, known: KnownEnergy) -> Improvement {
+        let (Some(ahead), KnownEnergy::AtStart(energy_error)) = (self.ahead, known) else {
+            return Improvement::None;
         };
-        let missed = panel.missed.abs();
+        let residual = panel.residual.abs();
         let Piece {
             from, to, turning, ..
         } = panel.piece;
-        if turning != Turning::AtEnd
-            || missed <= SEEN_UNITS * f64::EPSILON * self.kinetic
-            || missed > 0.5 * ahead.missed
-        {
-            return Better::None;
+        // Two roundings of the energy at the start: as a sum, and as the work back to it.
+        let rounding = 2.0 * f64::EPSILON * self.now.kinetic;
+        if turning != Turning::AtEnd || residual <= rounding || residual > 0.5 * ahead.residual {
+            return Improvement::None;
         }
         let [first, last] = [from, to].map(|theta| self.profile.inertia_and_force(theta).1);
-        let more = -panel.missed / last;
+        let more = -panel.residual / last;
         let slope = (last - first) / panel.piece.span();
-        if (more * slope).abs() < 0.5 * last.abs() && last * self.begin.direction < 0.0 {
-            Better::Turning(Ahead {
+        if (more * slope).abs() < 0.5 * last.abs() && last * self.now.direction < 0.0 {
+            Improvement::Turning(TurningPoint {
                 way: ahead.way + more,
-                missed,
+                residual,
                 ..ahead
             })
-        } else if missed > off {
-            Better::Shorter
+        } else if residual > energy_error {
+            Improvement::Shorter
         } else {
-            Better::None
+            Improvement::None
         }
     }
 
-    fn take(&mut self, mut panel: Panel, off: f64) {
-        self.off = self.off.hypot(off);
+    fn take(&mut self, mut panel: Panel, energy_error: f64) {
+        self.now.energy_error = self.now.energy_error.hypot(energy_error);
         let piece = panel.piece;
-        self.at = piece.to;
+        self.now.angle = piece.to;
         if let Some(ahead) = &mut self.ahead {
             ahead.way -= piece.span();
         }
-        panel.turns = self.begin.direction * self.turns;
-        self.kinetic = panel.kinetic_at_end;
-        self.largest = self.largest.max(self.kinetic);
+        panel.turns = self.now.direction * self.turns;
+        self.now.kinetic = panel.kinetic_at_end;
+        self.largest = self.largest.max(self.now.kinetic);
         // A corner may have cut this panel short.
         self.length = self.length.max(2.0 * piece.span().abs());
         self.segment.push(panel);
@@ -271,25 +268,28 @@ impl Builder<'_> {
     }
 
     /// True if a turn is complete that is followed by a turn with the same forces.
-    fn is_home(&self) -> bool {
-        self.gain.is_some() && self.at == self.whole_turn && self.segment.after == After::Ends
+    fn is_turn_complete(&self) -> bool {
+        self.gain.is_some()
+            && self.now.angle == self.whole_turn
+            && self.segment.after == After::Ends
     }
 
     fn turn(&mut self, until: f64, most_turns: f64) {
-        let Begin {
-            start, direction, ..
-        } = self.begin;
-        self.segment.complete(missing(start, direction));
+        let begin = self.begin;
+        self.segment
+            .complete(turn_remainder(begin.angle, begin.direction));
         self.turns += 1.0;
         if self.profile.repeats() {
             self.segment.after = After::Repeats;
         } else if self.turns >= most_turns && self.segment.duration.0 <= until {
             self.segment.after = After::GoesOn;
         } else {
-            self.at = start;
-            self.off = self.turns.mul_add(self.gain_error, self.begin.off);
             let gain = self.gain.unwrap_or_default();
-            self.kinetic = gain.mul_add(self.turns, self.begin.kinetic);
+            self.now = KineticState {
+                kinetic: gain.mul_add(self.turns, begin.kinetic),
+                energy_error: self.turns.mul_add(self.gain_error, begin.energy_error),
+                ..begin
+            };
         }
     }
 }

@@ -3,59 +3,41 @@
 //! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
 //! nW. A million turns take a few dozen cells of the energy.
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::euler_maclaurin::EulerMaclaurinCell;
-use super::interpolated_turns::Mark;
+use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, Recent, Turns};
 
-/// Most turns computed one by one after the last cell.
-const LAST_TURNS: f64 = 256.0;
-/// Largest width of a cell, relative to the least kinetic energy in its first turn: the nearest singularity of T is
-/// where that energy vanishes.
-const WIDEST: f64 = 1.5;
-/// Least width of a cell, relative to the largest.
-const NARROWEST: f64 = 1e-3;
-
 /// Initial state of the turns, and the gain of each.
 pub(super) struct EqualGains<'a> {
     pub profile: &'a dyn Profile,
-    /// Crank angle at the start of each turn, rad.
-    pub start: f64,
-    /// Sign of the speed.
-    pub direction: f64,
-    /// Kinetic energy before the first turn, J.
-    pub kinetic: f64,
+    /// State before the first turn.
+    pub begin: KineticState,
     /// Kinetic energy gained per turn, J.
     pub gain: f64,
     /// Error bound of the gain, J.
     pub gain_error: f64,
-    /// Error bound of the kinetic energy at the start beyond its own rounding, J.
-    pub off: f64,
     /// Largest tail of a resolved series.
     pub tolerance: f64,
 }
 
 impl EqualGains<'_> {
-    fn kinetic_after(&self, turns: f64) -> f64 {
-        turns.mul_add(self.gain, self.kinetic)
-    }
-
-    /// Returns the error bound of [`Self::kinetic_after`], J.
-    fn off_after(&self, turns: f64) -> f64 {
-        self.off + f64::EPSILON * self.kinetic + turns * self.gain_error
-    }
-
-    fn mark(&self, turns: f64, t: (f64, f64)) -> Mark {
-        Mark {
+    /// Returns the start of the turn after the first `turns`, at the time `t` (s, rounded value and remainder).
+    fn mark(&self, turns: f64, t: (f64, f64)) -> TurnStart {
+        TurnStart {
             turns,
             t,
-            kinetic: self.kinetic_after(turns),
-            work: 0.0,
-            low: [0.0; 2],
+            kinetic: turns.mul_add(self.gain, self.begin.kinetic),
+            ..TurnStart::default()
         }
+    }
+
+    /// Returns the error bound of the kinetic energy after some turns, J.
+    fn energy_error_after(&self, turns: f64) -> f64 {
+        self.begin.energy_error + f64::EPSILON * self.begin.kinetic + turns * self.gain_error
     }
 
     /// Computes the turns from the first `done` turns, which end at the time `t` (s, rounded value and remainder), to
@@ -73,38 +55,37 @@ impl EqualGains<'_> {
             let Some(mut cell) = self.cell(mark) else {
                 break;
             };
+            marks.push(mark);
             let after = mark.until(until);
             let passed = cell.count.is_infinite() || cell.time(cell.count) > after;
-            let count = if passed {
-                cell.turn_at(after)
-            } else {
-                cell.count
-            };
-            let whole = if passed { count + 1.0 } else { count };
-            error += cell.error(whole, self.off_after(mark.turns + whole));
-            let end = cell.mark(count);
-            last = passed.then(|| cell.segment(end.kinetic));
-            marks.push(mark);
+            let mut whole = cell.count;
+            if passed {
+                cell.count = cell.turn_at(after);
+                whole = cell.count + 1.0;
+            }
+            error += cell.error(whole, self.energy_error_after(mark.turns + whole));
+            let end = cell.mark(cell.count);
             mark = if passed {
+                last = Some(cell.turn.segment(end.kinetic));
                 end
             } else {
                 self.mark(end.turns, end.t)
             };
-            cell.count = count;
             cells.push(cell);
         }
         let last = match last {
             Some(segment) => segment,
             None => {
-                let begin = Begin {
-                    start: self.start,
-                    direction: self.direction,
+                let begin = KineticState {
                     kinetic: mark.kinetic,
-                    off: self.off_after(mark.turns),
+                    energy_error: self.energy_error_after(mark.turns),
+                    ..self.begin
                 };
                 let left = mark.until(until);
+                // More turns after the last cell are not computed one by one.
+                let most_turns = 256.0;
                 let segment =
-                    Segment::build(self.profile, begin, left, self.tolerance, LAST_TURNS)?;
+                    Segment::build(self.profile, begin, left, self.tolerance, most_turns)?;
                 if segment.after != After::Ends || cells.is_empty() {
                     return Ok(None);
                 }
@@ -123,31 +104,33 @@ impl EqualGains<'_> {
     }
 
     fn one_turn(&self, kinetic: f64) -> Option<OneTurn> {
-        let (start, direction) = (self.start, self.direction);
-        OneTurn::new(self.profile, start, direction, kinetic)
+        let begin = KineticState {
+            kinetic,
+            energy_error: 0.0,
+            ..self.begin
+        };
+        OneTurn::new(self.profile, begin)
     }
 
     /// Computes the cell that begins with a turn; none if the crank is too near rest.
-    fn cell(&self, first: Mark) -> Option<EulerMaclaurinCell> {
+    fn cell(&self, first: TurnStart) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
-        let least = here.least(first.kinetic);
-        let mut share = 1.0;
-        while share > NARROWEST && least > 0.0 {
-            let made = if self.gain >= 0.0 {
-                let width = share * WIDEST * least;
-                EulerMaclaurinCell::new(first, first.kinetic, width, self.gain, here.clone())
+        let least = Some(here.least(first.kinetic)).filter(|least| *least > 0.0)?;
+        // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that
+        // energy vanishes. Least width over the largest.
+        let (widest, narrowest) = (1.5, 1e-3);
+        let cell = |share: f64| {
+            let (low, width, turn) = if self.gain >= 0.0 {
+                (first.kinetic, share * widest * least, here.clone())
             } else {
                 // The width has the same ratio to the least energy at the other end of the cell.
-                let width = share * least * WIDEST / (1.0 + WIDEST);
-                self.one_turn(first.kinetic - width).and_then(|turn| {
-                    EulerMaclaurinCell::new(first, first.kinetic - width, width, self.gain, turn)
-                })
+                let width = share * least * widest / (1.0 + widest);
+                let low = first.kinetic - width;
+                (low, width, self.one_turn(low)?)
             };
-            if made.is_some() {
-                return made;
-            }
-            share *= 0.5;
-        }
-        None
+            EulerMaclaurinCell::new(first, low, width, self.gain, turn)
+        };
+        let shares = std::iter::successors(Some(1.0), |share| Some(0.5 * share));
+        shares.take_while(|share| *share > narrowest).find_map(cell)
     }
 }

@@ -3,19 +3,18 @@
 use super::Orbit;
 use super::panel::Panel;
 use super::piece::Turning;
-use super::segment::Segment;
 
 /// Returns the error bound (J) of the initial kinetic energy (J) due to the rounded angle (rad): next to a limit
 /// position the inertia is steep. `inertias`: at the angle, and at a distance `beside` from it, rad.
-pub(in crate::engine) fn off_by_place(
+pub(in crate::engine) fn energy_error_of_angle(
     theta: f64,
     kinetic: f64,
     inertias: [f64; 2],
     beside: f64,
 ) -> f64 {
     let slope = (inertias[1] - inertias[0]) / (beside * inertias[0]);
-    let off = (0.5 * f64::EPSILON * theta * slope * kinetic).abs();
-    if off.is_finite() { off } else { 0.0 }
+    let error = (0.5 * f64::EPSILON * theta * slope * kinetic).abs();
+    if error.is_finite() { error } else { 0.0 }
 }
 
 impl Orbit {
@@ -27,11 +26,11 @@ impl Orbit {
             + later.map_or(0.0, |later| later.error);
         let duration = later.map_or(self.forward.duration.0, |later| later.end())
             + back.map_or(0.0, |segment| segment.duration.0);
-        let left_out = match self.panel_at(until) {
-            Some((panel, _)) => panel.left_out(),
-            None => self.forward.left_out,
+        let truncation_error = match self.panel_at(until) {
+            Some((panel, _)) => panel.truncation_error(),
+            None => self.forward.truncation_error,
         };
-        error / duration * until + left_out
+        error / duration * until + truncation_error
     }
 
     /// Returns the rounding error of the crank angle at a time (s), rad, as the sum of a distance on a panel and an
@@ -46,14 +45,14 @@ impl Orbit {
     pub fn speed_error(&self, t: f64) -> f64 {
         self.panel_at(t)
             .map_or(self.forward.tail, |(panel, after)| {
-                panel.left_out_of_speed(after)
+                panel.speed_truncation_error(after)
             })
     }
 
     /// Returns the error bound of the kinetic energy (J) at a time (s), J.
     pub fn energy_error(&self, t: f64, kinetic: f64) -> f64 {
-        self.panel_at(t).map_or(self.off, |(panel, _)| {
-            panel.off
+        self.panel_at(t).map_or(self.energy_error, |(panel, _)| {
+            panel.energy_error
                 * match panel.piece.turning {
                     Turning::Nowhere => 1.0,
                     _ => kinetic,
@@ -63,9 +62,9 @@ impl Orbit {
 
     /// Returns the error bound of the turning point next to the state at a time (s), rad; zero on a panel without
     /// turning point. Where the crank is slow, its angle has this error, however exact the time.
-    pub fn misplaced(&self, t: f64) -> f64 {
+    pub fn turning_point_error(&self, t: f64) -> f64 {
         let there = self.panel_at(t).filter(|_| self.turns_back());
-        there.map_or(0.0, |(panel, _)| panel.misplaced)
+        there.map_or(0.0, |(panel, _)| panel.turning_point_error)
     }
 
     /// Returns the panel at a time (s) and the time since its start, s; none after the first of many turns.
@@ -73,19 +72,7 @@ impl Orbit {
         if self.later.is_some() && t > self.forward.duration.0 {
             return None;
         }
-        let (_, after) = self.split(t);
-        if !self.turns_back() {
-            return self.forward.panel_at(after);
-        }
-        let there = 2.0 * self.forward.duration.0;
-        match &self.backward {
-            Some(back) if after > there => to_and_fro(back, after - there),
-            _ => to_and_fro(&self.forward, after % there),
-        }
+        let (segment, at, _) = self.located(self.split(t).1);
+        segment.panel_at(at)
     }
-}
-
-/// Returns the panel of a segment that is traversed to and fro, and the time since its start, s.
-fn to_and_fro(segment: &Segment, since: f64) -> Option<(&Panel, f64)> {
-    segment.panel_at(since.min(2.0 * segment.duration.0 - since))
 }

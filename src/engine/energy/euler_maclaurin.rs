@@ -2,22 +2,16 @@
 //!
 //! Turn n takes the time T(K₀ + nW). T is expanded in a Chebyshev series over a cell of the energy.
 
-use super::interpolated_turns::Mark;
+use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
-use super::segment::Segment;
 use crate::numeric::chebyshev::{Rule, Series};
 use crate::numeric::exact::{SUM_ROUNDING, two_sum};
 use crate::numeric::gauss;
 
-/// Degree of the series over the energy.
-const DEGREE: usize = 24;
-/// Largest step of x per turn for the Euler-Maclaurin sum: the first omitted term is below rounding.
-const SMALL_STEP: f64 = 1.0 / 64.0;
-
 /// Turns over a range of the kinetic energy at their start, x in [−1, 1].
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct EulerMaclaurinCell {
-    pub first: Mark,
+    pub first: TurnStart,
     /// Number of turns to the next cell.
     pub count: f64,
     /// Change of x per turn.
@@ -27,7 +21,7 @@ pub(in crate::engine) struct EulerMaclaurinCell {
     /// Kinetic energy gained per turn, J.
     gain: f64,
     /// Duration T at the middle of the cell, s.
-    usual: f64,
+    middle_duration: f64,
     /// Series of T minus its middle value, s: a small variation of T keeps all its digits.
     difference: Series,
     /// Tail of the series, relative to T.
@@ -36,7 +30,7 @@ pub(in crate::engine) struct EulerMaclaurinCell {
     slope: Series,
     /// End terms of the Euler-Maclaurin sum, s.
     correction: Series,
-    turn: OneTurn,
+    pub turn: OneTurn,
 }
 
 /// Returns the end terms of the Euler-Maclaurin sum: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; constants cancel.
@@ -57,18 +51,19 @@ impl EulerMaclaurinCell {
     /// Makes the cell of this width upwards from the energy `low`, J; none if its series does not resolve T to
     /// rounding, or it holds no turn.
     pub fn new(
-        first: Mark,
+        first: TurnStart,
         low: f64,
         width: f64,
         gain: f64,
         turn: OneTurn,
     ) -> Option<EulerMaclaurinCell> {
-        let (half, rule) = (0.5 * width, Rule::of(DEGREE));
+        let degree = 24;
+        let (half, rule) = (0.5 * width, Rule::of(degree));
         let middle = low + half;
-        let usual = turn.duration(middle);
-        let differences = rule.values(|x| turn.duration(middle + half * x) - usual);
+        let middle_duration = turn.duration(middle);
+        let differences = rule.values(|x| turn.duration(middle + half * x) - middle_duration);
         let difference = rule.series(&differences);
-        let tail = difference.tail() * (difference.largest() / usual);
+        let tail = difference.tail() * (difference.largest() / middle_duration);
         let step = gain / half;
         let count = (2.0 / step.abs()).floor();
         (tail <= SUM_ROUNDING && count >= 1.0).then(|| EulerMaclaurinCell {
@@ -79,7 +74,7 @@ impl EulerMaclaurinCell {
             gain,
             correction: correction(&difference, step),
             slope: difference.derivative(),
-            usual,
+            middle_duration,
             difference,
             tail,
             turn,
@@ -91,18 +86,20 @@ impl EulerMaclaurinCell {
         turns.mul_add(self.step, begin)
     }
 
-    fn kinetic(&self, turns: f64) -> f64 {
-        turns.mul_add(self.gain, self.first.kinetic)
+    /// True if the durations of turns vary too much for the Euler-Maclaurin sum: the first omitted term is below
+    /// rounding for smaller changes of x per turn. They are then added one by one.
+    fn varies_much(&self) -> bool {
+        self.step.abs() > 1.0 / 64.0
     }
 
     /// Returns the duration of the turn after the first `turns`, s.
     fn duration(&self, turns: f64) -> f64 {
-        self.usual + self.difference.value(self.x(turns))
+        self.middle_duration + self.difference.value(self.x(turns))
     }
 
     /// Returns the total duration of the first `turns` turns, s.
     pub fn time(&self, turns: f64) -> f64 {
-        let of_difference = if self.step.abs() > SMALL_STEP {
+        let of_difference = if self.varies_much() {
             let each = (0..turns as u32).map(|i| self.difference.value(self.x(f64::from(i))));
             each.sum()
         } else {
@@ -113,14 +110,14 @@ impl EulerMaclaurinCell {
                 .sum();
             turns * mean + (self.correction.value(to) - self.correction.value(from))
         };
-        turns.mul_add(self.usual, of_difference)
+        turns.mul_add(self.middle_duration, of_difference)
     }
 
     /// Returns the number of turns completed at a time `after` the start of the first one, s.
     pub fn turn_at(&self, after: f64) -> f64 {
         let last = (self.count - 1.0).max(0.0);
         let mut turns = 0.0;
-        if self.step.abs() > SMALL_STEP {
+        if self.varies_much() {
             let mut left = after;
             while turns < last {
                 let duration = self.duration(turns);
@@ -154,28 +151,23 @@ impl EulerMaclaurinCell {
         }
     }
 
-    /// Computes the motion in a turn that begins with a kinetic energy, J.
-    pub fn segment(&self, kinetic: f64) -> Segment {
-        self.turn.segment(kinetic)
-    }
-
     /// Returns the start of the turn after the first `turns` of the cell.
-    pub fn mark(&self, turns: f64) -> Mark {
+    pub fn mark(&self, turns: f64) -> TurnStart {
         let (sum, lost) = two_sum(self.first.t.0, self.time(turns));
-        Mark {
+        TurnStart {
             turns: self.first.turns + turns,
             t: two_sum(sum, lost + self.first.t.1),
-            kinetic: self.kinetic(turns),
-            work: 0.0,
-            low: [0.0; 2],
+            kinetic: turns.mul_add(self.gain, self.first.kinetic),
+            ..TurnStart::default()
         }
     }
 
-    /// Returns the error bound of the duration of `turns` turns, s, for an error `off` of the energies, J.
-    pub fn error(&self, turns: f64, off: f64) -> f64 {
-        let off = off + f64::EPSILON * self.turn.largest_work();
+    /// Returns the error bound of the duration of `turns` turns, s, for an error of the energies, J.
+    pub fn error(&self, turns: f64, energy_error: f64) -> f64 {
+        let energy_error = energy_error + f64::EPSILON * self.turn.largest_work();
         let steepest = [0.0, turns].map(|turns| self.slope.value(self.x(turns)).abs() / self.half);
         let steepest = steepest[0].max(steepest[1]);
-        turns * steepest * off + (self.tail / DEGREE as f64 + self.turn.error) * self.time(turns)
+        let truncation = self.tail / self.difference.degree() as f64;
+        turns * steepest * energy_error + (truncation + self.turn.error) * self.time(turns)
     }
 }

@@ -16,35 +16,19 @@ pub(super) struct Extreme {
 }
 
 impl Panel {
-    /// Returns the largest sign·|speed| among the points, rad/s; `sign` is +1 or −1.
-    pub fn extreme_at_points(&self, sign: f64) -> f64 {
-        sign * self.extremes[usize::from(sign > 0.0)].speed
-    }
-
-    /// Returns an upper bound of sign·|speed| on the panel, rad/s.
-    pub fn extreme_bound(&self, sign: f64) -> f64 {
-        self.extreme_at_points(sign) + self.extremes[usize::from(sign > 0.0)].step
-    }
-
-    /// Returns the largest sign·|speed| on the panel, rad/s.
-    pub fn extreme(&self, sign: f64) -> f64 {
-        let index = self.extremes[usize::from(sign > 0.0)].point;
-        self.extreme_near(self.rule.points(), index, sign)
-    }
-
     /// Returns the largest sign·|speed| near one of some points, rad/s: at the point, or beside it where the derivative
     /// of the speed vanishes.
     fn extreme_near(&self, points: &[f64], index: usize, sign: f64) -> f64 {
         let from = points[index.saturating_sub(1)];
         let to = points[(index + 1).min(self.rule.degree())];
         let bend = self.slope.derivative();
-        // The speed is stretch/slope.
+        // The speed is dθ/dx over dt/dx.
         let rate = |x: f64| {
-            let stretched = match self.piece.stretch_rate() {
+            let bent = match self.piece.d2theta() {
                 0.0 => 0.0,
-                rate => rate * self.slope.value(x),
+                bent => bent * self.slope.value(x),
             };
-            stretched - self.piece.stretch(x) * bend.value(x)
+            bent - self.piece.dtheta(x) * bend.value(x)
         };
         let at_point = sign * self.speed(points[index]).abs();
         // At an extreme the speed is insensitive to the position.
@@ -66,22 +50,14 @@ impl Panel {
 /// Returns the slowest and the fastest point, from dt/dx at the points.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
     let half = 0.5 * piece.span().abs();
-    match piece.turning {
-        Turning::Nowhere => extremes_of(&slopes[..=rule.degree()], half),
-        // The speed is stretch/slope, in magnitude.
-        _ => {
-            let mut index = 0;
-            let slowness = rule.values(|x| {
-                index += 1;
-                half * slopes[index - 1] / piece.stretch(x).abs()
-            });
-            extremes_of(&slowness[..=rule.degree()], half)
+    // Time, s, for half the piece at the speed of each point: |dθ/dx| over dt/dx.
+    let mut slowness = *slopes;
+    if piece.turning != Turning::Nowhere {
+        for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
+            *slowness = half * *slowness / piece.dtheta(*x).abs();
         }
     }
-}
-
-/// Returns the extremes of the speed; `slowness` is the time (s) for half the piece at the speed of each point.
-fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
+    let slowness = &slowness[..=rule.degree()];
     let (mut slow, mut fast) = (0, 0);
     for (j, here) in slowness.iter().enumerate() {
         if *here > slowness[slow] {
@@ -104,13 +80,16 @@ fn extremes_of(slowness: &[f64], half: f64) -> [Extreme; 2] {
     })
 }
 
-/// Returns the largest sign·|speed| on panels, rad/s; only panels whose bound admits it are searched between points.
+/// Returns the largest sign·|speed| on panels, rad/s; `sign` is +1 or −1. Only panels whose bound admits it are
+/// searched between points.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
-    let at_points = panels.iter().map(|panel| panel.extreme_at_points(sign));
+    let of = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
+    let at_points = panels.iter().map(|panel| sign * of(panel).speed);
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
     for panel in panels {
-        if panel.extreme_bound(sign) > best {
-            best = best.max(panel.extreme(sign));
+        let Extreme { point, speed, step } = of(panel);
+        if sign * speed + step > best {
+            best = best.max(panel.extreme_near(panel.rule.points(), point, sign));
         }
     }
     best

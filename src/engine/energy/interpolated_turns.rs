@@ -5,8 +5,8 @@ use crate::numeric::chebyshev::{Rule, Series};
 use crate::numeric::exact::two_sum;
 
 /// Start of a turn.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Mark {
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::engine) struct TurnStart {
     /// Number of turns before it, without sign.
     pub turns: f64,
     /// Time, s: rounded value and remainder.
@@ -19,19 +19,19 @@ pub(in crate::engine) struct Mark {
     pub low: [f64; 2],
 }
 
-impl Mark {
-    /// Returns the time from this mark to a time, s.
+impl TurnStart {
+    /// Returns the time from this start to a time, s.
     pub fn until(&self, t: f64) -> f64 {
         (t - self.t.0) - self.t.1
     }
 
-    /// Returns the start of the turn after `count` cycles like `step`.
-    pub fn after(&self, step: &Turn, count: f64) -> Mark {
-        let (sum, lost) = two_sum(self.t.0, count * step.duration);
-        let (kinetic, kinetic_low) = two_sum(self.kinetic, count * step.gain + self.low[0]);
-        let (work, work_low) = two_sum(self.work, count * step.work + self.low[1]);
-        Mark {
-            turns: self.turns + count * step.count,
+    /// Returns the start of the turn after `count` equal cycles.
+    pub fn after(&self, cycle: &Cycle, count: f64) -> TurnStart {
+        let (sum, lost) = two_sum(self.t.0, count * cycle.duration);
+        let (kinetic, kinetic_low) = two_sum(self.kinetic, count * cycle.gain + self.low[0]);
+        let (work, work_low) = two_sum(self.work, count * cycle.work + self.low[1]);
+        TurnStart {
+            turns: self.turns + count * cycle.count,
             t: two_sum(sum, lost + self.t.1),
             kinetic,
             work,
@@ -42,7 +42,7 @@ impl Mark {
 
 /// Changes over one cycle.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Turn {
+pub(in crate::engine) struct Cycle {
     /// Number of turns in the cycle.
     pub count: f64,
     /// Duration, s.
@@ -69,23 +69,23 @@ pub(in crate::engine) struct Cell {
 
 impl Cell {
     /// Makes a cell from cycles that begin with the energies `middle + half·x`, J, at the points x of a rule.
-    pub fn new(middle: f64, half: f64, rule: &'static Rule, turns: Vec<(Segment, Turn)>) -> Cell {
-        let series = |of: fn(&Turn) -> f64| {
+    pub fn new(middle: f64, half: f64, rule: &'static Rule, cycles: Vec<(Segment, Cycle)>) -> Cell {
+        let series = |of: fn(&Cycle) -> f64| {
             let mut values = [0.0; crate::numeric::chebyshev::MAX_DEGREE + 1];
-            for (value, (_, turn)) in values.iter_mut().zip(&turns) {
-                *value = of(turn);
+            for (value, (_, cycle)) in values.iter_mut().zip(&cycles) {
+                *value = of(cycle);
             }
             rule.series(&values)
         };
         Cell {
-            count: turns.first().map_or(1.0, |(_, turn)| turn.count),
+            count: cycles.first().map_or(1.0, |(_, cycle)| cycle.count),
             middle,
             half,
             rule,
-            duration: series(|turn| turn.duration),
-            gain: series(|turn| turn.gain),
-            work: series(|turn| turn.work),
-            segments: turns.into_iter().map(|(segment, _)| segment).collect(),
+            duration: series(|cycle| cycle.duration),
+            gain: series(|cycle| cycle.gain),
+            work: series(|cycle| cycle.work),
+            segments: cycles.into_iter().map(|(segment, _)| segment).collect(),
         }
     }
 
@@ -99,9 +99,10 @@ impl Cell {
         (kinetic - self.middle).abs() <= self.half
     }
 
-    pub fn turn(&self, kinetic: f64) -> Turn {
+    /// Returns the changes over the cycle that starts with this energy, J.
+    pub fn cycle(&self, kinetic: f64) -> Cycle {
         let x = (kinetic - self.middle) / self.half;
-        Turn {
+        Cycle {
             count: self.count,
             duration: self.duration.value(x),
             gain: self.gain.value(x),
@@ -129,8 +130,8 @@ impl Interpolated {
     }
 
     /// Returns the changes over the cycle that starts with this energy (J); none where no cell covers it.
-    pub fn turn(&self, kinetic: f64) -> Option<Turn> {
-        Some(self.cell(kinetic)?.turn(kinetic))
+    pub fn cycle(&self, kinetic: f64) -> Option<Cycle> {
+        Some(self.cell(kinetic)?.cycle(kinetic))
     }
 
     /// Computes the motion in that cycle; no panels where no cell covers the energy.

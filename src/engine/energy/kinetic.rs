@@ -1,9 +1,11 @@
-//! Kinetic energy on a piece, by integration of the force series, with its rounding floor.
+//! Kinetic energy on a piece, by integration of the force series, with its rounding floor, and the errors of the time
+//! due to errors of forces and energies.
 
-use super::panel::Tried;
+use super::panel::Attempt;
 use super::piece::{Piece, SAME_ANGLE, Turning};
 use super::profile::NotApplicable;
 use crate::numeric::chebyshev::{Rule, Series, Values};
+use crate::numeric::median::range;
 use crate::numeric::{gauss, root};
 
 /// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a
@@ -45,7 +47,7 @@ impl Energy<'_> {
     }
 
     /// Returns the truncation error of the energy due to the force series, J.
-    pub fn left_out(&self) -> f64 {
+    pub fn truncation_error(&self) -> f64 {
         let largest = self.force.largest() * self.piece.span().abs();
         self.force.tail() * largest / self.rule.degree() as f64
     }
@@ -75,10 +77,10 @@ impl Energy<'_> {
     }
 
     /// Locates the turning point just before the point `j`, at which the energy is not positive.
-    pub fn turns_before(&self, j: usize) -> Tried {
+    pub fn turns_before(&self, j: usize) -> Attempt {
         let points = self.rule.points();
         if j == 0 {
-            return Tried::Unresolved;
+            return Attempt::Unresolved;
         }
         let work = self.force.integral();
         let half = 0.5 * self.piece.span();
@@ -91,14 +93,11 @@ impl Energy<'_> {
             points[j],
         );
         match x {
-            Some(x) if x > -1.0 => Tried::TurnsAfter(self.piece.way_to(x)),
-            _ => Tried::Unresolved,
+            Some(x) if x > -1.0 => Attempt::TurnsAfter(self.piece.way_to(x)),
+            _ => Attempt::Unresolved,
         }
     }
 }
-
-/// Sum of the last two terms of a series due to rounding of its values, in units of that rounding.
-const SEEN_UNITS: f64 = 8.0;
 
 /// Rounding floor of the last terms of series, relative to the largest term.
 pub(super) struct Noise {
@@ -111,23 +110,91 @@ impl Noise {
     /// Estimates the floor on a panel from the rounding of angles, by the ranges of inertia and force, and from the
     /// rounding error of the force itself, N m. The kinetic energy is a force times a distance, which is not rounded.
     pub fn of(energy: &Energy<'_>, inertia: &Values, force: &Values, rounding: f64) -> Noise {
-        let range = |values: &Values| {
-            let none = (f64::INFINITY, f64::NEG_INFINITY);
-            let ends = |(low, high): (f64, f64), v: &f64| (low.min(*v), high.max(*v));
-            values.iter().fold(none, ends)
-        };
         let ((light, heavy), (low, high)) = (range(inertia), range(force));
         let span = energy.piece.span().abs();
-        let units = SEEN_UNITS * f64::EPSILON;
-        let place = units * energy.piece.from.abs() / span;
-        let off = place * (high - low) + SEEN_UNITS * rounding;
+        // Sum of the last two terms of a series due to rounding of its values, in roundings.
+        let last_terms = 8.0;
+        let units = last_terms * f64::EPSILON;
+        let angle_rounding = units * energy.piece.from.abs() / span;
+        let force_error = angle_rounding * (high - low) + last_terms * rounding;
         let of_energy = match energy.piece.turning {
-            Turning::Nowhere => off * span / energy.kinetic,
-            _ => off / low.abs().min(high.abs()),
+            Turning::Nowhere => force_error * span / energy.kinetic,
+            _ => force_error / low.abs().min(high.abs()),
         };
         Noise {
-            force: units + off / low.abs().max(high.abs()),
-            slope: (units + place * (heavy - light) / heavy + of_energy).min(units + place),
+            force: units + force_error / low.abs().max(high.abs()),
+            slope: (units + angle_rounding * (heavy - light) / heavy + of_energy)
+                .min(units + angle_rounding),
         }
+    }
+}
+
+/// Variation and rounding of the force on a panel.
+pub(super) struct TimeSensitivity {
+    /// Force at the turning point, if there is one, N m.
+    at_turn: f64,
+    /// Ratio of the force at the other end to the force at the turning point.
+    rise: f64,
+    /// Rounding error of the force at an end, mainly due to the rounded angle, N m.
+    rounding: f64,
+    /// Rounding error of the energy gained, J.
+    pub energy: f64,
+}
+
+impl TimeSensitivity {
+    /// Computes the sensitivity on a panel; `noise` is the rounding error of the force beyond that of angles, N m.
+    pub fn of(piece: &Piece, force: &Values, noise: f64) -> TimeSensitivity {
+        let (low, high) = range(force);
+        // Fraction of the rounding error of an angle in the mean over the 33 points of a panel, about 1/√33.
+        let averaged = 0.18;
+        let angle_rounding = 0.5 * f64::EPSILON * piece.from.abs().max(piece.to.abs());
+        let [start, .., end] = *force;
+        let [at_turn, other] = match piece.turning {
+            Turning::AtEnd => [end, start],
+            _ => [start, end],
+        };
+        TimeSensitivity {
+            at_turn: at_turn.abs(),
+            rise: other / at_turn,
+            rounding: angle_rounding * (high - low) / piece.span().abs() + noise,
+            energy: averaged * angle_rounding * (high - low) + noise * piece.span().abs(),
+        }
+    }
+
+    /// Returns the error of a turning point at the end, rad, due to an error of the energy (J) and to rounding.
+    pub fn turning_point_error(&self, piece: &Piece, energy_error: f64) -> f64 {
+        // Rounded factors of both energies move a turning point even where the energy difference is exact.
+        let factors = 3.0;
+        match piece.turning {
+            Turning::AtEnd => (factors * energy_error / self.at_turn).min(piece.span().abs()),
+            _ => 0.0,
+        }
+    }
+
+    /// Returns the relative error of the time on a panel with a turning point, for an error (J) of the kinetic energy
+    /// (J) at the other end.
+    ///
+    /// The model is a force that grows linearly from the turning point, F = F₀ (1 + (q − 1) u): the time is
+    /// arcosh(q)/λ, λ² being the slope of the force over the inertia. Errors are large where q is, next to an unstable
+    /// equilibrium. For q ≤ 1 they are at most those under a constant force.
+    pub fn at_turn(&self, piece: &Piece, kinetic: f64, energy_error: f64) -> f64 {
+        // A force at the turning point below the rounding of the other is zero.
+        let q = self.rise.min(1.0 / f64::EPSILON);
+        // Half of the digits of q − 1 have to remain.
+        let (by_force, by_energy) = if q > 1.0 + f64::EPSILON.sqrt() {
+            let arc = q.acosh();
+            (
+                ((q - 1.0) / (q + 1.0)).sqrt() / arc,
+                q * (q * q - 1.0).sqrt() / arc,
+            )
+        } else {
+            (0.5, 1.0)
+        };
+        // The error of the turning point is limited by its distance from the equilibrium.
+        let of_turning_point = by_force * (self.rounding / self.at_turn).min(2.0);
+        if piece.turning == Turning::AtStart {
+            return of_turning_point;
+        }
+        of_turning_point.hypot(0.5 * by_energy * energy_error / kinetic)
     }
 }

@@ -17,11 +17,10 @@ mod one_turn;
 mod orbit;
 pub(in crate::engine) mod panel;
 pub(in crate::engine) mod piece;
-mod places;
+mod positions;
 mod profile;
 pub(in crate::engine) mod segment;
-mod time_sensitivity;
-mod turn_closure;
+mod turn_end;
 mod turning_points;
 pub(in crate::engine) mod turns;
 

@@ -1,16 +1,16 @@
 //! One turn at any kinetic energy, from tabulated inertia and work.
 
-use super::build::Begin;
-use super::panel::{DEGREE, Panel};
-use super::piece::{Piece, missing};
+use super::build::KineticState;
+use super::panel::Panel;
+use super::piece::{Piece, turn_remainder};
 use super::profile::Profile;
 use super::segment::{After, Segment};
-use crate::numeric::chebyshev::{ROUNDING, Rule, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, SERIES_ROUNDING, Values};
 use crate::numeric::exact::two_sum;
 
 /// Panel with inertia (kg m²) and work since the start of the turn (J) at its points.
 #[derive(Clone, Debug)]
-struct Station {
+struct TabulatedPanel {
     piece: Piece,
     inertia: Values,
     work: Values,
@@ -19,71 +19,63 @@ struct Station {
 /// Panels of a turn, fine enough for all kinetic energies from the one for which it was made.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct OneTurn {
-    stations: Vec<Station>,
+    panels: Vec<TabulatedPanel>,
     /// Part of a whole turn that the rounded angles of its ends leave out, rad.
-    missing: f64,
+    turn_remainder: f64,
     /// Bound of the relative error of the duration.
     pub error: f64,
 }
 
 impl OneTurn {
-    /// Makes the turn for the kinetic energy `kinetic` (J) at its start; none if the crank does not complete it, or
-    /// only just.
-    pub fn new(profile: &dyn Profile, start: f64, direction: f64, kinetic: f64) -> Option<OneTurn> {
-        let until = f64::INFINITY;
-        let begin = Begin {
-            start,
-            direction,
-            kinetic,
-            off: 0.0,
-        };
+    /// Makes the turn from a state; none if the crank does not complete it, or only just.
+    pub fn new(profile: &dyn Profile, begin: KineticState) -> Option<OneTurn> {
         // Truncation errors add up over the turns.
-        let segment = Segment::build(profile, begin, until, ROUNDING, 1.0).ok()?;
+        let segment = Segment::build(profile, begin, f64::INFINITY, SERIES_ROUNDING, 1.0).ok()?;
         if segment.after != After::GoesOn {
             return None;
         }
-        let rule = Rule::of(DEGREE);
+        let rule = Rule::of(MAX_DEGREE);
         let mut done = 0.0;
-        let stations = segment.pieces().map(|piece| {
-            let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        let panels = segment.pieces().map(|piece| {
+            let (mut inertia, mut force) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
             let angles = rule.values(|x| piece.angle(x));
-            profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
+            profile.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
             let half = 0.5 * piece.span();
             let work = rule.integrals(&force).map(|work| done + half * work);
-            done = work[DEGREE];
-            Station {
+            done = work[MAX_DEGREE];
+            TabulatedPanel {
                 piece,
                 inertia,
                 work,
             }
         });
         Some(OneTurn {
-            stations: stations.collect(),
-            missing: missing(start, direction),
+            panels: panels.collect(),
+            turn_remainder: turn_remainder(begin.angle, begin.direction),
             error: segment.error / segment.duration.0,
         })
     }
 
     /// Returns the least kinetic energy in the turn, J.
     pub fn least(&self, kinetic: f64) -> f64 {
-        let works = self.stations.iter().flat_map(|station| &station.work);
+        let works = self.panels.iter().flat_map(|panel| &panel.work);
         kinetic + works.fold(f64::INFINITY, |least, work| least.min(*work))
     }
 
     /// Returns the largest magnitude of the work done in the turn, J.
     pub fn largest_work(&self) -> f64 {
-        let works = self.stations.iter().flat_map(|station| &station.work);
+        let works = self.panels.iter().flat_map(|panel| &panel.work);
         works.fold(0.0, |largest, work| largest.max(work.abs()))
     }
 
     /// Returns the duration of the turn, s.
     pub fn duration(&self, kinetic: f64) -> f64 {
-        let rule = Rule::of(DEGREE);
-        let first = &self.stations[0];
-        let mut rest = self.missing * (0.5 * first.inertia[0] / kinetic).sqrt();
+        let rule = Rule::of(MAX_DEGREE);
+        let first = &self.panels[0];
+        let mut rest = self.turn_remainder * (0.5 * first.inertia[0] / kinetic).sqrt();
         let mut sum = 0.0;
-        for station in &self.stations {
-            let (duration, lost) = rule.integral(&station.slopes(kinetic));
+        for panel in &self.panels {
+            let (duration, lost) = rule.integral(&panel.slopes(kinetic));
             let (next, lost_here) = two_sum(sum, duration);
             sum = next;
             rest += lost + lost_here;
@@ -94,24 +86,25 @@ impl OneTurn {
     /// Computes the motion in the turn at a kinetic energy, J.
     pub fn segment(&self, kinetic: f64) -> Segment {
         let mut segment = Segment::open();
-        for station in &self.stations {
-            segment.push(station.panel(kinetic));
+        for panel in &self.panels {
+            segment.push(panel.at(kinetic));
         }
         segment
     }
 }
 
-impl Station {
+impl TabulatedPanel {
     /// Computes dt/dx at the points, s.
     fn slopes(&self, kinetic: f64) -> Values {
         let half = 0.5 * self.piece.span().abs();
         std::array::from_fn(|j| half * (0.5 * self.inertia[j] / (kinetic + self.work[j])).sqrt())
     }
 
-    fn panel(&self, kinetic: f64) -> Panel {
-        let rule = Rule::of(DEGREE);
+    /// Computes the motion on the panel for a kinetic energy at the start of the turn, J.
+    fn at(&self, kinetic: f64) -> Panel {
+        let rule = Rule::of(MAX_DEGREE);
         let slopes = self.slopes(kinetic);
-        let end = kinetic + self.work[DEGREE];
+        let end = kinetic + self.work[MAX_DEGREE];
         Panel::from_slopes(self.piece, rule, &slopes, rule.series(&slopes), 0.0, end)
     }
 }

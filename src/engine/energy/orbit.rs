@@ -2,18 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use super::build::Begin;
+use super::build::KineticState;
 use super::equal_gains::EqualGains;
-use super::error_bound::off_by_place;
+use super::error_bound::energy_error_of_angle;
 use super::kinetic::at_start;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::Turns;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
-
-/// Turns that are computed one by one before the rest is summed.
-const FIRST_TURNS: f64 = 16.0;
 
 /// Motion known from its energy: angle and speed as functions of time.
 #[derive(Clone, Debug)]
@@ -25,7 +22,7 @@ pub struct Orbit {
     /// True if the start is a turning point.
     pub(super) from_rest: bool,
     /// Error bound of the kinetic energy at the start, J.
-    pub(super) off: f64,
+    pub(super) energy_error: f64,
     pub(super) forward: Segment,
     /// Segment from the start in the other direction, for motions that turn back.
     pub(super) backward: Option<Segment>,
@@ -56,35 +53,36 @@ impl Orbit {
             speed.signum()
         };
         // The kinetic energy is a product of rounded factors; an angle in the first turn is exact.
-        let mut off = f64::EPSILON * kinetic;
+        let mut energy_error = f64::EPSILON * kinetic;
         if start.turns != 0.0 {
             let apart = f64::EPSILON.sqrt();
             let beside = profile.inertia_and_force(theta + apart).0;
-            off = off.hypot(off_by_place(theta, kinetic, [inertia, beside], apart));
+            let of_angle = energy_error_of_angle(theta, kinetic, [inertia, beside], apart);
+            energy_error = energy_error.hypot(of_angle);
         }
+        let begin = KineticState {
+            angle: theta,
+            direction,
+            kinetic,
+            energy_error,
+        };
         let segment = |direction: f64, until: f64, most_turns: f64| {
-            let begin = Begin {
-                start: theta,
-                direction,
-                kinetic,
-                off,
-            };
+            let begin = KineticState { direction, ..begin };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
-        let mut forward = segment(direction, until, FIRST_TURNS)?;
+        // Turns that are computed one by one before the rest is summed.
+        let first_turns = 16.0;
+        let mut forward = segment(direction, until, first_turns)?;
         let mut later = None;
         if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
-            let course = EqualGains {
+            let rest = EqualGains {
                 profile,
-                start: theta,
-                direction,
-                kinetic,
+                begin,
                 gain: direction * work,
                 gain_error,
-                off,
                 tolerance,
             };
-            later = course.turns(FIRST_TURNS, forward.duration, until)?;
+            later = rest.turns(first_turns, forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
                 forward = segment(direction, until, f64::INFINITY)?;
             }
@@ -102,7 +100,7 @@ impl Orbit {
             direction,
             speed,
             from_rest: kinetic == 0.0,
-            off,
+            energy_error,
             forward,
             backward,
             later: later.map(Box::new),
@@ -116,7 +114,7 @@ impl Orbit {
             direction: speed.signum(),
             speed,
             from_rest: false,
-            off: 0.0,
+            energy_error: 0.0,
             forward: segment,
             backward: None,
             later: None,
@@ -182,14 +180,15 @@ impl Orbit {
             return (Angle { turns, ..angle }, speed);
         }
         let (turns, after) = self.split(t);
-        let (angle, speed) = self.within(after);
+        let (segment, at, sense) = self.located(after);
+        let (angle, speed) = segment.state(at);
         let turns = if self.rotates() {
             self.direction * turns
         } else {
             0.0
         };
         let angle = Angle::new(self.start.turns + turns + angle.turns, angle.rest);
-        (angle, speed)
+        (angle, sense * speed)
     }
 
     /// Returns the number of whole periods before t, and the remaining time, s.
@@ -211,27 +210,25 @@ impl Orbit {
         }
     }
 
-    /// Returns the state within the first period.
-    pub(super) fn within(&self, t: f64) -> (Angle, f64) {
-        let there = self.forward.duration.0;
-        if t <= there || self.forward.after != After::TurnsBack {
-            return self.forward.state(t);
+    /// Returns the segment on which the motion is at a time (s) of the first period, the time since its start (s), and
+    /// the sense in which it is traversed, +1 or −1.
+    pub(super) fn located(&self, t: f64) -> (&Segment, f64, f64) {
+        let there_and_back = 2.0 * self.forward.duration.0;
+        if !self.turns_back() {
+            return (&self.forward, t, 1.0);
         }
-        let mirrored = |segment: &Segment, t: f64| {
-            let (angle, speed) = segment.state(t);
-            (angle, -speed)
+        let (segment, since) = if t <= there_and_back {
+            (&self.forward, t)
+        } else {
+            let back = self.backward.as_ref().unwrap_or(&self.forward);
+            (back, t - there_and_back)
         };
-        if t <= 2.0 * there {
-            return mirrored(&self.forward, 2.0 * there - t);
+        let end = segment.duration.0;
+        if since <= end {
+            (segment, since, 1.0)
+        } else {
+            (segment, 2.0 * end - since, -1.0)
         }
-        let Some(back) = &self.backward else {
-            return self.forward.state(t - 2.0 * there);
-        };
-        let since = t - 2.0 * there;
-        if since <= back.duration.0 {
-            return back.state(since);
-        }
-        mirrored(back, 2.0 * back.duration.0 - since)
     }
 
     /// Returns the time at which the crank has turned by `radians` from the start, s.
@@ -241,29 +238,29 @@ impl Orbit {
 
     /// Returns the time (s) at which the crank has turned by `radians` from the start, and its speed there (rad/s).
     pub fn passage(&self, radians: f64) -> Option<(f64, f64)> {
-        let turns = (radians / TAU).floor();
+        let whole = (radians / TAU).floor();
         let angle = |turns: f64| {
             Angle::new(
                 self.direction * turns,
-                self.start.rest + self.direction * (radians - (radians / TAU).floor() * TAU),
+                self.start.rest + self.direction * (radians - whole * TAU),
             )
         };
         if self.rotates() {
             let (after, speed) = self.forward.at(angle(0.0))?;
             let (period, low) = self.forward.duration;
-            let t = turns.mul_add(period, after) + turns * low;
+            let t = whole.mul_add(period, after) + whole * low;
             return Some((t.max(0.0), speed));
         }
-        let early = self.forward.at(angle(turns));
-        let early = early.map(|(t, speed)| (t.max(0.0), speed));
-        early.or_else(|| {
+        let first = self.forward.at(angle(whole));
+        let first = first.map(|(t, speed)| (t.max(0.0), speed));
+        first.or_else(|| {
             let later = self.later.as_ref()?;
             later.passage(radians, self.start.rest, self.direction)
         })
     }
 
     /// Returns the last segment.
-    pub(in crate::engine) fn last_leg(&self) -> &Segment {
+    pub(in crate::engine) fn last_segment(&self) -> &Segment {
         self.later
             .as_ref()
             .map_or(&self.forward, |later| &later.last)

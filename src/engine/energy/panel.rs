@@ -1,19 +1,11 @@
-//! Panel of the crank angle: dt/dθ and t as Chebyshev series.
+//! Panel of the crank angle: dt/dθ and t as Chebyshev series of the largest degree, which resolves half a turn of a
+//! usual engine to rounding.
 
 use super::extreme::{Extreme, extremes};
-use super::kinetic::{Energy, Noise};
-
+use super::kinetic::{Energy, Noise, TimeSensitivity};
 use super::piece::{Piece, Turning};
 use super::profile::{NotApplicable, Profile};
-use super::time_sensitivity::TimeSensitivity;
-use crate::numeric::chebyshev::{self, Rule, Series, Values};
-
-/// Degree of the series: half a turn of a usual engine is resolved to rounding.
-pub(super) const DEGREE: usize = chebyshev::MAX_DEGREE;
-
-/// Upper bound of the length of panels next to an equilibrium, rad. Half or twice this value changes the stated errors
-/// of 200 random runs by 12 % at most.
-const NEAR_BALANCE: f64 = 0.1;
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
 /// Piece of the crank angle with the series of the time on it.
 #[derive(Clone, Debug)]
@@ -35,15 +27,15 @@ pub(in crate::engine) struct Panel {
     /// Tail of the series of dt/dx: its last two coefficients, relative to the largest.
     pub tail: f64,
     /// Error bound of the turning point at the end, rad.
-    pub misplaced: f64,
+    pub turning_point_error: f64,
     /// Residual of the energy balance between the start and the turning point at the end, J.
-    pub missed: f64,
+    pub residual: f64,
     /// Error bound of the kinetic energy, J; on a panel with a turning point relative to that energy.
-    pub off: f64,
+    pub energy_error: f64,
 }
 
 /// Outcome of an attempted panel.
-pub(in crate::engine) enum Tried {
+pub(in crate::engine) enum Attempt {
     /// Resolved panel, and the error of the kinetic energy gained on it due to rounded angles, J.
     Done(Box<Panel>, f64),
     /// Coefficients not decayed: a shorter panel is needed.
@@ -54,7 +46,7 @@ pub(in crate::engine) enum Tried {
 
 /// Point of a piece at which the kinetic energy is known, with its error bound there, J.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) enum Uncertain {
+pub(in crate::engine) enum KnownEnergy {
     /// Start of the piece: the rounding on the piece adds to the error elsewhere.
     AtStart(f64),
     /// Turning point at the end, known independently of the piece.
@@ -63,25 +55,26 @@ pub(in crate::engine) enum Uncertain {
 
 impl Panel {
     /// Tries a panel with the kinetic energy `kinetic` (J) at its start; `tolerance` is the largest tail of a resolved
-    /// series, `uncertain` the error bound of the kinetic energy.
+    /// series, `known_energy` the error bound of the kinetic energy.
     pub fn attempt(
         profile: &dyn Profile,
         piece: Piece,
         kinetic: f64,
         tolerance: f64,
-        uncertain: Uncertain,
-    ) -> Result<Tried, NotApplicable> {
-        let rule = Rule::of(DEGREE);
-        let (mut inertia, mut force) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        known_energy: KnownEnergy,
+    ) -> Result<Attempt, NotApplicable> {
+        let rule = Rule::of(MAX_DEGREE);
+        let (mut inertia, mut force) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let angles = rule.values(|x| piece.angle(x));
-        profile.tabulate(&angles, DEGREE + 1, &mut inertia, &mut force);
+        profile.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
         let known = |values: &Values| values.iter().all(|value| value.is_finite());
         if !known(&inertia) || !known(&force) {
             return Err(NotApplicable::NotFinite);
         }
-        // Only next to an equilibrium, where panels are short, may forces be small differences of large ones.
-        let near_balance = piece.span().abs() < NEAR_BALANCE;
-        let rounding = if near_balance {
+        // Only next to an equilibrium, where panels are short, may forces be small differences of large ones. Half or
+        // twice this length, rad, changes the stated errors of 200 random runs by 12 % at most.
+        let near_balance = 0.1;
+        let rounding = if piece.span().abs() < near_balance {
             profile.rounding(piece.from)
         } else {
             0.0
@@ -95,7 +88,7 @@ impl Panel {
         };
         let noise = Noise::of(&energy, &inertia, &force, rounding);
         if !energy.is_resolved(tolerance, noise.force) {
-            return Ok(Tried::Unresolved);
+            return Ok(Attempt::Unresolved);
         }
         let kinetic: Values = match piece.turning {
             Turning::Nowhere => energy.kinetic_at_points(&force),
@@ -112,56 +105,56 @@ impl Panel {
             _ => 0.5 * (span * inertia[j] / kinetic[j].abs()).sqrt(),
         });
         if !slopes.iter().all(|slope| slope.is_finite()) {
-            return Ok(Tried::Unresolved);
+            return Ok(Attempt::Unresolved);
         }
         let slope = rule.series(&slopes);
         let tail = slope.tail();
         if tail > tolerance.max(noise.slope) {
-            return Ok(Tried::Unresolved);
+            return Ok(Attempt::Unresolved);
         }
-        let steep = TimeSensitivity::of(&piece, &force, rounding);
-        let missed = match piece.turning {
+        let sensitivity = TimeSensitivity::of(&piece, &force, rounding);
+        let residual = match piece.turning {
             Turning::AtEnd => energy.kinetic + 2.0 * span * kinetic[0],
             _ => 0.0,
         };
-        let off = match uncertain {
-            Uncertain::AtStart(off) => (off + steep.energy).hypot(missed),
-            Uncertain::AtTurn(off) => off,
+        let energy_error = match known_energy {
+            KnownEnergy::AtStart(error) => (error + sensitivity.energy).hypot(residual),
+            KnownEnergy::AtTurn(error) => error,
         };
-        let shaken = shaken(&energy, &steep, &slopes, &kinetic, off);
+        let rounding = duration_error(&energy, &sensitivity, &slopes, &kinetic, energy_error);
         let kinetic_at_end = match piece.turning {
-            Turning::Nowhere => kinetic[DEGREE],
-            Turning::AtStart => 2.0 * piece.span().abs() * energy.mean_force(1.0),
+            Turning::Nowhere => kinetic[MAX_DEGREE],
+            Turning::AtStart => 2.0 * span * energy.mean_force(1.0),
             Turning::AtEnd => 0.0,
         };
         let panel = Panel {
-            misplaced: steep.misplaced(&piece, off),
-            missed,
-            off: match piece.turning {
-                Turning::Nowhere => off,
-                Turning::AtStart => off / kinetic_at_end,
-                Turning::AtEnd => off / energy.kinetic,
+            turning_point_error: sensitivity.turning_point_error(&piece, energy_error),
+            residual,
+            energy_error: match piece.turning {
+                Turning::Nowhere => energy_error,
+                Turning::AtStart => energy_error / kinetic_at_end,
+                Turning::AtEnd => energy_error / energy.kinetic,
             },
-            ..Panel::from_slopes(piece, rule, &slopes, slope, shaken, kinetic_at_end)
+            ..Panel::from_slopes(piece, rule, &slopes, slope, rounding, kinetic_at_end)
         };
-        Ok(Tried::Done(Box::new(panel), steep.energy))
+        Ok(Attempt::Done(Box::new(panel), sensitivity.energy))
     }
 
-    /// Makes a panel from dt/dx at the points of a rule and its series; `shaken` is the relative error of dt/dx due to
-    /// rounding, `kinetic_at_end` in J.
+    /// Makes a panel from dt/dx at the points of a rule and its series; `rounding` is the relative error of dt/dx
+    /// beyond truncation, `kinetic_at_end` in J.
     pub fn from_slopes(
         piece: Piece,
         rule: &'static Rule,
         slopes: &Values,
         slope: Series,
-        shaken: f64,
+        rounding: f64,
         kinetic_at_end: f64,
     ) -> Panel {
         let duration = rule.integral(slopes);
         let tail = slope.tail();
         // The truncation error oscillates: its integral over the whole panel is smaller by the square of the degree
         // (that of the polynomial T_k is 2/(k² − 1)), for all terms that follow.
-        let uncertain = 8.0 * tail / (rule.degree() as f64).powi(2) + shaken;
+        let truncation = 8.0 * tail / (rule.degree() as f64).powi(2);
         Panel {
             piece,
             turns: 0.0,
@@ -170,11 +163,11 @@ impl Panel {
             slope,
             duration,
             kinetic_at_end,
-            error: uncertain * duration.0,
+            error: (truncation + rounding) * duration.0,
             tail,
-            misplaced: 0.0,
-            missed: 0.0,
-            off: 0.0,
+            turning_point_error: 0.0,
+            residual: 0.0,
+            energy_error: 0.0,
         }
     }
 
@@ -197,13 +190,13 @@ impl Panel {
     }
 
     /// Returns the truncation error of the time inside the panel, s.
-    pub fn left_out(&self) -> f64 {
+    pub fn truncation_error(&self) -> f64 {
         self.tail / self.rule.degree() as f64 * self.duration.0
     }
 
     /// Returns the truncation error of the speed a time `after` the start (s), relative to the speed: inversely
     /// proportional to dt/dx.
-    pub fn left_out_of_speed(&self, after: f64) -> f64 {
+    pub fn speed_truncation_error(&self, after: f64) -> f64 {
         let here = self.slope.value(self.position(after)).abs();
         self.tail * self.slope.largest() / here
     }
@@ -256,7 +249,19 @@ impl Panel {
 
     /// Returns the crank speed, rad/s.
     pub(super) fn speed(&self, x: f64) -> f64 {
-        self.piece.stretch(x) / self.slope.value(x)
+        self.piece.dtheta(x) / self.slope.value(x)
+    }
+
+    /// Replaces angles (rad) of a panel without turning points by |dt/dθ| there, s/rad.
+    pub fn slowness(&self, angles: &mut [f64]) {
+        let share = 2.0 / self.piece.span();
+        for angle in &mut *angles {
+            *angle = (*angle - self.piece.from) * share - 1.0;
+        }
+        self.slope.values(angles);
+        for slope in angles {
+            *slope *= share.abs();
+        }
     }
 
     /// Returns the time after the start (s) of an angle (rad), and the speed there (rad/s).
@@ -266,25 +271,28 @@ impl Panel {
     }
 }
 
-/// Returns the relative error of the duration of a panel due to the error `off` (J) of the kinetic energy. `slopes` and
+/// Returns the relative error of the duration of a panel due to an error (J) of the kinetic energy. `slopes` and
 /// `kinetic` are dt/dx and the kinetic energy (J) at the points.
-fn shaken(
+fn duration_error(
     energy: &Energy<'_>,
-    steep: &TimeSensitivity,
+    sensitivity: &TimeSensitivity,
     slopes: &Values,
     kinetic: &Values,
-    off: f64,
+    error: f64,
 ) -> f64 {
     let (piece, rule) = (&energy.piece, energy.rule);
-    let left_out = energy.left_out();
+    let truncation = energy.truncation_error();
     match piece.turning {
         Turning::Nowhere => {
             // dT/dK is the integral of dt/2K.
             let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
             let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
-            off * rule.rounded_integral(&early) / rule.rounded_integral(slopes) + left_out / least
+            error * rule.rounded_integral(&early) / rule.rounded_integral(slopes)
+                + truncation / least
         }
-        Turning::AtStart => steep.at_turn(piece, f64::INFINITY, off),
-        Turning::AtEnd => steep.at_turn(piece, energy.kinetic, off) + left_out / energy.kinetic,
+        Turning::AtStart => sensitivity.at_turn(piece, f64::INFINITY, error),
+        Turning::AtEnd => {
+            sensitivity.at_turn(piece, energy.kinetic, error) + truncation / energy.kinetic
+        }
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::numeric::angle::TAU_REST;
-use crate::numeric::chebyshev::{MAX_DEGREE, ROUNDING};
+use crate::numeric::chebyshev::{MAX_DEGREE, SERIES_ROUNDING};
 use crate::numeric::exact::two_sum;
 
 /// Length of the panels tried first, rad: two make a turn.
@@ -14,7 +14,7 @@ pub(in crate::engine) const HALF_TURN: f64 = PI + 1e-9;
 /// ρ⁻ⁿ, ρ the sum of the half axes of the Bernstein ellipse around [−1, 1] through the nearest branch point (Trefethen,
 /// Approximation Theory and Approximation Practice, 2013, theorem 8.1).
 pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: [[f64; 2]; 2]) -> f64 {
-    let rho = ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
+    let rho = SERIES_ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
     let size = 0.5 * (rho + 1.0 / rho);
     // The distances of a point on the ellipse from the panel ends add up to the length times the larger half axis.
     let longest = |[angle, height]: [f64; 2]| {
@@ -97,7 +97,7 @@ impl Piece {
     }
 
     /// Returns dθ/dx, rad.
-    pub fn stretch(&self, x: f64) -> f64 {
+    pub fn dtheta(&self, x: f64) -> f64 {
         let share = match self.turning {
             Turning::Nowhere => 0.5,
             Turning::AtStart => 0.5 * (1.0 + x),
@@ -107,7 +107,7 @@ impl Piece {
     }
 
     /// Returns d²θ/dx², rad.
-    pub fn stretch_rate(&self) -> f64 {
+    pub fn d2theta(&self) -> f64 {
         match self.turning {
             Turning::Nowhere => 0.0,
             Turning::AtStart => 0.5 * self.span(),
@@ -130,7 +130,7 @@ impl Piece {
 pub(in crate::engine) const SAME_ANGLE: f64 = 1e-12;
 
 /// Returns the part of a whole turn, rad, that the rounded angles of its ends leave out.
-pub(super) fn missing(start: f64, direction: f64) -> f64 {
+pub(super) fn turn_remainder(start: f64, direction: f64) -> f64 {
     direction * two_sum(start, direction * TAU).1 + TAU_REST
 }
 
@@ -140,15 +140,15 @@ pub(super) fn next_end(corners: &[f64], at: f64, direction: f64, length: f64) ->
     let mut end = at + direction * length.min(TAU);
     let near = SAME_ANGLE * at.abs().max(1.0);
     for shift in [-TAU, 0.0, TAU] {
-        let place = |corner: &f64| corner + turn + shift;
+        let unwrapped = |corner: &f64| corner + turn + shift;
         let next = if direction > 0.0 {
-            let passed = corners.partition_point(|corner| place(corner) - at <= near);
+            let passed = corners.partition_point(|corner| unwrapped(corner) - at <= near);
             corners.get(passed)
         } else {
-            let ahead = corners.partition_point(|corner| at - place(corner) > near);
+            let ahead = corners.partition_point(|corner| at - unwrapped(corner) > near);
             corners[..ahead].last()
         };
-        end = match next.map(place) {
+        end = match next.map(unwrapped) {
             Some(corner) if direction * (corner - end) < 0.0 => corner,
             _ => end,
         };

@@ -34,7 +34,7 @@ pub(in crate::engine) struct Segment {
     /// Error bound of the duration, s.
     pub error: f64,
     /// Largest truncation error of the time inside a panel, s.
-    pub left_out: f64,
+    pub truncation_error: f64,
     /// Largest tail of the series of the panels, relative to the largest coefficient.
     pub tail: f64,
 }
@@ -48,17 +48,17 @@ impl Segment {
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,
-            left_out: 0.0,
+            truncation_error: 0.0,
             tail: 0.0,
         }
     }
 
     /// Adds the time over an angle (rad) that the rounded end of a turn leaves out.
-    pub fn complete(&mut self, missing: f64) {
+    pub fn complete(&mut self, turn_remainder: f64) {
         let Some(panel) = self.panels.last() else {
             return;
         };
-        let late = missing / panel.speed(1.0).abs();
+        let late = turn_remainder / panel.speed(1.0).abs();
         if late.is_finite() {
             self.duration = two_sum(self.duration.0, self.duration.1 + late);
         }
@@ -88,7 +88,7 @@ impl Segment {
         let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
         self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
         self.error += panel.error;
-        self.left_out = self.left_out.max(panel.left_out());
+        self.truncation_error = self.truncation_error.max(panel.truncation_error());
         self.tail = self.tail.max(panel.tail);
         self.panels.push(panel);
     }

@@ -9,19 +9,16 @@ impl Orbit {
         if until == 0.0 {
             return (self.speed, self.speed);
         }
-        let with_sign = |(low, high): (f64, f64), direction: f64| {
-            if direction > 0.0 {
-                (low, high)
-            } else {
-                (-high, -low)
-            }
-        };
-        let mut range = with_sign(self.forward.speed_range(0.0, until), self.direction);
-        let mut widen = |part: (f64, f64), direction: f64| {
-            let (low, high) = with_sign(part, direction);
+        let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut widen = |(low, high): (f64, f64), direction: f64| {
+            let (low, high) = match direction > 0.0 {
+                true => (low, high),
+                false => (-high, -low),
+            };
             range = (range.0.min(low), range.1.max(high));
         };
         let there = self.forward.duration.0;
+        widen(self.forward.speed_range(0.0, until), self.direction);
         if let Some(later) = self.later.as_ref().filter(|_| until > there) {
             widen(later.speed_range(until), self.direction);
         }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::euler_maclaurin;
-use super::interpolated_turns::{Interpolated, Mark, Turn};
+use super::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::segment::Segment;
 use crate::numeric::angle::Angle;
 
@@ -22,7 +22,7 @@ pub(in crate::engine) enum Map {
 pub(in crate::engine) struct Turns {
     pub map: Map,
     /// Starts of some of the turns, in order, including the first and the last turn.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<TurnStart>,
     /// Panels of the last turns, up to the end of the run.
     pub last: Segment,
     /// Cache of the latest requested turn.
@@ -33,10 +33,10 @@ pub(in crate::engine) struct Turns {
 
 /// Motion in one turn with the mark of its start, cached because rows and events ask for the same turn repeatedly.
 #[derive(Debug, Default)]
-pub(in crate::engine) struct Recent(Mutex<Option<(Mark, Arc<Segment>)>>);
+pub(in crate::engine) struct Recent(Mutex<Option<(TurnStart, Arc<Segment>)>>);
 
 impl Recent {
-    fn or_new(&self, mark: &Mark, new: impl FnOnce() -> Segment) -> Arc<Segment> {
+    fn or_new(&self, mark: &TurnStart, new: impl FnOnce() -> Segment) -> Arc<Segment> {
         let mut recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let known = recent.take().filter(|(known, _)| {
             known.turns.to_bits() == mark.turns.to_bits()
@@ -63,15 +63,15 @@ enum Goal {
 }
 
 impl Goal {
-    /// Returns the number of cycles like `turn` from a mark to the goal.
-    fn left(self, mark: &Mark, turn: &Turn) -> f64 {
+    /// Returns the number of equal cycles from a mark to the goal.
+    fn left(self, mark: &TurnStart, cycle: &Cycle) -> f64 {
         match self {
-            Goal::Time(t) => mark.until(t) / turn.duration,
-            Goal::Turns(turns) => (turns - mark.turns) / turn.count,
+            Goal::Time(t) => mark.until(t) / cycle.duration,
+            Goal::Turns(turns) => (turns - mark.turns) / cycle.count,
         }
     }
 
-    fn is_after(self, mark: &Mark) -> bool {
+    fn is_after(self, mark: &TurnStart) -> bool {
         match self {
             Goal::Time(t) => mark.until(t) >= 0.0,
             Goal::Turns(turns) => mark.turns <= turns,
@@ -89,7 +89,7 @@ impl Turns {
     }
 
     /// Returns the start of the last turn before a goal.
-    fn find(&self, goal: Goal) -> Mark {
+    fn find(&self, goal: Goal) -> TurnStart {
         let index = self.index(goal);
         let mut mark = self.marks[index];
         let Some(end) = self.marks.get(index + 1) else {
@@ -101,15 +101,15 @@ impl Turns {
                 Goal::Turns(turns) => turns - mark.turns,
             }),
             Map::Interpolated(map) if map.steady && index + 2 == self.marks.len() => {
-                let Some(turn) = map.turn(mark.kinetic) else {
+                let Some(cycle) = map.cycle(mark.kinetic) else {
                     return mark;
                 };
-                let turn = Turn { gain: 0.0, ..turn };
-                mark.after(&turn, goal.left(&mark, &turn).max(0.0).floor())
+                let cycle = Cycle { gain: 0.0, ..cycle };
+                mark.after(&cycle, goal.left(&mark, &cycle).max(0.0).floor())
             }
             Map::Interpolated(map) => {
-                while let Some(turn) = map.turn(mark.kinetic) {
-                    let next = mark.after(&turn, 1.0);
+                while let Some(cycle) = map.cycle(mark.kinetic) {
+                    let next = mark.after(&cycle, 1.0);
                     if !goal.is_after(&next) || next.turns >= end.turns {
                         break;
                     }
@@ -121,17 +121,20 @@ impl Turns {
     }
 
     /// Returns the last mark.
-    pub fn last_mark(&self) -> &Mark {
+    pub fn last_mark(&self) -> &TurnStart {
         &self.marks[self.marks.len() - 1]
     }
 
     /// Applies a function to the motion in the turn that begins at a mark.
-    fn on_leg<T>(&self, mark: &Mark, of: impl FnOnce(&Segment) -> T) -> T {
+    fn on_turn<T>(&self, mark: &TurnStart, of: impl FnOnce(&Segment) -> T) -> T {
         if mark.turns >= self.last_mark().turns {
             return of(&self.last);
         }
         let segment = || match &self.map {
-            Map::Gaining(cells) => cells[self.index(Goal::Turns(mark.turns))].segment(mark.kinetic),
+            Map::Gaining(cells) => {
+                let cell = &cells[self.index(Goal::Turns(mark.turns))];
+                cell.turn.segment(mark.kinetic)
+            }
             Map::Interpolated(map) => map.segment(mark.kinetic),
         };
         of(&self.recent.or_new(mark, segment))
@@ -140,7 +143,7 @@ impl Turns {
     /// Returns the angle counted from the first turn of the run, and the speed (rad/s) at a time, s.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
         let mark = self.find(Goal::Time(t));
-        let (angle, speed) = self.on_leg(&mark, |segment| segment.state(mark.until(t)));
+        let (angle, speed) = self.on_turn(&mark, |segment| segment.state(mark.until(t)));
         let angle = Angle::new(angle.turns + direction * mark.turns, angle.rest);
         (angle, speed)
     }
@@ -151,16 +154,16 @@ impl Turns {
         let mark = self.find(Goal::Turns(whole));
         let ahead = radians - mark.turns * TAU;
         let angle = Angle::from(rest + direction * ahead);
-        let (after, speed) = self.on_leg(&mark, |segment| segment.at(angle))?;
+        let (after, speed) = self.on_turn(&mark, |segment| segment.at(angle))?;
         Some((mark.t.0 + (mark.t.1 + after), speed))
     }
 
     /// Returns the smallest and largest |speed| up to a time (s), rad/s.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
         let last = self.find(Goal::Time(until));
-        let by_energy = |a: &&Mark, b: &&Mark| a.kinetic.total_cmp(&b.kinetic);
+        let by_energy = |a: &&TurnStart, b: &&TurnStart| a.kinetic.total_cmp(&b.kinetic);
         let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
-        let mut range = self.on_leg(&last, |segment| segment.speed_range(0.0, last.until(until)));
+        let mut range = self.on_turn(&last, |segment| segment.speed_range(0.0, last.until(until)));
         let first = whole().next().copied();
         // The energies of the turns are monotone, but not all turns have marks.
         let cycle = match &self.map {
@@ -177,7 +180,8 @@ impl Turns {
             before_last,
         ];
         for mark in marks.into_iter().flatten() {
-            let (low, high) = self.on_leg(&mark, |segment| segment.speed_range(0.0, f64::INFINITY));
+            let (low, high) =
+                self.on_turn(&mark, |segment| segment.speed_range(0.0, f64::INFINITY));
             range = (range.0.min(low), range.1.max(high));
         }
         range

@@ -4,18 +4,18 @@
 //! The rod stays pinned at its other end: to the slider with the clearance at the crank pin, to the crank with the
 //! clearance at the wrist pin. Equations by Newton and Euler, about the pinned end.
 
-mod detail;
 mod energy;
 mod forces;
 mod law;
 mod rubbing;
 mod start;
 mod turn;
+mod variation;
 
-pub use detail::SpeedSizes;
 pub use law::NormalForce;
 pub use rubbing::Rubbing;
 pub use turn::Turned;
+pub use variation::SpeedSizes;
 
 use super::plane::dot;
 use super::{Loads, LooseRates, LooseState};

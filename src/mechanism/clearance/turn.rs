@@ -8,9 +8,6 @@ pub struct Turned {
     rod: [f64; 3],
 }
 
-/// Largest turn, rad, up to which the series is exact to rounding.
-const SERIES_RANGE: f64 = 0.02;
-
 impl Turned {
     /// Computes the directions at a crank angle and a direction of the rod, rad.
     pub fn new(theta: f64, psi: f64) -> Turned {
@@ -40,7 +37,9 @@ impl Turned {
 #[inline(always)]
 fn turned([from, sin, cos]: &[f64; 3], angle: f64) -> (f64, f64) {
     let turn = angle - from;
-    if turn.abs() > SERIES_RANGE {
+    // Up to here the series is exact to rounding.
+    let largest = 0.02;
+    if turn.abs() > largest {
         return angle.sin_cos();
     }
     let q = turn * turn;

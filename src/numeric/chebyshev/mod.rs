@@ -12,7 +12,7 @@ use super::LANES;
 pub const MAX_DEGREE: usize = 32;
 
 /// Rounding error of the last terms of a series and of an integral by a rule, relative to the largest.
-pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub const SERIES_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Values at the points of a rule, or coefficients; entries beyond its degree are zero.
 pub type Values = [f64; MAX_DEGREE + 1];

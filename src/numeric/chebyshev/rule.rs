@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt;
 use std::sync::OnceLock;
 
-use super::transform::{HALF, HalfVector, Matrices};
+use super::transform::{HALF_LENGTH, HalfVector, Matrices};
 use super::{MAX_DEGREE, Series, Values};
 use crate::numeric::LANES;
 use crate::numeric::exact::two_sum;
@@ -37,10 +37,10 @@ impl Rule {
 
     /// Returns the rule of one of the degrees [`Self::DEGREES`]; the rule of the largest for any other.
     pub fn of(degree: usize) -> &'static Rule {
-        const COUNT: usize = Rule::DEGREES.len();
-        static RULES: [OnceLock<Box<Rule>>; COUNT] = [const { OnceLock::new() }; COUNT];
+        static RULES: [OnceLock<Box<Rule>>; Rule::DEGREES.len()] =
+            [const { OnceLock::new() }; Rule::DEGREES.len()];
         let index = Rule::DEGREES.iter().position(|d| *d == degree);
-        let index = index.unwrap_or(COUNT - 1);
+        let index = index.unwrap_or(RULES.len() - 1);
         RULES[index].get_or_init(|| Box::new(Rule::new(Rule::DEGREES[index])))
     }
 
@@ -116,7 +116,7 @@ impl Rule {
                 _ => 0.5 * (t(k + 1) / (k + 1) as f64 - t(k - 1) / (k - 1) as f64),
             }
         };
-        let mut result = [0.0; HALF];
+        let mut result = [0.0; HALF_LENGTH];
         for (i, value) in result.iter_mut().enumerate().take(half + 1) {
             *value = primitive(i) - primitive(half);
         }

@@ -5,23 +5,23 @@
 
 use super::{MAX_DEGREE, Values};
 
-/// Entries of a half: half of the largest degree, the middle point, and one that completes pairs of rows.
-pub(super) const HALF: usize = MAX_DEGREE / 2 + 2;
+/// Entries of a half of the points: half of the largest degree, the middle point, and one that completes pairs of rows.
+pub(super) const HALF_LENGTH: usize = MAX_DEGREE / 2 + 2;
 
 /// Vector over half of the points or coefficients.
-pub(super) type HalfVector = [f64; HALF];
+pub(super) type HalfVector = [f64; HALF_LENGTH];
 
 /// Matrices of the even and the odd part, by columns.
 pub(super) struct Matrices {
-    pub even: [HalfVector; HALF],
-    pub odd: [HalfVector; HALF],
+    pub even: [HalfVector; HALF_LENGTH],
+    pub odd: [HalfVector; HALF_LENGTH],
 }
 
 impl Matrices {
     pub fn new() -> Matrices {
         Matrices {
-            even: [[0.0; HALF]; HALF],
-            odd: [[0.0; HALF]; HALF],
+            even: [[0.0; HALF_LENGTH]; HALF_LENGTH],
+            odd: [[0.0; HALF_LENGTH]; HALF_LENGTH],
         }
     }
 
@@ -42,7 +42,7 @@ impl Matrices {
         for (sum, entry) in of_even.iter_mut().zip(&self.even[DEGREE / 2]) {
             *sum += entry * middle;
         }
-        let mut results = [[0.0; HALF]; 2];
+        let mut results = [[0.0; HALF_LENGTH]; 2];
         results[0][..ROWS].copy_from_slice(&of_even);
         results[1][..ROWS].copy_from_slice(&of_odd);
         results

@@ -6,18 +6,18 @@
 //! (abs, min, floor, ...) are analytic where one case serves the whole interval; this case is continued into the plane.
 
 mod cases;
-mod detail;
 mod interval;
 mod partition;
 mod rectangle;
+mod variation;
 
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
 use std::ops::{Add, Mul, Neg, Sub};
 
-pub use detail::{Detail, MotionPiece, ellipses, resolved};
 pub use interval::Interval;
 pub use partition::{PanelResolution, partition};
 pub use rectangle::Rectangle;
+pub use variation::{MotionPiece, Variation, ellipses, resolved};
 
 /// Enclosure of values over an interval and around it in the complex plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

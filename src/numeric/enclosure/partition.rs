@@ -1,6 +1,6 @@
 //! Partition of an interval into panels whose nodes resolve a function, by bisection.
 
-use super::{Detail, Interval, ellipses, resolved};
+use super::{Interval, Variation, ellipses, resolved};
 
 /// Required resolution of the panels.
 #[derive(Clone, Copy, Debug)]
@@ -13,24 +13,24 @@ pub struct PanelResolution {
 
 /// Halvings of the whole that locate a corner or a jump, to some units of its last place.
 const HALVINGS: usize = 50;
-/// Largest number of pieces.
-const MOST_PIECES: usize = 100_000;
 
-/// Locates the ends between panels inside an interval, in rising order, for a function whose `detail` on an interval
+/// Locates the ends between panels inside an interval, in rising order, for a function whose `variation` on an interval
 /// and in an ellipse of some size is given: the nodes of each panel resolve it. A corner or a jump is an end; beside a
 /// narrow pulse panels become shorter towards it.
 pub fn partition(
-    detail: impl Fn(Interval, f64) -> Detail,
+    variation: impl Fn(Interval, f64) -> Variation,
     over: Interval,
     wanted: PanelResolution,
     unit: f64,
 ) -> Vec<f64> {
     let ellipses = ellipses(wanted.nodes, wanted.part);
-    let real = |part: Interval| detail(part, ellipses[0]);
+    let real = |part: Interval| variation(part, ellipses[0]);
     let allowed = wanted.part * scale(&real, over, unit);
     let is_resolved = |part: Interval| {
-        let (_, nodes) = resolved(|size| detail(part, size), ellipses, allowed, wanted.nodes);
-        nodes.is_some()
+        let variation = |size| variation(part, size);
+        resolved(variation, ellipses, allowed, wanted.nodes)
+            .1
+            .is_some()
     };
     if is_resolved(over) {
         return Vec::new();
@@ -42,9 +42,10 @@ pub fn partition(
     };
     let mut left = vec![over];
     let mut pieces: Vec<(Interval, bool)> = Vec::new();
+    let most_pieces = 100_000;
     while let Some(part) = left.pop() {
         let is_resolved = is_resolved(part);
-        if is_resolved || is_corner(part) || pieces.len() + left.len() >= MOST_PIECES {
+        if is_resolved || is_corner(part) || pieces.len() + left.len() >= most_pieces {
             pieces.push((part, is_resolved));
         } else {
             let middle = part.middle();
@@ -56,10 +57,10 @@ pub fn partition(
 }
 
 /// Returns the change over the whole, or over the first part of it on which it is finite; not less than a unit.
-fn scale(detail: &impl Fn(Interval) -> Detail, over: Interval, unit: f64) -> f64 {
+fn scale(variation: &impl Fn(Interval) -> Variation, over: Interval, unit: f64) -> f64 {
     let mut part = over;
     for _ in 0..HALVINGS {
-        let change = detail(part).change;
+        let change = variation(part).change;
         if change.is_finite() {
             return change.max(unit).max(f64::MIN_POSITIVE);
         }

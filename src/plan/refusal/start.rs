@@ -4,9 +4,6 @@ use crate::mechanism::{Class, Curve, CurveEquation, Limits, Linkage, LooseMechan
 use crate::numeric::angle::Angle;
 use crate::scene::{Clearance, Instant, Load, MotionKind, Problem, Scene};
 
-/// Least |dθ/dq| of a crank that can have a speed at the start; rounding alone makes smaller ones differ from zero.
-const NO_SPEED: f64 = 1e-12;
-
 /// Adds problems of the start of a modelled scene; `reduced` has no parts of zero strength.
 pub(super) fn problems(scene: &Scene, reduced: &Scene, list: &mut Vec<Problem>) {
     let linkage = Linkage::new(&scene.geometry);
@@ -26,8 +23,10 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
         list.push(out_of_reach(theta, &Limits::new(linkage, speed).reach));
         return;
     };
-    let place = curve.place(q.rest);
-    if place.dtheta.abs() < NO_SPEED && speed != 0.0 {
+    let place = curve.pose(q.rest);
+    // Largest |dθ/dq| that rounding alone makes differ from zero.
+    let rounding = 1e-12;
+    if place.dtheta.abs() < rounding && speed != 0.0 {
         list.push(Problem::new(
             "motion.speed",
             "motion.speed: at motion.angle the rod stands normal to the guide, and the crank has no speed there",

@@ -7,14 +7,14 @@ use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
 use super::guide_friction::{GuideFriction, GuideGain, Spot};
-use super::marks::{Marks, SAME_ANGLE, in_order};
+use super::marks::{Marks, SAME_CORNER, in_order};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{Driven, Panels, State, Table};
+use crate::engine::angle::{Dynamics, Panels, State, Table};
 use crate::mechanism::{Equation, LoadValue};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 
@@ -96,7 +96,7 @@ impl<'a> AngleModel<'a> {
         let marks = self.marks.between(0.0, length);
         if turns > 1 {
             // Corners at the start of the cycle belong to the cycle.
-            let before = -SAME_ANGLE;
+            let before = -SAME_CORNER;
             let loads = self.equation.loads();
             self.of_loads = loads.corners_between(before, length + before);
         } else {
@@ -104,11 +104,7 @@ impl<'a> AngleModel<'a> {
             self.marks_are_corners = true;
         }
         self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
-        let again = |turn: u32| {
-            let before = f64::from(turn) * TAU;
-            dead_centres.iter().map(move |theta| theta + before)
-        };
-        let all = (0..turns).flat_map(again);
+        let all = angle::in_turns(dead_centres, 0..turns.into());
         self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
     }
 
@@ -127,7 +123,7 @@ impl<'a> AngleModel<'a> {
     }
 }
 
-impl Driven for AngleModel<'_> {
+impl Dynamics for AngleModel<'_> {
     type Place = Spot;
 
     fn positions(&self) -> u64 {
@@ -143,7 +139,7 @@ impl Driven for AngleModel<'_> {
     ) {
         self.count(count);
         let loads = self.equation.loads();
-        let driven = self.is_driven();
+        let driven = self.has_state_loads();
         let mut guided = None;
         let at = match self.guide {
             None => self.equation.first_terms(angles, count),
@@ -185,15 +181,15 @@ impl Driven for AngleModel<'_> {
         self.cycle
     }
 
-    fn is_driven(&self) -> bool {
+    fn has_state_loads(&self) -> bool {
         self.equation.loads().have_nonlinear_rates()
     }
 
     fn reads_time(&self) -> bool {
-        self.equation.loads().reads().has(Variable::T)
+        self.has_state_loads() && self.equation.loads().reads().has(Variable::T)
     }
 
-    fn drive<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
+    fn state_loads<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
         let now = Spot::instants(at);
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
@@ -204,11 +200,11 @@ impl Driven for AngleModel<'_> {
         forces
     }
 
-    fn has_detail(&self) -> bool {
-        self.is_driven() && self.equation.loads().have_detail()
+    fn varies_between_nodes(&self) -> bool {
+        self.has_state_loads() && self.equation.loads().vary_between_nodes()
     }
 
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail {
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let loads = self.equation.loads();
         let seen = self
             .equation
@@ -216,10 +212,10 @@ impl Driven for AngleModel<'_> {
             .enclosed_state(reach, loads.meet_slider());
         let rubbed = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
         let arms = seen.unit_load_effects().plus(rubbed.unwrap_or_default());
-        loads.detail_of_state(&seen, arms, ellipse)
+        loads.variation_with_state(&seen, arms, ellipse)
     }
 
-    fn drive_switch(&self, at: &State<'_, Spot>) -> f64 {
+    fn switch_of_state_loads(&self, at: &State<'_, Spot>) -> f64 {
         let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
         at.place.gain.pressed(load)
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::guide_friction::BESIDE;
+use super::super::guide_friction::NEARBY_ANGLE;
 use super::AngleModel;
 use crate::engine::energy::Profile;
 use crate::numeric::chebyshev::Values;
@@ -35,8 +35,8 @@ impl Profile for AngleModel<'_> {
         let mut size = self.equation.size_of_terms(0.0, angle, 0.0);
         if !self.equation.loads().have_potential() {
             // A formula of the angle is rounded with the angle.
-            let change = self.push(theta + BESIDE) - self.push(theta - BESIDE);
-            size += (0.5 * change / BESIDE * angle.radians()).abs();
+            let change = self.push(theta + NEARBY_ANGLE) - self.push(theta - NEARBY_ANGLE);
+            size += (0.5 * change / NEARBY_ANGLE * angle.radians()).abs();
         }
         0.5 * f64::EPSILON * size
     }

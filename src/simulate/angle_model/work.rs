@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::AngleModel;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::gauss;
 
 impl AngleModel<'_> {
@@ -55,11 +55,8 @@ impl AngleModel<'_> {
     fn work_between(&self, from: f64, to: f64) -> f64 {
         let force = |theta: f64| self.push(theta);
         let (low, high) = (from.min(to), from.max(to));
-        let turns = (low / TAU).floor() as i64..=(high / TAU).floor() as i64;
-        let corners = turns.flat_map(|turn| {
-            let whole = turn as f64 * TAU;
-            self.corners.iter().map(move |corner| corner + whole)
-        });
+        let [first, last] = [low, high].map(|end| (end / TAU).floor() as i64);
+        let corners = angle::in_turns(&self.corners, first..=last);
         let mut cuts = vec![low];
         cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
         let before = self.turns * TAU;

@@ -10,18 +10,18 @@ use super::super::result::{ErrorEstimate, Peaks};
 use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
 use super::super::warning::Warning;
+use super::SecondRun;
 use super::contact_follower::ContactHistory;
 use super::journal_record::JournalRecord;
-use super::motion::{DRIVEN, FREE, phi};
+use super::motion::{DRIVEN, FREE, Loose, phi};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
-use super::{LooseRun, SecondRun};
 use crate::engine::contact::ContactEnd;
 use crate::mechanism::LooseState;
 use crate::plan::Engine;
 use crate::scene::Joint;
 use crate::trajectory::Trajectory;
 
-impl<const N: usize> LooseRun<'_, N> {
+impl<const N: usize> Loose<'_, N> {
     /// Makes the result of a run that ended in the state `last`; `record` has its rows.
     pub(super) fn concluded(
         &self,
@@ -31,14 +31,14 @@ impl<const N: usize> LooseRun<'_, N> {
         last: &LooseState,
         wall_s: f64,
     ) -> Simulation {
-        let (model, task) = (&self.model, self.model.task);
+        let task = self.task;
         let stopped = self.stopped(ended, last);
         let tighter = (task.options.estimate && stopped.is_none())
             .then(|| self.second_run(last.t))
             .flatten();
-        let [work, lost] = model.work(&ended.last);
-        let at_end = model.state(&ended.last);
-        let gained = model.mechanism.energy(&at_end) - model.mechanism.energy(&model.start);
+        let [work, lost] = self.work(&ended.last);
+        let at_end = self.state(&ended.last);
+        let gained = self.mechanism.energy(&at_end) - self.mechanism.energy(&self.start);
         let horizon = tighter.as_ref().map(|t| self.horizon(seen, t, last));
         let same = horizon.is_some_and(|h| h.whole_run);
         let against = tighter.as_ref().filter(|_| same).map(|t| &t.last);
@@ -47,19 +47,19 @@ impl<const N: usize> LooseRun<'_, N> {
         let error = |value: fn(&LooseState) -> f64, size: f64| {
             against.map(|t| MARGIN * (value(t) - value(last)).abs() + rounding * size)
         };
-        let struck = self.struck(seen, f64::EPSILON * model.reach, last.t);
+        let struck = self.struck(seen, f64::EPSILON * self.reach, last.t);
         let summary = self.summary(
             seen,
             [work, lost],
             last,
-            |value, length| Some(error(value, model.reach / length)? + struck / length),
+            |value, length| Some(error(value, self.reach / length)? + struck / length),
             horizon,
         );
         let mut warnings = self.warnings(&summary, seen, tighter.is_some() || stopped.is_some());
         if N == DRIVEN {
             self.add_dead_centres(&mut record, last.t);
         }
-        let at = model.crank(last);
+        let at = self.crank(last);
         let theta = at.angle.radians().abs();
         let estimate = match N {
             DRIVEN => Some((2.0 * f64::EPSILON * theta, 0.0)),
@@ -76,7 +76,7 @@ impl<const N: usize> LooseRun<'_, N> {
         let outcome = Outcome {
             engine: Engine::Contact,
             at,
-            turned: last.theta - model.start.theta,
+            turned: last.theta - self.start.theta,
             estimate: estimate.map(Estimate::of_end),
             balance: Balance {
                 residual: gained - work + lost,
@@ -94,7 +94,7 @@ impl<const N: usize> LooseRun<'_, N> {
         result.estimate_cost = tighter.map(|t| t.cost);
         (result.peaks, result.clearance) = (peaks, Some(summary));
         if N == DRIVEN {
-            let motion = Trajectory::uniform(task.start(), model.start.omega, last.t);
+            let motion = Trajectory::uniform(task.start(), self.start.omega, last.t);
             run.trajectory = Some(motion);
         }
         run
@@ -102,7 +102,7 @@ impl<const N: usize> LooseRun<'_, N> {
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
     fn horizon(&self, seen: &ContactHistory, tighter: &SecondRun, end: &LooseState) -> Horizon {
-        let distance = 0.01 * self.model.mechanism.clearance().radial;
+        let distance = 0.01 * self.mechanism.clearance().radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
         let statistics = |record: &JournalRecord| {
@@ -113,7 +113,7 @@ impl<const N: usize> LooseRun<'_, N> {
             t_s: t,
             // The mean speed suffices for a number of turns.
             revolutions: match end.t > 0.0 {
-                true => ((end.theta - self.model.start.theta) * t / end.t).abs() / TAU,
+                true => ((end.theta - self.start.theta) * t / end.t).abs() / TAU,
                 false => 0.0,
             },
             whole_run: parted.is_none(),
@@ -129,9 +129,9 @@ impl<const N: usize> LooseRun<'_, N> {
     /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
     /// velocity, is 3/2 of that of the depth; the next impact ends it.
     fn struck(&self, seen: &ContactHistory, gap: f64, t: f64) -> f64 {
-        let scene = &self.model.task.scene;
+        let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
-        let mass = match self.model.mechanism.clearance().joint {
+        let mass = match self.mechanism.clearance().joint {
             Joint::WristPin => slider,
             Joint::CrankPin => slider + scene.rod.map_or(0.0, |rod| rod.mass),
         };
@@ -151,7 +151,7 @@ impl<const N: usize> LooseRun<'_, N> {
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
         horizon: Option<Horizon>,
     ) -> ClearanceSummary {
-        let clearance = self.model.mechanism.clearance();
+        let clearance = self.mechanism.clearance();
         let whole = seen.total.statistics(0.0, last.t);
         let linked = self.linked();
         ClearanceSummary {
@@ -161,7 +161,7 @@ impl<const N: usize> LooseRun<'_, N> {
             },
             contact_law: clearance.law.name(),
             radial_m: clearance.radial,
-            stiffness_n_per_m_1_5: (!linked).then(|| self.model.mechanism.force().stiffness),
+            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force().stiffness),
             impacts: whole.impacts,
             separations: seen.separations,
             contact_share: whole.contact_share,
@@ -174,9 +174,9 @@ impl<const N: usize> LooseRun<'_, N> {
             last: LooseFinal {
                 x_m: last.x,
                 v_m_per_s: last.v,
-                phi_rad: phi(last.psi, self.model.task.scene.geometry.branch.sign()),
+                phi_rad: phi(last.psi, self.task.scene.geometry.branch.sign()),
                 error_x_m: error(|s| s.x, 1.0),
-                error_phi_rad: error(|s| s.psi, self.model.task.scene.geometry.rod),
+                error_phi_rad: error(|s| s.psi, self.task.scene.geometry.rod),
             },
             horizon,
         }
@@ -188,7 +188,7 @@ impl<const N: usize> LooseRun<'_, N> {
         seen: &ContactHistory,
         compared: bool,
     ) -> Vec<Warning> {
-        let unknown = self.model.task.options.estimate && !compared;
+        let unknown = self.task.options.estimate && !compared;
         let parted = summary.horizon.filter(|horizon| !horizon.whole_run);
         let deepest = seen.total.deepest;
         let deep = deepest > summary.radial_m;
@@ -209,10 +209,10 @@ impl<const N: usize> LooseRun<'_, N> {
 
     /// Adds the dead centres of a crank at constant speed to impacts and separations, in order of time.
     fn add_dead_centres(&self, record: &mut Record, end: f64) {
-        let (passages, count) = passages::at_constant_speed(self.model.task, end);
+        let (passages, count) = passages::at_constant_speed(self.task, end);
         record.events.extend(passages);
         record.events_total += count;
         record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        record.events.truncate(self.model.task.options.events_kept);
+        record.events.truncate(self.task.options.events_kept);
     }
 }

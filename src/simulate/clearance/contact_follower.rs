@@ -9,6 +9,7 @@ use super::motion::{FREE, Loose};
 use crate::engine::contact::{AcceptedStep, Phase};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
+use crate::engine::time::Start;
 use crate::mechanism::LooseState;
 use crate::numeric::root;
 
@@ -80,15 +81,10 @@ impl<const N: usize> ContactFollower<'_, N> {
         self.seen.ends_at.map_or(accepted.end[0], |s| s.t)
     }
 
-    fn event(&mut self, kind: &'static str, t: f64, theta: f64, omega: f64) {
-        let theta_rad = self.model.task.angle(theta).radians();
+    fn event(&mut self, kind: &'static str, t: f64, theta: f64, speed: f64) {
+        let angle = self.model.task.angle(theta);
         if let Some(recorder) = &mut self.recorder {
-            recorder.event(Event {
-                kind,
-                t_s: t,
-                theta_rad,
-                omega_rad_per_s: omega,
-            });
+            recorder.event(Event::new(kind, Start { t, angle, speed }));
         }
     }
 

@@ -13,7 +13,7 @@ use std::time::Instant;
 pub use result::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
 
 use super::closed_form;
-use super::recorder::{Record, Recorder};
+use super::recorder::Recorder;
 use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
@@ -21,17 +21,14 @@ use super::schedule::Schedule;
 use super::second_run::{LEAST_TOLERANCE, TOLERANCE_RATIO};
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, ContactEnd, Finish, Settings};
-use crate::engine::time::FAR;
+use crate::engine::contact::{self, ContactEnd, ContactSettings};
+use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
 use contact_follower::{ContactFollower, ContactHistory};
 use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
-
-/// Number of samples of the journal path in a turn; halved again and again in a long run.
-const SAMPLES_IN_A_TURN: f64 = 64.0;
 
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
     let scene = task.scene.reduced();
@@ -44,37 +41,30 @@ pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulat
     let mechanism = LooseMechanism::new(&scene, clearance)?;
     let start = mechanism.start(task.scene)?;
     match task.scene.motion.kind {
-        MotionKind::ConstantSpeed => LooseRun::<DRIVEN>::new(task, &mechanism, start).all(rows),
-        MotionKind::Free => LooseRun::<FREE>::new(task, &mechanism, start).all(rows),
+        MotionKind::ConstantSpeed => Loose::<DRIVEN>::new(task, &mechanism, start).all(rows),
+        MotionKind::Free => Loose::<FREE>::new(task, &mechanism, start).all(rows),
     }
 }
 
-struct LooseRun<'a, const N: usize> {
-    model: Loose<'a, N>,
-    t_end: f64,
-}
-
-impl<'a, const N: usize> LooseRun<'a, N> {
+impl<'a, const N: usize> Loose<'a, N> {
     fn new(
         task: &'a RunSetup<'a>,
         mechanism: &'a LooseMechanism,
         start: LooseState,
-    ) -> LooseRun<'a, N> {
+    ) -> Loose<'a, N> {
         let geometry = &task.scene.geometry;
         let length = geometry.crank.min(100.0 * mechanism.clearance().radial);
-        LooseRun {
-            model: Loose {
-                mechanism,
-                task,
-                start,
-                length,
-                angle: length / geometry.crank,
-                pace: start.omega.abs().max(1.0),
-                reach: geometry.crank + geometry.rod,
-            },
+        Loose {
+            mechanism,
+            task,
+            start,
+            length,
+            angle: length / geometry.crank,
+            pace: start.omega.abs().max(1.0),
+            reach: geometry.crank + geometry.rod,
             t_end: match task.extent {
                 Extent::Duration(duration) => duration,
-                Extent::Revolutions(_) if N == FREE => FAR,
+                Extent::Revolutions(_) if N == FREE => UNLIMITED_TIME,
                 Extent::Revolutions(_) => closed_form::duration(task.extent, start.omega),
             },
         }
@@ -82,11 +72,11 @@ impl<'a, const N: usize> LooseRun<'a, N> {
 
     fn all(&self, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
         let begun = Instant::now();
-        let (model, task) = (&self.model, self.model.task);
+        let task = self.task;
         let schedule = match N {
             DRIVEN => {
                 let every = task.scene.run.output_every;
-                Schedule::at_speed(every, model.start.omega, self.t_end)
+                Schedule::at_speed(every, self.start.omega, self.t_end)
             }
             _ => task.schedule(),
         };
@@ -94,14 +84,12 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         let tolerance = task.scene.run.tolerance;
         let (ended, follower) = self.integrate(Some(recorder), tolerance, self.t_end);
         let ContactFollower { recorder, seen, .. } = follower;
-        let last = seen.ends_at.unwrap_or(model.state(&ended.last));
-        let record = match recorder {
-            Some(mut recorder) => {
-                recorder.end_piece(last.t);
-                recorder.finish(|| Some(model.row(&last, ended.phase)))?
-            }
-            None => Record::default(),
-        };
+        let last = seen.ends_at.unwrap_or(self.state(&ended.last));
+        let record = recorder.map(|mut recorder| {
+            recorder.end_piece(last.t);
+            recorder.finish(|| Some(self.row(&last, ended.phase)))
+        });
+        let record = record.transpose()?.unwrap_or_default();
         let wall_s = record.wall_s(begun);
         Ok(self.concluded(&ended, &seen, record, &last, wall_s))
     }
@@ -113,38 +101,40 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         tolerance: f64,
         t_end: f64,
     ) -> (ContactEnd<N>, ContactFollower<'b, N>) {
-        let (model, task, start) = (&self.model, self.model.task, &self.model.start);
+        let (task, start) = (self.task, &self.start);
         let turn = TAU / start.omega.abs().max(1.0);
-        let width = (turn / SAMPLES_IN_A_TURN).min((self.t_end / SAMPLES_IN_A_TURN).max(1e-12));
+        // Samples of the journal path in a turn, or in a shorter run; a long run halves their number again and again.
+        let samples = 64.0;
+        let width = (turn / samples).min((self.t_end / samples).max(1e-12));
         let mut follower = ContactFollower {
-            model,
+            model: self,
             dead_centres: task.dead_centres(),
             recorder,
-            seen: ContactHistory::new(width, model.mechanism.energy(start).abs()),
+            seen: ContactHistory::new(width, self.mechanism.energy(start).abs()),
         };
-        let settings = Settings {
+        let settings = ContactSettings {
             tolerance,
             t_end,
             limit: task.options.limit(),
         };
-        let y = model.numbers(start, [0.0; 2]);
-        let ended = contact::run(model, y, self.linked(), settings, &mut |step| {
+        let y = self.numbers(start, [0.0; 2]);
+        let ended = contact::run(self, y, self.linked(), settings, &mut |step| {
             follower.take(step)
         });
         (ended, follower)
     }
 
     fn linked(&self) -> bool {
-        self.model.mechanism.clearance().law == ContactLaw::MasslessLink
+        self.mechanism.clearance().law == ContactLaw::MasslessLink
     }
 
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
     fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
-        let tolerance = self.model.task.scene.run.tolerance / TOLERANCE_RATIO;
+        let tolerance = self.task.scene.run.tolerance / TOLERANCE_RATIO;
         let (ended, follower) = self.integrate(None, tolerance.max(LEAST_TOLERANCE), t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
-            last: self.model.state(&ended.last),
+            last: self.state(&ended.last),
             record: follower.seen.record,
             cost: Cost {
                 evaluations: ended.evaluations,
@@ -155,24 +145,28 @@ impl<'a, const N: usize> LooseRun<'a, N> {
 
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
         match ended.finish {
-            Finish::AtEnd => match self.model.task.extent {
-                Extent::Revolutions(turns) if last.t >= FAR => Some(Why::TurnsNeverComplete(turns)),
+            Finish::AtEnd => match self.task.extent {
+                Extent::Revolutions(turns) if last.t >= UNLIMITED_TIME => {
+                    Some(Why::TurnsNeverComplete(turns))
+                }
                 _ => None,
             },
-            Finish::Stopped | Finish::Broken => None,
-            Finish::WorkLimit => Some(self.model.task.limited()),
-            Finish::StepTooSmall => Some(self.too_small(last)),
+            Finish::Stopped => None,
+            Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns => {
+                Some(self.task.limited())
+            }
+            Finish::StepTooSmall | Finish::NoStart => Some(self.too_small(last)),
         }
     }
 
     /// Returns the reason for steps that became too small.
     fn too_small(&self, last: &LooseState) -> Why {
-        if self.model.mechanism.jams(last) {
+        if self.mechanism.jams(last) {
             return Why::JamLoose;
         }
         let load = self.without_value(last).cloned();
         load.map_or(Why::ContactTooStiff, |load| Why::NoValue {
-            asked: self.model.crank(last),
+            asked: self.crank(last),
             load: Some(load),
         })
     }
@@ -182,12 +176,12 @@ impl<'a, const N: usize> LooseRun<'a, N> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
         let at = |dt: f64| State {
             t: last.t + dt,
-            theta: self.model.task.angle(last.theta).radians() + last.omega * dt,
+            theta: self.task.angle(last.theta).radians() + last.omega * dt,
             omega: last.omega,
             x: last.x + last.v * dt,
             v: last.v,
         };
-        let loads = self.model.task.equation().loads();
+        let loads = self.task.equation().loads();
         let found = loads.without_value(&at(0.0));
         found.or_else(|| loads.without_value(&at(dt)))
     }

@@ -5,7 +5,7 @@ use super::super::run_setup::RunSetup;
 use crate::engine::contact::{Contact, Phase, Sample};
 use crate::engine::time::Start;
 use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
-use crate::numeric::enclosure::{Detail, Interval};
+use crate::numeric::enclosure::{Interval, Variation};
 
 /// Length of the state of a free crank: t, θ, ψ, x, the rates of θ, ψ and x, the work of the loads, and the energy lost
 /// in the contact and by friction at the guide.
@@ -14,7 +14,7 @@ pub(super) const FREE: usize = 9;
 /// drive.
 pub(super) const DRIVEN: usize = 7;
 
-/// Mechanism with scales for the error control; its state has N numbers.
+/// Run of a mechanism, with scales for the error control; its state has N numbers.
 pub(super) struct Loose<'a, const N: usize> {
     pub mechanism: &'a LooseMechanism,
     pub task: &'a RunSetup<'a>,
@@ -27,6 +27,8 @@ pub(super) struct Loose<'a, const N: usize> {
     pub pace: f64,
     /// Size of the mechanism, m.
     pub reach: f64,
+    /// Last time of the run, s.
+    pub t_end: f64,
 }
 
 impl<const N: usize> Loose<'_, N> {
@@ -236,18 +238,18 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
         self.task.equation().loads().next_corner(t)
     }
 
-    fn has_detail(&self) -> bool {
-        self.mechanism.has_detail()
+    fn varies_between_nodes(&self) -> bool {
+        self.mechanism.varies_between_nodes()
     }
 
-    fn detail(&self, over: &[Interval; N], ellipse: f64) -> Detail {
+    fn variation(&self, over: &[Interval; N], ellipse: f64) -> Variation {
         let low = self.state(&over.map(|of| of.low));
         let high = self.state(&over.map(|of| of.high));
         let sizes = SpeedSizes {
             turning: self.angle * self.pace,
             sliding: self.length * self.pace,
         };
-        self.mechanism.detail([&low, &high], sizes, ellipse)
+        self.mechanism.variation([&low, &high], sizes, ellipse)
     }
 
     fn sizes(&self) -> ([f64; N], usize) {

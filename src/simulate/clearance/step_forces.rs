@@ -10,11 +10,6 @@ use crate::engine::contact::{AcceptedStep, Phase, Sample};
 use crate::numeric::interpolate::quintic;
 use crate::numeric::maximum;
 
-/// Number of intervals at whose ends a step with a large force is sampled.
-const PLACES: u32 = 32;
-/// Part of the largest force up to now from which a force may exceed it between the samples of a step.
-const NEAR_LARGEST: f64 = 0.9;
-
 impl<const N: usize> ContactFollower<'_, N> {
     /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
     pub(super) fn follow_contact(&mut self, accepted: &mut AcceptedStep<'_, N>) {
@@ -55,9 +50,11 @@ impl<const N: usize> ContactFollower<'_, N> {
         let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
         let mut tally = simpson([first.0, middle.0, last.0], h);
         tally.deepest = first.1.max(middle.1).max(last.1);
-        // A peak inside the step is sought only where it could be the largest.
-        if 1.05 * tally.peak > self.seen.total.peak {
-            let places = (0..=PLACES).map(|i| part * f64::from(i) / f64::from(PLACES));
+        // A peak inside the step is sought only where it could be the largest, 5 % above the three points.
+        let peak_over_points = 1.05;
+        if peak_over_points * tally.peak > self.seen.total.peak {
+            let samples = 32u32;
+            let places = (0..=samples).map(|i| part * f64::from(i) / f64::from(samples));
             let top = |value: &dyn Fn(f64) -> f64| {
                 let known: Vec<_> = places.clone().map(|u| (u, value(u))).collect();
                 maximum::beside_best(value, &known)
@@ -122,7 +119,9 @@ impl<const N: usize> ContactFollower<'_, N> {
             let seen = known
                 .iter()
                 .fold(0.0, |seen: f64, (_, size)| seen.max(*size));
-            if seen <= NEAR_LARGEST * peak.value_n {
+            // Between the samples a force may be about a tenth larger.
+            let near_largest = 0.9;
+            if seen <= near_largest * peak.value_n {
                 continue;
             }
             let size = |t: f64| self.sizes(&accepted.at(t), phase)[k];

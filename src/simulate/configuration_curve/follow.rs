@@ -2,12 +2,12 @@
 
 use std::cell::Cell;
 
-use super::super::stick_slip::{
-    CLEAR, CRANK, DEAD_CENTRE, InPhase, LIMIT, NORMAL, Phase, Quantities, SPEED, Signs, TURNED,
-    sliding,
+use super::super::stick_slip::EventIndex::{
+    self, Clear, Crank, DeadCentre, Limit, Normal, Speed, Turned,
 };
+use super::super::stick_slip::{InPhase, Phase, Quantities, Signs, sliding};
 use super::super::stop::Why;
-use super::{End, Observer, Piece, crank_state, met};
+use super::{End, Observer, TimePiece, crank_state, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -24,15 +24,15 @@ pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) observer: &'o mut dyn Observer,
     pub(super) now: Start,
     pub(super) signs: Signs,
-    pub(super) piece: Piece,
+    pub(super) piece: TimePiece,
 }
 
 /// Returns the kind of event of an event function, if it reports one.
-fn event(index: usize) -> Option<&'static str> {
+fn event(index: EventIndex) -> Option<&'static str> {
     match index {
-        SPEED => Some("turning-point"),
-        DEAD_CENTRE => Some("dead-centre"),
-        LIMIT => Some("limit"),
+        Speed => Some("turning-point"),
+        DeadCentre => Some("dead-centre"),
+        Limit => Some("limit"),
         _ => None,
     }
 }
@@ -66,7 +66,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             observer,
             now: start,
             signs: Signs::default(),
-            piece: Piece {
+            piece: TimePiece {
                 last: Step::new(angle.turns, node, node),
                 work: 0.0,
                 steps: 0,
@@ -78,7 +78,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     }
 
     /// Runs to the end of the piece.
-    pub fn run(mut self) -> Piece {
+    pub fn run(mut self) -> TimePiece {
         let speed = self.now.speed;
         let end = if speed == 0.0 && self.may_stick() {
             self.leave_rest(None)
@@ -114,25 +114,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let mut forecast = WorkForecast::new(self.now.t, 0, settings.ends(), in_time);
         loop {
             let from = self.now.angle;
-            let end = match self.slide() {
-                Err(end) => Some(end),
-                Ok(Change { index: TURNED, .. }) => Some(End::Done),
-                Ok(Change { index: CLEAR, .. }) => Some(self.jam()),
-                Ok(Change { index: SPEED, .. }) => {
-                    let before = self.signs[SPEED];
-                    self.now.speed = 0.0;
-                    self.leave_rest(Some(before))
-                }
-                Ok(Change { t, index }) => {
-                    self.signs[index] = -self.signs[index];
-                    self.oppose(index);
-                    if let Some(kind) = event(index) {
-                        let Start { angle, speed, .. } = self.now;
-                        self.observer.event(kind, t, angle, speed);
-                    }
-                    None
-                }
-            };
+            let end = self.slide().map_or_else(Some, |change| self.pass(change));
             if end.is_some() || self.now.t >= self.settings.t_end {
                 return end.unwrap_or(End::Done);
             }
@@ -141,8 +123,29 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 return End::Integrator(Finish::WorkLimit);
             }
             let travel = self.now.angle.minus(from);
-            if let Some(finish) = forecast.is_hopeless(spent, self.now.t, travel) {
+            if let Some(finish) = forecast.reason_to_stop(spent, self.now.t, travel) {
                 return End::Integrator(finish);
+            }
+        }
+    }
+
+    /// Passes the change at the end of a piece of sliding; returns the end of the run, if it ends there.
+    fn pass(&mut self, Change { t, index }: Change) -> Option<End> {
+        match EventIndex::ALL[index] {
+            Turned => Some(End::Done),
+            Clear => Some(self.jam()),
+            Speed => {
+                self.now.speed = 0.0;
+                self.leave_rest(Some(self.signs[index]))
+            }
+            of => {
+                self.signs[index] = -self.signs[index];
+                self.oppose(of);
+                if let Some(kind) = event(of) {
+                    let Start { angle, speed, .. } = self.now;
+                    self.observer.event(kind, t, angle, speed);
+                }
+                None
             }
         }
     }
@@ -178,22 +181,23 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                     (vanished, beyond) = (true, true);
                     return true;
                 }
-                let ends = match change.index {
-                    SPEED => friction.is_some() || on_crank || on_slider,
-                    DEAD_CENTRE => friction.is_some() || on_slider,
-                    NORMAL => friction.is_some(),
-                    CRANK => on_crank,
-                    LIMIT => false,
-                    _ => true,
+                let index = EventIndex::ALL[change.index];
+                let ends = match index {
+                    Speed => friction.is_some() || on_crank || on_slider,
+                    DeadCentre => friction.is_some() || on_slider,
+                    Normal => friction.is_some(),
+                    Crank => on_crank,
+                    Limit => false,
+                    Turned | Clear => true,
                 };
                 if ends {
                     cut = Some((step, change));
                     return true;
                 }
                 signs[change.index] = -signs[change.index];
-                let from_rest = change.index == SPEED && step.start.omega == 0.0;
-                if let Some(kind) = event(change.index).filter(|_| !from_rest) {
-                    let speed = if change.index == SPEED { 0.0 } else { speed };
+                let from_rest = index == Speed && step.start.omega == 0.0;
+                if let Some(kind) = event(index).filter(|_| !from_rest) {
+                    let speed = if index == Speed { 0.0 } else { speed };
                     observer.event(kind, change.t, step.angle(theta), speed);
                 }
             }
@@ -203,7 +207,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         });
         self.piece.steps += steps;
         self.piece.impossible = motion
-            .impossible()
+            .singular_state()
             .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();
@@ -234,17 +238,17 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             time::shortened(motion, step, t_end, settings, sink)
         };
         let mut t = change.t;
-        if change.index == TURNED {
-            t = met(t, step, 2, |t| {
+        if change.index == Turned as usize {
+            t = newton_time(t, step, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
-                let missing = self.quantities.values(t, angle, last.end.omega)[TURNED];
-                let dtheta = self.equation.curve().place(angle.rest).dtheta;
+                let missing = self.quantities.values(t, angle, last.end.omega)[Turned as usize];
+                let dtheta = self.equation.curve().pose(angle.rest).dtheta;
                 [missing, (dtheta * last.end.omega).abs()]
             });
         }
         let observer = &mut *self.observer;
-        let at_rest = change.index == SPEED;
+        let at_rest = change.index == Speed as usize;
         let rested = |step: &Step| {
             let mut step = *step;
             if at_rest && step.end.t >= t {

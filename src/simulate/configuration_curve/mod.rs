@@ -18,9 +18,6 @@ use crate::engine::time::{Finish, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
-/// Distance from a change point, in crank lengths, within which the last digits of the lengths decide.
-const NEAR_CHANGE_POINT: f64 = 1e-6;
-
 /// Equation on the configuration curve through the start, and the state of the coordinate at the start.
 #[derive(Clone)]
 pub(super) struct OnCurve {
@@ -29,16 +26,17 @@ pub(super) struct OnCurve {
 }
 
 /// Whether a free motion in time follows the configuration curve.
-pub(super) fn serves(task: &RunSetup<'_>) -> bool {
+pub(super) fn is_followed(task: &RunSetup<'_>) -> bool {
     !task.turns_fully() || task.may_stick()
 }
 
 /// Returns the warning about lengths at or near a change point, if any.
 pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
-    let near = task.equation().linkage().nearness_to_change_point();
+    // In crank lengths; lengths given to six digits do not tell on which side of a change point they are.
+    let (near, as_given) = (task.equation().linkage().nearness_to_change_point(), 1e-6);
     match task.limits.class {
         Class::ChangePoint => Some(Warning::ChangePoint),
-        _ => (near < NEAR_CHANGE_POINT).then_some(Warning::NearChangePoint(near)),
+        _ => (near < as_given).then_some(Warning::NearChangePoint(near)),
     }
 }
 
@@ -48,7 +46,7 @@ impl OnCurve {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
         let speed = match task.speed {
             0.0 => 0.0,
-            speed => speed / curve.place(angle.rest).dtheta,
+            speed => speed / curve.pose(angle.rest).dtheta,
         };
         let start = Start {
             t: 0.0,
@@ -109,7 +107,7 @@ pub(super) enum End {
 }
 
 /// Result of a piece in time: last step, work, counts and end.
-pub(super) struct Piece {
+pub(super) struct TimePiece {
     pub last: Step,
     /// Work of friction and of the loads without potential, J.
     pub work: f64,
@@ -122,7 +120,7 @@ pub(super) struct Piece {
 
 /// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is
 /// missing at a time, and the rate at which it falls.
-pub(super) fn met(
+pub(super) fn newton_time(
     mut t: f64,
     step: &Step,
     most: usize,
@@ -143,6 +141,6 @@ pub(super) fn crank_state(curve: &Curve, at: Start) -> Start {
     Start {
         t: at.t,
         angle: curve.crank_angle(at.angle),
-        speed: curve.place(at.angle.rest).dtheta * at.speed,
+        speed: curve.pose(at.angle.rest).dtheta * at.speed,
     }
 }

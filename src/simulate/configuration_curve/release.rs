@@ -6,9 +6,6 @@ use crate::numeric::root;
 
 /// Sample places in an interval, as parts of its length: uneven, as a periodic load could hide between even ones.
 const PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
-/// Longest interval, also the first, and shortest interval, as parts of the time left.
-const FIRST_INTERVAL: f64 = 1.0 / 317.0;
-const SHORTEST_INTERVAL: f64 = 1e-9;
 
 /// Result of a search for release.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +29,8 @@ pub(super) fn time(
 ) -> (Release, u64) {
     let mut count = 0;
     let band = |t: f64| rest.margin(t, mu_static);
-    let longest = FIRST_INTERVAL * (to - from);
-    let shortest = SHORTEST_INTERVAL * (to - from);
+    // Intervals, s: a prime number of them is out of step with the period of most loads; shorter dips are not resolved.
+    let [longest, shortest] = [1.0 / 317.0, 1e-9].map(|part| part * (to - from));
     let (mut t, mut length) = (from, longest);
     while t < to && !allowed.is_reached(count) {
         let end = rest.next_corner(t).min(to).min(t + length);

@@ -1,7 +1,8 @@
 //! Transitions between motion and rest, and jamming, where rigid bodies leave the motion undetermined.
 
-use super::super::guide_friction::BESIDE;
-use super::super::stick_slip::{CRANK, DEAD_CENTRE, NORMAL, Phase, SPEED, Signs, against, signs};
+use super::super::guide_friction::NEARBY_ANGLE;
+use super::super::stick_slip::EventIndex::{self, Crank, DeadCentre, Normal, Speed};
+use super::super::stick_slip::{Phase, Signs, against, signs};
 use super::super::stop::Why;
 use super::End;
 use super::follow::CurveRun;
@@ -12,9 +13,6 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::{Finish, Start};
 use crate::mechanism::FromRest;
 use crate::scene::Variable;
-
-/// Span in which a run without a last time seeks a release, in units of its time up to then, or of 1 s.
-const FAR_AHEAD: f64 = 1e3;
 
 impl CurveRun<'_, '_> {
     /// Leaves rest; none if the motion goes on, otherwise the end of the run. `before`: previous direction of motion.
@@ -45,8 +43,10 @@ impl CurveRun<'_, '_> {
         let Start { t, angle, .. } = self.now;
         let equation = self.equation;
         let is_open = self.quantities.turning.is_some();
+        // A run of turns has no last time: it seeks a release for this many times its time up to now, or this many s.
+        let search_span = 1e3;
         let end = match is_open {
-            true => t + FAR_AHEAD * t.max(1.0),
+            true => t + search_span * t.max(1.0),
             false => self.settings.t_end,
         };
         let changes = equation.loads().reads().has(Variable::T);
@@ -97,7 +97,10 @@ impl CurveRun<'_, '_> {
         let free = self.equation.free(t, angle, speed);
         let mu = self.equation.friction().map_or(0.0, |f| f.coefficient);
         End::Named(Box::new(Why::Jam {
-            solutions: free.jam(mu, self.signs[SPEED] * self.signs[DEAD_CENTRE]),
+            solutions: free.jam(
+                mu,
+                self.signs[Speed as usize] * self.signs[DeadCentre as usize],
+            ),
             mu,
             kappa: free.kappa.abs(),
         }))
@@ -106,13 +109,13 @@ impl CurveRun<'_, '_> {
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
     pub fn singular(&self) -> End {
         let Start { t, angle, speed } = self.now;
-        if let Some(friction) = self.equation.friction() {
-            let free = self.equation.free(t, angle, speed);
-            if free.clear_of_jam(friction.coefficient) < 1e-3 {
-                return self.jam();
-            }
+        // Of 1 − μ |κ|: the acceleration grows a thousandfold towards jamming, which the steps do not follow.
+        let near_jam = 1e-3;
+        let clear = |mu: f64| self.equation.free(t, angle, speed).clear_of_jam(mu);
+        match self.equation.friction() {
+            Some(friction) if clear(friction.coefficient) < near_jam => self.jam(),
+            _ => End::Integrator(Finish::StepTooSmall),
         }
-        End::Integrator(Finish::StepTooSmall)
     }
 
     /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate).
@@ -131,24 +134,25 @@ impl CurveRun<'_, '_> {
         let values = self.quantities.values(t, angle, speed);
         let ahead = self
             .quantities
-            .values(t, angle.plus(direction * BESIDE), speed);
+            .values(t, angle.plus(direction * NEARBY_ANGLE), speed);
         let mut signs = signs(values, ahead, direction);
         // A start at rest has no direction: the acceleration gives it.
         if speed == 0.0 && !self.may_stick() {
             let motion = self.in_phase(Phase::FREE);
             if motion.acceleration(t, angle, speed) < 0.0 {
-                signs[SPEED] = -1.0;
+                signs[Speed as usize] = -1.0;
             }
         }
         signs
     }
 
     /// Updates the signs where dry loads reverse and the normal force jumps.
-    pub fn oppose(&mut self, index: usize) {
+    pub fn oppose(&mut self, index: EventIndex) {
         let equation = self.equation;
-        if equation.loads().are_dry() && matches!(index, DEAD_CENTRE | CRANK) {
+        if equation.loads().are_dry() && matches!(index, DeadCentre | Crank) {
             self.quantities.against.set(against(equation, &self.signs));
-            self.signs[NORMAL] = self.seen(self.signs[SPEED])[NORMAL];
+            let direction = self.signs[Speed as usize];
+            self.signs[Normal as usize] = self.seen(direction)[Normal as usize];
         }
     }
 }

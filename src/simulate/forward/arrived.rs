@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::super::configuration_curve::{End, Observer, OnCurve};
 use crate::engine::Counted;
-use crate::engine::angle::Driving;
+use crate::engine::angle::AngleRun;
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
 use crate::engine::time::{Settings, Start};
@@ -17,10 +17,10 @@ pub(super) trait Sink: Observer {
     fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
 
     /// Takes a piece over the angle.
-    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error>;
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error>;
 
     /// Keeps the motion of a piece over the angle that is one of several.
-    fn keep(&mut self, _driven: AnglePiece) {}
+    fn keep(&mut self, _piece: AnglePiece) {}
 
     /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate.
     fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>);
@@ -38,7 +38,7 @@ pub(super) trait Sink: Observer {
 
 /// Piece over the crank angle, placed in the time of the run.
 pub(super) struct AnglePiece {
-    pub driving: Driving,
+    pub run: AngleRun,
     pub engine: Engine,
     pub from: Start,
     pub to: Start,
@@ -63,7 +63,7 @@ pub(super) struct Arrived {
     /// Whether the last piece followed the configuration curve.
     pub on_curve: bool,
     /// Last piece, if over the angle, until the next piece begins; after the pass, the piece if it is the only one.
-    pub driven: Option<AnglePiece>,
+    pub angle_piece: Option<AnglePiece>,
     /// Work of friction and of the loads without potential, J.
     pub work: f64,
     /// Largest kinetic energy at the ends of panels and steps, J.

@@ -1,6 +1,5 @@
 //! Loop of a free motion: the engines of the plan take turns until the goal is met.
 
-use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
@@ -39,7 +38,7 @@ pub(super) struct Pass<'a, 'o> {
     pub sink: &'o mut dyn Sink,
     pub arrived: Arrived,
     /// Positions of the angle model evaluated before this pass.
-    places: u64,
+    positions: u64,
     /// Number of evaluations of loads over the angle and along the configuration curve.
     pub beside: u64,
     pub wait: f64,
@@ -56,7 +55,7 @@ impl Course<'_> {
                 now: self.task.first_state(),
                 ..Arrived::default()
             },
-            places: self.model.evaluations(),
+            positions: self.model.evaluations(),
             beside: 0,
             wait: self.wait,
         };
@@ -74,7 +73,7 @@ impl Course<'_> {
 impl<'a> Pass<'a, '_> {
     /// Returns the number of evaluations beside those of `motion`.
     pub fn spent_beside(&self) -> u64 {
-        self.course.model.evaluations() - self.places + self.beside
+        self.course.model.evaluations() - self.positions + self.beside
     }
 
     fn spent(&self) -> u64 {
@@ -87,8 +86,9 @@ impl<'a> Pass<'a, '_> {
     }
 
     fn pieces(&mut self) -> Result<(), Error> {
+        let task = self.course.task;
         let mut engine = self.course.first;
-        let mut reason = self.course.task.plan.reason.clone();
+        let mut reason = task.plan.reason.clone();
         // Rotation, rad, before the angle engine resumes; infinite unless that engine stopped at low speed.
         let mut wait = f64::INFINITY;
         loop {
@@ -101,10 +101,19 @@ impl<'a> Pass<'a, '_> {
                 return Ok(());
             };
             wait = match why {
-                PieceEnd::NotApplicable(NotApplicable::TooSlow) if self.hands_back() => self.wait,
+                PieceEnd::NotApplicable(NotApplicable::TooSlow)
+                    if task.plan.has(Engine::Angle) && task.turns_fully() =>
+                {
+                    self.wait
+                }
                 _ => f64::INFINITY,
             };
-            reason = self.reason(next, why);
+            reason = match why {
+                PieceEnd::NotApplicable(why) if next == Engine::Time => {
+                    stop_reason::not_applicable(task, why).into()
+                }
+                _ => "the crank turns".into(),
+            };
             engine = next;
         }
     }
@@ -123,7 +132,7 @@ impl<'a> Pass<'a, '_> {
                 return Err(stop_reason::refusal(self.course.task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.places = self.course.model.evaluations();
+            self.positions = self.course.model.evaluations();
         }
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
@@ -139,23 +148,7 @@ impl<'a> Pass<'a, '_> {
         })
     }
 
-    fn has_begun(&self) -> bool {
+    pub fn has_begun(&self) -> bool {
         self.arrived.over_angle + self.arrived.in_time > 0
-    }
-
-    /// Whether the angle engine may resume after a piece in time.
-    fn hands_back(&self) -> bool {
-        let task = self.course.task;
-        task.plan.has(Engine::Angle) && task.turns_fully()
-    }
-
-    /// Returns the reason for the next engine.
-    fn reason(&self, next: Engine, why: PieceEnd) -> Cow<'static, str> {
-        match why {
-            PieceEnd::NotApplicable(why) if next == Engine::Time => {
-                stop_reason::not_applicable(self.course.task, why).into()
-            }
-            _ => "the crank turns".into(),
-        }
     }
 }

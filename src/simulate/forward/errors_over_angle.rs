@@ -6,15 +6,9 @@ use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::MARGIN;
 use super::arrived::Arrived;
-use crate::engine::angle::Driving;
+use crate::engine::angle::AngleRun;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
-
-/// Relative roundoff of times of the angle engine.
-pub(super) const TIME_ROUNDING: f64 = 2.5 * f64::EPSILON;
-
-/// Number of times of a run at which row errors are sampled.
-const LOOKED_AT: u32 = 64;
 
 /// Returns the error of the worst row of a run until a time (s), from samples over the run.
 pub(super) fn worst_row(
@@ -24,12 +18,13 @@ pub(super) fn worst_row(
 ) -> ErrorEstimate {
     // Multiples of the golden section lie everywhere in panels, however these divide the run.
     let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let times = (1..=LOOKED_AT).map(|i| (f64::from(i) * golden).fract() * end);
+    let samples = 64;
+    let times = (1..=samples).map(|i| (f64::from(i) * golden).fract() * end);
     times.fold(last, |worst, t| worst.max(error(t)))
 }
 
 /// Largest roundoff of an angle within its turn, rad.
-pub(super) const PLACE_ROUNDING: f64 = 2.0 * f64::EPSILON;
+pub(super) const TURN_ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
 /// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
@@ -47,13 +42,13 @@ pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> 
 /// Returns the error of the last state and of the worst row of the energy engine.
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
-    driving: &Driving,
+    run: &AngleRun,
     arrived: &Arrived,
     wants_rows: bool,
 ) -> Estimate {
-    let (orbit, end) = (&driving.orbit, driving.end);
-    let mut error = rounded(task, orbit, arrived.now);
-    error.omega_rad_per_s += left_out(task, orbit, arrived.now, arrived.work);
+    let (orbit, end) = (&run.orbit, run.end);
+    let mut error = rounding_error(task, orbit, arrived.now);
+    error.omega_rad_per_s += truncation_error(task, orbit, arrived.now, arrived.work);
     Estimate {
         error,
         on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),
@@ -62,7 +57,7 @@ pub(super) fn by_energy(
 }
 
 /// Returns the error of a state from that of its time and from the roundoff of position and energies.
-fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
+fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
     let Start { t, angle, speed } = at;
     let rests = task.speed == 0.0 || orbit.turns_back();
     // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time depends on the
@@ -71,9 +66,9 @@ fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
     let late = orbit.time_error(t) + roundings * f64::EPSILON * t;
     let place = orbit
         .rounding(t)
-        .map_or(PLACE_ROUNDING, |place| place.min(PLACE_ROUNDING));
+        .map_or(TURN_ROUNDING, |place| place.min(TURN_ROUNDING));
     let mut error = late_by(task, at, late, place);
-    error.theta_rad = error.theta_rad.hypot(orbit.misplaced(t));
+    error.theta_rad = error.theta_rad.hypot(orbit.turning_point_error(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
     // At rest: not a number.
     let kinetic = 0.5 * momentum * speed.abs();
@@ -84,7 +79,7 @@ fn rounded(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
 
 /// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
 /// shows it.
-fn left_out(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
+fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
     let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
     let momentum = task.equation().terms(at.angle.rest).inertia.m * at.speed.abs();
     let seen = (MARGIN * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
@@ -94,7 +89,7 @@ fn left_out(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
 /// Returns the error of a row at a time, s.
 fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let (angle, speed) = orbit.state(t);
-    let mut error = rounded(task, orbit, Start { t, angle, speed });
+    let mut error = rounding_error(task, orbit, Start { t, angle, speed });
     error.omega_rad_per_s += orbit.speed_error(t) * speed.abs();
     error
 }

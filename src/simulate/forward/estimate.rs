@@ -14,14 +14,12 @@ use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
-use super::super::second_run::{Compared, MARGIN, collocation_tolerance, same_method_tolerance};
+use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
 use super::arrived::{AnglePiece, Arrived, Sink};
 use super::engine_loop::Course;
-use super::errors_over_angle::{
-    PLACE_ROUNDING, TIME_ROUNDING, by_energy, late_by, row_error, worst_row,
-};
+use super::errors_over_angle::{TURN_ROUNDING, by_energy, late_by, row_error, worst_row};
 use super::over_angle::finer;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
@@ -32,15 +30,8 @@ use crate::mechanism::{CurveEquation, Equation};
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// Rotation before the angle engine resumes in the second run, rad: different from that of the first.
-const OTHER_WAIT: f64 = 1.4 * TAU;
-/// Evaluations of the second run for one of the first, plus a constant, in time or over the angle, for tables.
-const FOR_ONE: u64 = 20;
-const BESIDE: [u64; 2] = [20_000, 200_000];
-/// Stated roundoff, in standard deviations.
-const DEVIATIONS: f64 = 2.0;
-/// Remaining part of an energy error that is neglected. Half or twice as much changes none of 200 random runs.
-const FORGOTTEN: f64 = 0.1;
+/// Stated roundoff, in standard deviations: exceeded by 5 % of normally distributed errors.
+const STATED_DEVIATIONS: f64 = 2.0;
 
 /// Estimates the global error of a run; none where no second run reaches the end.
 pub(super) fn estimate(
@@ -49,9 +40,9 @@ pub(super) fn estimate(
     record: &Record,
     wants_rows: bool,
 ) -> Option<Estimate> {
-    match &arrived.driven {
+    match &arrived.angle_piece {
         Some(piece) if piece.engine == Engine::Energy => {
-            Some(by_energy(course.task, &piece.driving, arrived, wants_rows))
+            Some(by_energy(course.task, &piece.run, arrived, wants_rows))
         }
         _ => by_second_run(course, arrived, record, wants_rows),
     }
@@ -65,68 +56,48 @@ fn by_second_run(
     wants_rows: bool,
 ) -> Option<Estimate> {
     let begun = Instant::now();
-    let guide = arrived.driven.as_ref().filter(|_| arrived.is_one_piece());
-    let guide = guide.map(|driven| Guide::new(&driven.driving.orbit, course.resolution.tail));
-    let t_end = arrived.now.t;
-    let over_angle = arrived.over_angle > 0;
-    let limit = course.settings.limit;
-    let share = arrived
-        .evaluations
-        .saturating_mul(FOR_ONE)
-        .saturating_add(BESIDE[usize::from(over_angle)]);
-    let plain = Settings {
-        t_end,
-        limit: WorkLimit {
-            evaluations: share.min(limit.evaluations),
-            ..limit
-        },
-        ..course.settings
-    };
-    let tolerance = plain.tolerance;
-    let collocation = Settings {
-        method: Method::Picard,
-        tolerance: collocation_tolerance(tolerance),
-        guide: &record.checkpoints.first,
-        ..plain
-    };
-    // Used where collocation does not reach the end.
-    let again = Settings {
-        tolerance: same_method_tolerance(tolerance),
-        ..plain
+    let guide = arrived
+        .angle_piece
+        .as_ref()
+        .filter(|_| arrived.is_one_piece());
+    let guide = guide.map(|piece| Guide::new(&piece.run.orbit, course.resolution.tail));
+    let first = match arrived.over_angle {
+        0 => Engine::Time,
+        _ => Engine::Angle,
     };
     let mut evaluations = 0;
     let second = |settings| {
         let finer = Course {
-            first: match over_angle {
-                true => Engine::Angle,
-                false => Engine::Time,
-            },
+            first,
             is_second: true,
-            extent: Extent::Duration(t_end),
+            extent: Extent::Duration(arrived.now.t),
             resolution: finer(guide),
             settings,
-            wait: OTHER_WAIT,
+            // Another part of a turn than in the first run.
+            wait: 1.4 * TAU,
             ..course.clone()
         };
         let forward = CrankMotion(course.task.equation());
         let motion = Counted::new(&forward);
-        let mut seen = Second::new(&finer, &motion, record);
+        let mut seen = SecondRun::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
         evaluations += best.evaluations + seen.rounding.evaluations;
         let arrives = matches!(best.end, End::Done);
         arrives.then_some((best, seen.rounding.spread, seen.compared))
     };
-    let (best, spread, compared) = [collocation, again].into_iter().find_map(second)?;
+    let (best, spread, compared) = second_settings(course, arrived, record)
+        .into_iter()
+        .find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
     let error = distance(course, arrived, &best, spread);
-    let rows = match (&arrived.driven, &best.driven) {
+    let rows = match (&arrived.angle_piece, &best.angle_piece) {
         _ if !arrived.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
-            let orbits = [one, other].map(|driven| &driven.driving.orbit);
-            worst_row(one.driving.end, error, |t| row_error(orbits, t, error))
+            let orbits = [one, other].map(|piece| &piece.run.orbit);
+            worst_row(one.run.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
         (None, _) => Some(compared.worst(error)),
@@ -138,6 +109,41 @@ fn by_second_run(
     })
 }
 
+/// Returns the settings of the second run, by collocation and by the method of the run.
+fn second_settings<'a>(
+    course: &Course<'a>,
+    arrived: &Arrived,
+    record: &'a Record,
+) -> [Settings<'a>; 2] {
+    let limit = course.settings.limit;
+    // Evaluations for one of the first run, and in addition those of the first steps, or of tables over the angle.
+    let per_evaluation = 20;
+    let in_addition = match arrived.over_angle {
+        0 => 20_000,
+        _ => 200_000,
+    };
+    let share = arrived
+        .evaluations
+        .saturating_mul(per_evaluation)
+        .saturating_add(in_addition);
+    let again = Settings {
+        t_end: arrived.now.t,
+        limit: WorkLimit {
+            evaluations: share.min(limit.evaluations),
+            ..limit
+        },
+        tolerance: same_method_tolerance(course.settings.tolerance),
+        ..course.settings
+    };
+    let collocation = Settings {
+        method: Method::Picard,
+        tolerance: collocation_tolerance(course.settings.tolerance),
+        guide: &record.checkpoints.first,
+        ..again
+    };
+    [collocation, again]
+}
+
 /// Returns the distance of two runs at the end, plus the roundoff.
 fn distance(
     course: &Course<'_>,
@@ -147,13 +153,15 @@ fn distance(
 ) -> ErrorEstimate {
     let Start { t, angle, speed } = arrived.now;
     let [angle_noise, speed_noise] =
-        of_crank(course, arrived, spread).map(|noise| DEVIATIONS * f64::EPSILON * noise);
+        of_crank(course, arrived, spread).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
+    // Of the angle engine, relative to the time.
+    let time_rounding = 2.5 * f64::EPSILON;
     let floor = match arrived.over_angle {
         0 => ErrorEstimate {
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(course.task, arrived.now, TIME_ROUNDING * t, PLACE_ROUNDING),
+        _ => late_by(course.task, arrived.now, time_rounding * t, TURN_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
@@ -170,35 +178,39 @@ fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] 
     let (Some(Step { end, .. }), Some(on)) = (arrived.last, on) else {
         return [angle, speed];
     };
-    let place = on.equation.curve().place(end.theta);
+    let place = on.equation.curve().pose(end.theta);
     let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
     let dtheta = place.dtheta.abs();
     [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
 }
 
 /// Observer of the second run: propagates roundoff and compares with the states of the first.
-struct Second<'m, 'a> {
+struct SecondRun<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: Rounding,
     /// Configuration curve of the last piece in time, if it follows one.
     on: Option<Arc<CurveEquation>>,
-    compared: Compared<'a>,
+    compared: Comparison<'a>,
 }
 
-impl<'m, 'a> Second<'m, 'a> {
-    fn new(course: &'m Course<'_>, motion: &'m Counted<'m>, record: &'a Record) -> Second<'m, 'a> {
+impl<'m, 'a> SecondRun<'m, 'a> {
+    fn new(
+        course: &'m Course<'_>,
+        motion: &'m Counted<'m>,
+        record: &'a Record,
+    ) -> SecondRun<'m, 'a> {
         let Start { t, angle, speed } = course.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         // Panels over the angle state their roundoff themselves.
         let moves = moves && course.first == Engine::Time;
-        Second {
+        SecondRun {
             equation: course.task.equation(),
             motion,
             rounding: Rounding::new(course.settings.method, moves),
             on: None,
-            compared: Compared::with(&record.checkpoints),
+            compared: Comparison::with(&record.checkpoints),
         }
     }
 
@@ -207,18 +219,21 @@ impl<'m, 'a> Second<'m, 'a> {
         let [inertia, then] = [from, to].map(|at| self.inertia(at));
         let [alpha, after] = [from, to].map(|at| self.acceleration(at));
         let energy = [-inertia * alpha, inertia * from.speed];
-        // A piece that loses nearly all of its energy forgets an energy error.
-        let by_energy = if errors.kept < FORGOTTEN {
+        // A piece that loses nearly all of its energy forgets an energy error. Half or twice this fraction changes none
+        // of 200 random runs.
+        let forgotten = 0.1;
+        let by_energy = if errors.retained < forgotten {
             0.0
         } else {
-            errors.early
+            errors.advance
         };
         let early = [
             1.0 / from.speed + by_energy * energy[0],
             by_energy * energy[1],
         ];
         let angle = early.map(|early| to.speed * early);
-        let speed = [0, 1].map(|k| (errors.kept * energy[k] / then + after * angle[k]) / to.speed);
+        let speed =
+            [0, 1].map(|k| (errors.retained * energy[k] / then + after * angle[k]) / to.speed);
         [angle, speed]
     }
 
@@ -231,22 +246,20 @@ impl<'m, 'a> Second<'m, 'a> {
     }
 }
 
-impl Sink for Second<'_, '_> {
-    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
-        let AnglePiece {
-            driving, from, to, ..
-        } = driven;
-        let (angle, speed) = driving.orbit.state(driving.end);
+impl Sink for SecondRun<'_, '_> {
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
+        let AnglePiece { run, from, to, .. } = piece;
+        let (angle, speed) = run.orbit.state(run.end);
         let to = Start {
             t: to.t,
             angle,
             speed,
         };
-        let errors = &driving.errors;
+        let errors = &run.errors;
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
-        let unit = DEVIATIONS * f64::EPSILON;
-        let [late, off] = [errors.late, errors.off].map(|error| error / unit);
+        let unit = STATED_DEVIATIONS * f64::EPSILON;
+        let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
         let carried = self.rounding.spread.carried(&transition);
         self.rounding.spread = carried
             .along(speed * late, self.acceleration(&to) * late)
@@ -262,14 +275,14 @@ impl Sink for Second<'_, '_> {
     }
 }
 
-impl Observer for Second<'_, '_> {
+impl Observer for SecondRun<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
-        let Second {
+        let SecondRun {
             rounding, compared, ..
         } = self;
         match self.on.as_deref().zip(phase) {
             Some((on, phase)) => {
-                compared.pass(step, |q| on.curve().place(q).dtheta);
+                compared.pass(step, |q| on.curve().pose(q).dtheta);
                 rounding.step_on_curve(on, step, phase);
             }
             None => {

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{Observer, OnCurve, crank_state, met};
+use super::super::configuration_curve::{Observer, OnCurve, crank_state, newton_time};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
-use super::super::marks::SAME_ANGLE;
+use super::super::marks::SAME_CORNER;
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
@@ -87,14 +87,15 @@ impl<'a> ForwardRecorder<'a> {
         let ForwardRecorder {
             task, on, phase, ..
         } = self;
-        let last = || match (arrived.last, on.filter(|_| arrived.on_curve)) {
-            (Some(last), Some(on)) => {
-                let along = AlongCurve::new(&on, phase, &task.maker);
-                along.row(t, last.angle(last.end.theta), last.end.omega)
-            }
-            _ => task.maker.row(t, angle, speed, None),
-        };
-        self.recorder.finish(|| Some(last()))
+        self.recorder.finish(|| {
+            Some(match (arrived.last, on.filter(|_| arrived.on_curve)) {
+                (Some(last), Some(on)) => {
+                    let along = AlongCurve::new(&on, phase, &task.maker);
+                    along.row(t, last.angle(last.end.theta), last.end.omega)
+                }
+                _ => task.maker.row(t, angle, speed, None),
+            })
+        })
     }
 
     /// Records a step of the crank; true ends the run.
@@ -148,7 +149,7 @@ impl<'a> ForwardRecorder<'a> {
         };
         let (mut t, by) = self.ends_at?;
         if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
-            t = met(t, step, 3, |t| {
+            t = newton_time(t, step, 3, |t| {
                 let last = until(t, &mut |_| false);
                 let turned = self.turned(&last);
                 [limit.copysign(turned) - turned, last.end.omega]
@@ -201,7 +202,7 @@ impl<'a> ForwardRecorder<'a> {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
         if let Some(passed) = self.passed.take()
-            && at.minus(passed.angle).abs() < SAME_ANGLE
+            && at.minus(passed.angle).abs() < SAME_CORNER
             && omega * passed.speed > 0.0
         {
             return;
@@ -233,12 +234,7 @@ impl Observer for ForwardRecorder<'_> {
         let at = Start { t, angle, speed };
         let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
         let at = self.on.as_ref().map_or(at, crank);
-        self.recorder.event(Event {
-            kind,
-            t_s: t,
-            theta_rad: at.angle.radians(),
-            omega_rad_per_s: at.speed,
-        });
+        self.recorder.event(Event::new(kind, at));
     }
 }
 
@@ -247,19 +243,19 @@ impl Sink for ForwardRecorder<'_> {
         self.recorder.begins(engine, from, why);
     }
 
-    fn over_angle(&mut self, driven: &AnglePiece) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
         self.recorder.orbit_piece(&mut OrbitPiece {
-            orbit: &driven.driving.orbit,
-            begin: driven.from.t,
-            end: driven.driving.end,
+            orbit: &piece.run.orbit,
+            begin: piece.from.t,
+            end: piece.run.end,
             task: self.task,
         })
     }
 
-    fn keep(&mut self, driven: AnglePiece) {
-        let (from, until) = (driven.from.t, driven.to.t);
+    fn keep(&mut self, piece: AnglePiece) {
+        let (from, until) = (piece.from.t, piece.to.t);
         self.recorder
-            .keep(|| Trajectory::orbit(driven.driving.orbit, from, until));
+            .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
     fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {

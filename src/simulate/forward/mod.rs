@@ -2,7 +2,6 @@
 //! makes the result, the errors and the energy balance.
 
 mod arrived;
-mod clear;
 mod engine_loop;
 mod errors_over_angle;
 mod estimate;
@@ -37,9 +36,6 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// Crank rotation in one direction, rad, after which the angle engine resumes.
-const WAIT: f64 = TAU;
-
 /// Runs a free motion, with the model of its mechanism over the crank angle.
 pub(super) fn run(
     task: &RunSetup<'_>,
@@ -56,7 +52,7 @@ pub(super) fn run(
         extent: task.extent,
         resolution: over_angle::plain(task),
         settings: task.settings(),
-        wait: WAIT,
+        wait: TAU,
         curve: OnceCell::new(),
     };
     let forward = CrankMotion(task.equation());
@@ -84,7 +80,12 @@ pub(super) fn run(
     let now = arrived.now;
     let outcome = Outcome {
         at: now,
-        engine: engine(&arrived),
+        // An engine over the angle names the run, if any piece was over the angle.
+        engine: match &arrived.angle_piece {
+            Some(piece) => piece.engine,
+            None if arrived.over_angle > 0 => Engine::Angle,
+            None => Engine::Time,
+        },
         turned: now.angle.minus(task.start()),
         estimate,
         balance: energy_balance(&course, &arrived, &record),
@@ -100,15 +101,6 @@ pub(super) fn run(
         _ => outcome.with_bounded_speeds(task),
     };
     Ok(with_motion(outcome.conclude(task), course, arrived))
-}
-
-/// Returns the engine that names a run: one over the angle, if any piece was.
-fn engine(arrived: &Arrived) -> Engine {
-    match &arrived.driven {
-        Some(driven) => driven.engine,
-        None if arrived.over_angle > 0 => Engine::Angle,
-        None => Engine::Time,
-    }
 }
 
 fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Balance {
@@ -133,9 +125,14 @@ fn energy_balance(course: &Course<'_>, arrived: &Arrived, record: &Record) -> Ba
 /// Adds the dense motion to the run: a motion over the angle as it stands, one on a curve converted to the crank.
 fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Simulation {
     let alone = arrived.is_one_piece();
-    match (arrived.driven, course.curve.into_inner()) {
-        (Some(AnglePiece { driving, to, .. }), _) if alone => {
-            run.trajectory = Some(Trajectory::orbit(driving.orbit, 0.0, to.t));
+    match (arrived.angle_piece, course.curve.into_inner()) {
+        (
+            Some(AnglePiece {
+                run: motion, to, ..
+            }),
+            _,
+        ) if alone => {
+            run.trajectory = Some(Trajectory::orbit(motion.orbit, 0.0, to.t));
         }
         (_, Some(on)) if alone => {
             let seen = on.equation.clone();
@@ -143,7 +140,7 @@ fn with_motion(mut run: Simulation, course: Course<'_>, arrived: Arrived) -> Sim
                 let curve = seen.curve();
                 (
                     curve.crank_angle(angle),
-                    curve.place(angle.rest).dtheta * speed,
+                    curve.pose(angle.rest).dtheta * speed,
                 )
             };
             run.trajectory = run

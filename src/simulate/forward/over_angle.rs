@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
+use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
@@ -10,7 +11,7 @@ use super::super::stop;
 use super::arrived::{AnglePiece, PieceEnd};
 use super::engine_loop::Pass;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{self, Driving, Goal, Guide, Resolution};
+use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::Start;
 use crate::error::Error;
@@ -18,22 +19,14 @@ use crate::numeric::root;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
-/// Tail of the series of the angle engine, as part of the tolerance, and factor on the tail with friction, which may
-/// cut a series inside a panel.
-const SHARE_OVER_ANGLE: f64 = 1e-2;
-const CUT_BY_FRICTION: f64 = 0.03;
-/// Tail of the series of the energy engine, as part of the tolerance, and largest tail: all digits but the last ones.
-const SHARE_OF_ENERGY: f64 = 0.1;
-const MOST_TAIL: f64 = 1e-14;
-
 impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
     pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let (task, model) = (self.course.task, self.course.model);
-        let tail = (SHARE_OF_ENERGY * task.scene.run.tolerance).clamp(LEAST_TAIL, MOST_TAIL);
-        let (orbit, t, stopped) = match until_the_end(task, |until| {
-            Orbit::new(model, task.start(), task.speed, until, tail)
-        }) {
+        // A tenth of the tolerance, but no more than the last digits, as the series cost little.
+        let (share, most_tail) = (0.1, 1e-14);
+        let tail = (share * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
+        let (orbit, t, stopped) = match until_the_end(task, model, tail) {
             Ok(ended) => ended,
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
@@ -42,8 +35,8 @@ impl Pass<'_, '_> {
         }
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
-        let driving = Driving::whole(orbit, t, work);
-        self.drove(Engine::Energy, reason, driving, Start { t, angle, speed })?;
+        let run = AngleRun::whole(orbit, t, work);
+        self.add_angle_piece(Engine::Energy, reason, run, Start { t, angle, speed })?;
         Ok(PieceEnd::Ended)
     }
 
@@ -51,43 +44,37 @@ impl Pass<'_, '_> {
     pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
         let course = self.course;
         let from = self.arrived.now;
-        let driving = match self.drive() {
+        let run = self.run_over_angle().and_then(|run| match run.early_end {
             // Past its limits a crank that does not turn fully is followed from the start.
-            Ok(Driving {
-                short: Some(short), ..
-            }) if !course.task.turns_fully() => Err(short.why),
-            driving => driving,
-        };
-        let driving = match driving {
-            Ok(driving) => driving,
+            Some(end) if !course.task.turns_fully() => Err(end.why),
+            _ => Ok(run),
+        });
+        let run = match run {
+            Ok(run) => run,
             Err(why) => {
                 self.wait *= 2.0;
                 return Ok(PieceEnd::NotApplicable(why));
             }
         };
-        let short = driving.short;
-        let t = match (course.extent, short) {
-            (Extent::Duration(duration), None) => duration,
-            _ => from.t + driving.end,
+        let Some(end) = run.early_end else {
+            let (angle, speed) = run.orbit.state(run.end);
+            let t = match course.extent {
+                Extent::Duration(duration) => duration,
+                Extent::Revolutions(_) => from.t + run.end,
+            };
+            self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
+            return Ok(PieceEnd::Ended);
         };
-        let (angle, speed) = match short {
-            None => driving.orbit.state(driving.end),
-            Some(short) => {
-                let inertia = course.task.equation().terms(short.angle.rest).inertia.m;
-                let speed = (2.0 * short.kinetic / inertia).sqrt();
-                (short.angle.reduced(), from.speed.signum() * speed)
-            }
-        };
-        if short.is_some() {
-            let way = angle.minus(from.angle).abs();
-            let soon = way < 2.0 * self.wait;
-            self.wait = if soon { 2.0 * self.wait } else { course.wait };
-        }
-        self.drove(Engine::Angle, reason, driving, Start { t, angle, speed })?;
-        Ok(short.map_or(PieceEnd::Ended, |short| PieceEnd::NotApplicable(short.why)))
+        let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
+        let speed = from.speed.signum() * (2.0 * end.kinetic / inertia).sqrt();
+        let (t, angle) = (from.t + run.end, end.angle.reduced());
+        let soon = angle.minus(from.angle).abs() < 2.0 * self.wait;
+        self.wait = if soon { 2.0 * self.wait } else { course.wait };
+        self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
+        Ok(PieceEnd::NotApplicable(end.why))
     }
 
-    fn drive(&self) -> Result<Driving, NotApplicable> {
+    fn run_over_angle(&self) -> Result<AngleRun, NotApplicable> {
         let course = self.course;
         let now = self.arrived.now;
         let goal = match course.extent {
@@ -105,53 +92,56 @@ impl Pass<'_, '_> {
     }
 
     /// Adds a piece over the angle to the pass.
-    fn drove(
+    fn add_angle_piece(
         &mut self,
         engine: Engine,
         reason: Cow<'static, str>,
-        driving: Driving,
+        run: AngleRun,
         to: Start,
     ) -> Result<(), Error> {
         self.keep();
         let arrived = &mut self.arrived;
         let from = arrived.now;
-        self.beside += driving.evaluations;
-        arrived.work += driving.work;
-        arrived.steps += driving.orbit.panels() as u64;
+        self.beside += run.evaluations;
+        arrived.work += run.work;
+        arrived.steps += run.orbit.panels() as u64;
         arrived.over_angle += 1;
-        let largest = driving.orbit.largest_kinetic(driving.end);
+        let largest = run.orbit.largest_kinetic(run.end);
         arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
         (arrived.last, arrived.on_curve) = (None, false);
         arrived.now = to;
-        let driven = AnglePiece {
-            driving,
+        let piece = AnglePiece {
+            run,
             engine,
             from,
             to,
         };
         self.sink.begins(engine, from.t, reason);
-        self.sink.over_angle(&driven)?;
-        arrived.driven = Some(driven);
+        self.sink.over_angle(&piece)?;
+        arrived.angle_piece = Some(piece);
         Ok(())
     }
 
     /// Hands the motion of the last piece over the angle to the sink, as another piece follows.
     pub fn keep(&mut self) {
-        if let Some(driven) = self.arrived.driven.take() {
-            self.sink.keep(driven);
+        if let Some(piece) = self.arrived.angle_piece.take() {
+            self.sink.keep(piece);
         }
     }
 }
 
 /// Returns the resolution for the tolerance of a run.
 pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
+    // Tail of the series as part of the tolerance; friction may cut a series inside a panel.
+    let share = 1e-2;
+    let share_cut_by_friction = 0.03 * share;
     let share = match &task.maker.guide {
-        Some(_) => SHARE_OVER_ANGLE * CUT_BY_FRICTION,
-        None => SHARE_OVER_ANGLE,
+        Some(_) => share_cut_by_friction,
+        None => share,
     };
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
-        other: false,
+        cuts_unevenly: false,
         guide: None,
         limit: task.options.limit(),
     }
@@ -161,7 +151,7 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
     Resolution {
         tail: LEAST_TAIL,
-        other: true,
+        cuts_unevenly: true,
         guide,
         limit: WorkLimit::NONE,
     }
@@ -170,8 +160,10 @@ pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
 /// Computes the motion until its goal, its last time (s), and the reason why the goal is not reached, if any.
 fn until_the_end(
     task: &RunSetup<'_>,
-    mut orbit_until: impl FnMut(f64) -> Result<Orbit, NotApplicable>,
+    model: &AngleModel<'_>,
+    tail: f64,
 ) -> Result<(Orbit, f64, Option<stop::Why>), NotApplicable> {
+    let orbit_until = |until: f64| Orbit::new(model, task.start(), task.speed, until, tail);
     let turns = match task.extent {
         Extent::Duration(duration) => {
             let orbit = orbit_until(duration)?;

@@ -3,7 +3,7 @@
 use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
-use super::super::stop::{Why, unserved};
+use super::super::stop::{Why, why_not_applicable};
 use super::arrived::Arrived;
 use super::engine_loop::Course;
 use crate::engine::energy::NotApplicable;
@@ -92,7 +92,7 @@ pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'stati
         _ if why == NotApplicable::NotFinite && !task.turns_fully() => {
             "the mechanism reaches the limit of its motion"
         }
-        _ => unserved(why),
+        _ => why_not_applicable(why),
     }
 }
 

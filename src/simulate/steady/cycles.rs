@@ -15,7 +15,8 @@ use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::trajectory::Trajectory;
 
-pub(super) struct Cycle {
+/// Run of one cycle of the loads.
+pub(super) struct CycleRun {
     pub trajectory: Trajectory,
     /// Duration, s.
     pub period: f64,
@@ -29,7 +30,7 @@ pub(super) struct Cycle {
     pub uncertain: f64,
 }
 
-impl Cycle {
+impl CycleRun {
     /// Returns the speed (rad/s) where the crank has turned by `turned` (rad) since the start.
     pub fn omega(&self, start: Angle, turned: f64) -> f64 {
         if let Some(orbit) = self.trajectory.as_orbit() {
@@ -47,7 +48,7 @@ impl Cycle {
     }
 }
 
-/// Cycle map of a scene: runs from any energy with one set-up, which share their panels.
+/// CycleRun map of a scene: runs from any energy with one set-up, which share their panels.
 pub(super) struct Cycles<'a> {
     task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
@@ -109,7 +110,7 @@ impl<'a> Cycles<'a> {
     }
 
     /// Runs the cycle that begins with a kinetic energy, J.
-    pub fn cycle(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
+    pub fn cycle(&mut self, kinetic: f64) -> Result<CycleRun, NotApplicable> {
         let run = self.run(kinetic, true)?;
         let summary = &run.summary;
         let last = summary.last.omega_rad_per_s;
@@ -119,7 +120,7 @@ impl<'a> Cycles<'a> {
             .noise
             .max(2.0 * error.unwrap_or(f64::INFINITY) / last.abs());
         let slowest = summary.omega_max.abs().min(summary.omega_min.abs());
-        Ok(Cycle {
+        Ok(CycleRun {
             period: summary.last.t_s,
             speed: self.speed(kinetic),
             gain: self.energy(last) - kinetic,

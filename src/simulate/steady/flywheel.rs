@@ -9,9 +9,6 @@ use crate::mechanism::Equation;
 use crate::numeric::root;
 use crate::scene::{Crank, Scene};
 
-/// Largest added inertia that is tried, in units of the effective inertia at the start angle.
-const LARGEST_INERTIA: f64 = 1e12;
-
 /// Finds the flywheel that gives the steady state near a start speed (rad/s) the `wanted` coefficient of fluctuation:
 /// inertia is added if the present coefficient is larger, otherwise taken away.
 pub(super) fn size(
@@ -89,7 +86,9 @@ type Excess<'a> = dyn Fn(f64) -> Result<f64, Error> + 'a;
 fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
     let own = Equation::new(scene).terms(scene.motion.angle).inertia.m;
     let (mut low, mut high) = (0.0, 0.1 * own);
-    while high < LARGEST_INERTIA * own {
+    // With a trillion times the inertia the fluctuation is next to rounding.
+    let largest = 1e12 * own;
+    while high < largest {
         if excess(high)? <= 0.0 {
             return Ok((low, high));
         }
@@ -133,7 +132,7 @@ fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64)
 }
 
 /// Returns the scene with inertia added to the crank, kg m².
-pub(super) fn with(scene: &Scene, added: f64) -> Scene {
+fn with(scene: &Scene, added: f64) -> Scene {
     let mut scene = scene.clone();
     let crank = scene.crank.get_or_insert_with(Crank::default);
     crank.inertia = (crank.inertia + added).max(0.0);

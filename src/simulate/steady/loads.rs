@@ -7,12 +7,9 @@ use super::periodic_orbit::PeriodicOrbit;
 use super::result::{Estimated, LoadWork};
 use super::{MARGIN, Verified};
 use crate::mechanism::{Equation, Limits, Linkage, single};
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::gauss;
 use crate::scene::{Load, LoadOf, Scene};
-
-/// Number of equal pieces of a turn, in addition to those from dead centres and tables.
-const PIECES: u32 = 16;
 
 /// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
@@ -71,13 +68,14 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
     let corners = corners.into_iter().flatten();
     let mut cuts: Vec<f64> = corners.map(turned).collect();
     let dead_centres = Limits::new(linkage, found.cycle.speed).dead_centres;
-    for turn in 0..found.turns as u32 {
-        let before = f64::from(turn) * TAU;
-        let ahead = |theta: f64| before + turned(theta).rem_euclid(TAU);
-        cuts.extend(dead_centres.iter().map(|dc| ahead(dc.theta)));
-        let part = |i: u32| before + f64::from(i) / f64::from(PIECES) * TAU;
-        cuts.extend((0..PIECES).map(part));
-    }
+    let dead_centres = dead_centres
+        .iter()
+        .map(|dc| turned(dc.theta).rem_euclid(TAU));
+    // Of a turn: adaptive quadrature may miss a narrow part of a formula between its first nodes.
+    let parts = 16u32;
+    let of_turn = (0..parts).map(|i| f64::from(i) / f64::from(parts) * TAU);
+    let of_turn: Vec<f64> = dead_centres.chain(of_turn).collect();
+    cuts.extend(angle::in_turns(&of_turn, 0..found.turns.into()));
     cuts.push(found.way());
     cuts.sort_by(f64::total_cmp);
     cuts

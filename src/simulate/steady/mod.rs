@@ -156,9 +156,10 @@ struct Verified {
 
 impl Verified {
     fn new(scene: &Scene, found: PeriodicOrbit, options: &Options) -> Result<Verified, Error> {
+        let rounding = 8.0 * f64::EPSILON;
         Ok(Verified {
             check: periodic_orbit::again(scene, found.cycle.speed, options)?,
-            relative: 0.5 * found.cycle.uncertain + periodic_orbit::SPEED_ROUNDING,
+            relative: 0.5 * found.cycle.uncertain + rounding,
             found,
         })
     }
@@ -213,7 +214,7 @@ impl Verified {
             scene: scene.title.clone().unwrap_or_default(),
             theta_rad: scene.motion.angle,
             omega_rad_per_s: self.relative(|f| f.cycle.speed),
-            cycle_turns: found.turns as u32,
+            cycle_turns: found.turns,
             period_s: self.relative(|f| f.cycle.period),
             omega_mean_rad_per_s: self.mean_speed(),
             slowest: extreme(0),
@@ -247,8 +248,8 @@ impl Verified {
 
     /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
-        let turns = self.found.turns as u32;
-        let count = fourier::SAMPLES * turns;
+        let turns = self.found.turns;
+        let count = fourier::SAMPLES_PER_TURN * turns;
         let speed = |k: u32| {
             [&self.found, &self.check].map(|f| f.omega(f64::from(k) * f.way() / f64::from(count)))
         };
@@ -270,6 +271,6 @@ impl Verified {
                 },
             }
         };
-        (1..=fourier::HIGHEST * turns).map(order).collect()
+        (1..=fourier::HIGHEST_ORDER * turns).map(order).collect()
     }
 }

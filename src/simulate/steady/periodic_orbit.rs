@@ -5,23 +5,15 @@ use std::f64::consts::TAU;
 use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
-use super::super::stop::unserved;
-use super::cycles::{Cycle, Cycles};
+use super::super::stop::why_not_applicable;
+use super::cycles::{CycleRun, Cycles};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{self, Angle};
 use crate::numeric::root;
 use crate::plan::cycle_over_angle;
 use crate::scene::{Extent, LEAST_TOLERANCE, Scene, Variable};
-
-/// Relative roundoff of speeds and times.
-pub(super) const SPEED_ROUNDING: f64 = 8.0 * f64::EPSILON;
-/// Energy gain of a turn, as part of its largest energy, up to which it counts as none.
-const NO_GAIN: f64 = 1e-12;
-/// First step of a search in the logarithm of the energy, and of a search near a known motion.
-const FIRST_LOG_STEP: f64 = 0.05;
-const STEP_BESIDE: f64 = 1e-10;
 
 /// Extreme of the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,9 +26,9 @@ pub(super) struct Extreme {
 
 pub(super) struct PeriodicOrbit {
     pub start: Angle,
-    pub cycle: Cycle,
+    pub cycle: CycleRun,
     /// Number of turns in a period.
-    pub turns: f64,
+    pub turns: u32,
     /// Least and largest speed, without regard to sign.
     pub extremes: [Extreme; 2],
     /// Floquet multiplier: factor on a small energy deviation over one period.
@@ -56,7 +48,7 @@ impl PeriodicOrbit {
 
     /// Returns the rotation of the crank in a period, rad.
     pub fn way(&self) -> f64 {
-        self.turns * TAU
+        f64::from(self.turns) * TAU
     }
 
     /// Returns the speed, rad/s, where the crank has turned by `turned` (rad) since the start.
@@ -72,16 +64,19 @@ impl PeriodicOrbit {
 
 /// Finds the periodic motion that a scene's start approaches from a speed, rad/s.
 pub(super) fn find(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
-    let tolerance = LEAST_TOLERANCE;
-    search(scene, speed, options, tolerance, FIRST_LOG_STEP)
+    let first_log_step = 0.05;
+    search(scene, speed, options, LEAST_TOLERANCE, first_log_step)
 }
 
 /// Computes a second time, for comparison, a periodic motion that begins at about this speed, rad/s.
 pub(super) fn again(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
+    // Far above the distance of both motions: one step brackets the second.
+    let first_log_step = 1e-10;
     let tolerance = 10.0 * LEAST_TOLERANCE;
-    search(scene, speed, options, tolerance, STEP_BESIDE)
+    search(scene, speed, options, tolerance, first_log_step)
 }
 
+/// Searches at a tolerance of the runs, from a first step in the logarithm of the energy.
 fn search(
     scene: &Scene,
     speed: f64,
@@ -122,7 +117,9 @@ impl Seeker<'_> {
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         if !by_speed && self.task.maker.guide.is_none() {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
-            if cycle.gain.abs() > NO_GAIN.max(cycles.noise()) * cycle.largest {
+            // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
+            let no_gain = 1e-12;
+            if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest {
                 let (what, load) = match cycle.gain > 0.0 {
                     true => ("gains", "brakes"),
                     false => ("loses", "drives the crank"),
@@ -145,29 +142,27 @@ impl Seeker<'_> {
     /// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
     fn found(
         &self,
-        cycle: Cycle,
+        mut cycle: CycleRun,
         fixed: Option<(FixedPoint, f64)>,
     ) -> Result<PeriodicOrbit, Error> {
+        if let Some((fixed, noise)) = fixed {
+            cycle.uncertain /= fixed.slope.abs().max(noise);
+        }
+        let fixed = fixed.map(|(fixed, _)| fixed);
         let mut found = PeriodicOrbit {
             start: self.task.start(),
-            turns: f64::from(self.turns),
+            turns: self.turns,
             extremes: [Extreme {
                 turned: 0.0,
                 omega: cycle.speed,
             }; 2],
-            multiplier: 1.0,
-            multiplier_error: 0.0,
-            approached: true,
+            // Motions do not cross: a negative multiplier is rounding.
+            multiplier: fixed.map_or(1.0, |fixed| (1.0 + fixed.slope).max(0.0)),
+            multiplier_error: fixed.map_or(0.0, |fixed| fixed.slope_error),
+            approached: fixed.is_none_or(|fixed| fixed.approached),
             any_speed: fixed.is_none(),
             cycle,
         };
-        if let Some((fixed, noise)) = fixed {
-            found.cycle.uncertain /= fixed.slope.abs().max(noise);
-            // Motions do not cross: a negative multiplier is rounding.
-            found.multiplier = (1.0 + fixed.slope).max(0.0);
-            found.multiplier_error = fixed.slope_error;
-            found.approached = fixed.approached;
-        }
         found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
         let known = found
             .extremes
@@ -179,13 +174,10 @@ impl Seeker<'_> {
     /// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
     fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
         let (sense, whole) = (found.cycle.speed.signum(), found.way());
-        let grid = self.task.equation().linkage().turn_grid(false);
-        let since = |theta: &f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
-        let again = |turn: u32| {
-            let before = f64::from(turn) * TAU;
-            grid.iter().map(move |theta| since(theta) + before)
-        };
-        let mut ways: Vec<f64> = (0..self.turns).flat_map(again).collect();
+        let grid = self.task.equation().linkage().turn_grid(false).into_iter();
+        let since = |theta: f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
+        let grid: Vec<f64> = grid.map(since).collect();
+        let mut ways: Vec<f64> = angle::in_turns(&grid, 0..self.turns.into()).collect();
         ways.push(0.0);
         ways.sort_by(f64::total_cmp);
         ways.dedup();
@@ -226,7 +218,10 @@ fn unbounded() -> Error {
 
 fn not_computed(why: NotApplicable) -> Error {
     Error::refused(
-        format!("the steady state cannot be computed: {}", unserved(why)),
+        format!(
+            "the steady state cannot be computed: {}",
+            why_not_applicable(why)
+        ),
         "look at the loads; or simulate until the motion repeats",
     )
 }

@@ -8,7 +8,7 @@
 use crate::support::exact::SinCos;
 use slider_crank::mechanism::single;
 use slider_crank::numeric::double_double::DoubleDouble;
-use slider_crank::numeric::enclosure::{Detail, Enclosed, Interval, PanelResolution, partition};
+use slider_crank::numeric::enclosure::{Enclosed, Interval, PanelResolution, Variation, partition};
 use slider_crank::scene::{InertiaAbout, Instant, Load, RodModel, Scene, Variables};
 
 type Vector = [DoubleDouble; 2];
@@ -234,9 +234,10 @@ fn marks(load: &Load, t_end: f64) -> Vec<f64> {
     if formula.reads() != Variables::T {
         return Vec::new();
     }
-    let detail =
-        |t: Interval, ellipse: f64| Detail::of(formula.enclose(|_| Enclosed::variable(t, ellipse)));
-    partition(detail, Interval::new(0.0, t_end), SHOWN, 0.0)
+    let variation = |t: Interval, ellipse: f64| {
+        Variation::of(formula.enclose(|_| Enclosed::variable(t, ellipse)))
+    };
+    partition(variation, Interval::new(0.0, t_end), SHOWN, 0.0)
 }
 
 fn is_exact(load: &Load) -> bool {

@@ -2,19 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use super::super::Driven;
-use super::super::progress::Progress;
-use super::super::seen::at_speeds;
+use super::super::Dynamics;
+use super::super::load_resolution::resolves_speeds;
 use super::super::stepper::PanelStepper;
-use super::{DEGREE, LastTurns};
+use super::{DEGREE, MapRun};
 use crate::engine::energy::NotApplicable;
-use crate::engine::energy::interpolated_turns::{Cell, Turn};
+use crate::engine::energy::interpolated_turns::{Cell, Cycle};
 use crate::engine::energy::segment::Segment;
-use crate::engine::sight::NodeCriterion;
+use crate::engine::resolution::NodeCriterion;
 use crate::numeric::chebyshev::Rule;
 use crate::numeric::enclosure::{Interval, ellipses};
 
-impl<D: Driven> LastTurns<'_, D> {
+impl<D: Dynamics> MapRun<'_, D> {
     /// Computes the cell over the energies middle ± half, J.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
         let rule = Rule::of(DEGREE);
@@ -26,7 +25,9 @@ impl<D: Driven> LastTurns<'_, D> {
             speeds = Some(speeds.map_or(its, |all| all.hull(its)));
             // All turns of a cell have the same panels.
             if self.stepper.progress.refined {
-                self.stepper.settle()?;
+                self.stepper
+                    .panels
+                    .cut_failed(self.stepper.dynamics, self.stepper.fine)?;
                 turns.clear();
             } else {
                 turns.push(turn);
@@ -40,54 +41,49 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// True if the energies of a cell around `middle`, J, resolve the loads at all speeds in the range (rad/s).
     fn shows(&self, speeds: Interval, middle: f64) -> bool {
-        let PanelStepper { driven, panels, .. } = &self.stepper;
+        let PanelStepper {
+            dynamics,
+            panels,
+            fine,
+            ..
+        } = &self.stepper;
         let look = NodeCriterion {
             nodes: DEGREE,
-            ellipses: ellipses(DEGREE, self.tail),
-            allowed: self.tail * middle / TAU,
+            ellipses: ellipses(DEGREE, fine.tail),
+            allowed: fine.tail * middle / TAU,
             least: 0.0,
-            compares: false,
+            has_interpolant: false,
         };
-        !driven.has_detail()
+        !dynamics.varies_between_nodes()
             || panels
+                .panels
                 .iter()
-                .all(|panel| at_speeds(*driven, panel, speeds, look))
+                .all(|panel| resolves_speeds(*dynamics, panel, speeds, look))
     }
 
     /// Computes the turn that begins with this energy, J, and its range of speeds, rad/s.
-    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Turn), Interval), NotApplicable> {
-        self.stepper.gives_up = false;
+    fn whole_turn(&mut self, kinetic: f64) -> Result<((Segment, Cycle), Interval), NotApplicable> {
         let mut speeds: Option<Interval> = None;
-        self.stepper.restart(kinetic);
+        self.stepper.restart(kinetic, false);
         let mut segment = Segment::open();
         loop {
             segment.push(self.stepper.panel()?.panel);
             let here = self.stepper.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
-            if self.stepper.progress.hid {
+            if self.stepper.progress.missed_load {
                 // Panels that end at a position specific to this energy make its turn unlike the others.
                 return Err(NotApplicable::NotSmooth);
             }
-            if self.stepper.at_cycle() {
+            if self.stepper.panels.at_cycle() {
                 break;
             }
         }
-        let turn = Turn {
+        let turn = Cycle {
             count: self.stepper.progress.turns.abs(),
             duration: self.stepper.progress.t.0,
             gain: self.stepper.progress.gain,
             work: self.stepper.progress.work,
         };
         Ok(((segment, turn), speeds.unwrap_or_default()))
-    }
-}
-
-impl<D: Driven> PanelStepper<'_, D> {
-    /// Restarts at the start of a cycle with another kinetic energy, J.
-    pub fn restart(&mut self, kinetic: f64) {
-        self.parts.clear();
-        self.guide = None;
-        self.next = 0;
-        self.progress = Progress::at(kinetic, 0.0);
     }
 }

@@ -4,39 +4,31 @@ mod cells;
 
 use std::f64::consts::TAU;
 
-use super::super::energy::interpolated_turns::{Interpolated, Mark, Turn};
+use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, Recent, Turns};
 use super::super::energy::{NotApplicable, Orbit};
-use super::driving::{FEW_TURNS, work_until};
-use super::progress::Done;
+use super::angle_run::work_until;
+use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{Driven, Driving, Errors, Goal, Resolution, Short};
+use super::{AngleRun, Dynamics, EarlyEnd, Errors, Goal};
 use crate::engine::WorkLimit;
-use crate::numeric::angle::Angle;
+use crate::engine::run_in_time::Start;
 
-/// Degree of the interpolation over the energy.
+/// Degree of the interpolation over the energy: a cell costs one turn more than this.
 const DEGREE: usize = 16;
-/// Largest width of a cell, relative to the energy at its start.
-const WIDEST: f64 = 0.5;
-/// Least width of a cell, relative to the energy at its start.
-const NARROWEST: f64 = 1e-7;
-/// Fraction of the allowed tail at which the width of the next cell aims.
-const SAFETY: f64 = 0.2;
-/// Most turns that are iterated; they take some seconds.
-const MOST_TURNS: f64 = 1e8;
+/// Turns computed one by one before the map takes over, and again where it ends: about what its first three cells cost.
+pub(super) const SINGLE_TURNS: f64 = 3.0 * DEGREE as f64;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
-pub(super) fn run<D: Driven>(
+pub(super) fn run<D: Dynamics>(
     stepper: PanelStepper<'_, D>,
     segment: Segment,
-    start: Angle,
-    speed: f64,
     goal: Goal,
-    resolution: Resolution<'_>,
-) -> Result<Driving, NotApplicable> {
-    let mark = Mark {
+) -> Result<AngleRun, NotApplicable> {
+    let Start { angle, speed, .. } = stepper.start;
+    let mark = TurnStart {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,
         kinetic: stepper.progress.kinetic,
@@ -44,12 +36,9 @@ pub(super) fn run<D: Driven>(
         low: [0.0; 2],
     };
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
-    let mut way = LastTurns {
-        tail: resolution.tail,
-        width: WIDEST,
-        rises: stepper.progress.gain > 0.0,
-        lost: (stepper.progress.gain / stepper.progress.turns).abs()
-            * f64::from(stepper.driven.cycle()),
+    let mut turns = MapRun {
+        width: f64::INFINITY,
+        gain: stepper.progress.gain / mark.turns * f64::from(stepper.dynamics.cycle()),
         stepper,
         map: Interpolated {
             cells: Vec::new(),
@@ -58,87 +47,88 @@ pub(super) fn run<D: Driven>(
         marks: vec![mark],
         last: Segment::open(),
     };
-    let (last, why) = way.turn_of(goal);
-    let ended = way.last_turns(&last, goal, start, why)?;
-    let evaluations = way.stepper.evaluations;
-    let kinetic = way.stepper.progress.kinetic;
-    let before = last.work + way.stepper.progress.work;
-    let short = match &ended {
+    let (last, why) = turns.turn_of(goal);
+    let ended = turns.last_turns(&last, goal, why)?;
+    let MapRun { stepper, .. } = turns;
+    let before = last.work + stepper.progress.work;
+    let early_end = match &ended {
         MapEnd::AtGoal(_) => None,
-        MapEnd::Short(why) => {
-            let turns = start.turns + speed.signum() * last.turns;
-            let angle = way.last.last_angle(turns);
-            angle.map(|angle| Short {
+        MapEnd::Early(why) => {
+            let whole = angle.turns + speed.signum() * last.turns;
+            turns.last.last_angle(whole).map(|angle| EarlyEnd {
                 why: *why,
                 angle,
-                kinetic,
+                kinetic: stepper.progress.kinetic,
             })
         }
     };
     let turns = Turns {
-        map: Map::Interpolated(way.map),
-        marks: way.marks,
-        last: way.last,
+        map: Map::Interpolated(turns.map),
+        marks: turns.marks,
+        last: turns.last,
         recent: Recent::default(),
         error: 0.0,
     };
-    let orbit = Orbit::of_turns(start, speed, segment, turns);
+    let orbit = Orbit::of_turns(angle, speed, segment, turns);
     let end = match goal {
-        _ if short.is_some() => orbit.length(),
+        _ if early_end.is_some() => orbit.length(),
         Goal::Time(until) => until,
         Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
     };
     let work = match ended {
-        MapEnd::Short(_) => before,
+        MapEnd::Early(_) => before,
         MapEnd::AtGoal(done) => {
-            let after = end - last.t.0 - last.t.1;
-            before - done.work + work_until(orbit.last_leg(), after, &done.spent)
+            let after = last.until(end);
+            before - done.work + work_until(orbit.last_segment(), after, &done.force)
         }
     };
-    Ok(Driving {
+    Ok(AngleRun {
         orbit,
         end,
         work,
         // Errors grow as in the first turns.
         errors: Errors {
-            late: errors.late * end / first,
-            early: errors.early * end / first,
+            time: errors.time * end / first,
+            advance: errors.advance * end / first,
             ..errors
         },
-        evaluations,
-        short,
+        evaluations: stepper.evaluations,
+        early_end,
     })
 }
 
 /// End of the last turns.
 enum MapEnd {
-    AtGoal(Box<Done>),
-    Short(NotApplicable),
+    AtGoal(Box<SolvedPanel>),
+    Early(NotApplicable),
 }
 
-struct LastTurns<'a, D: Driven> {
+/// Run by the map, from its first turn to the turn with the goal.
+struct MapRun<'a, D: Dynamics> {
     stepper: PanelStepper<'a, D>,
     map: Interpolated,
-    marks: Vec<Mark>,
+    marks: Vec<TurnStart>,
     /// Panels of the turn with the goal, or of single turns after an early end of the map.
     last: Segment,
-    tail: f64,
+    /// Width of the next cell, relative to the energy at its start.
     width: f64,
-    /// True if the energy rises from turn to turn.
-    rises: bool,
-    /// Magnitude of the energy change in the last turn, J.
-    lost: f64,
+    /// Kinetic energy gained in the last turn, J.
+    gain: f64,
 }
 
-impl<D: Driven> LastTurns<'_, D> {
+impl<D: Dynamics> MapRun<'_, D> {
     /// Returns the start of the turn with the goal, or of a turn before the end of the map with the reason for the end.
-    fn turn_of(&mut self, goal: Goal) -> (Mark, Option<NotApplicable>) {
+    fn turn_of(&mut self, goal: Goal) -> (TurnStart, Option<NotApplicable>) {
         let mut mark = self.marks[0];
         let first = mark.turns;
         let mut known = mark;
         let mut before = mark;
+        // A state between two kept marks takes that many evaluations of the map at most.
+        let turns_between_marks = 48.0;
+        // Iterated in some seconds.
+        let most_turns = 1e8;
         loop {
-            let turn = match self.map.turn(mark.kinetic) {
+            let turn = match self.map.cycle(mark.kinetic) {
                 Some(turn) => turn,
                 None => match self.extend(mark.kinetic) {
                     Ok(turn) => turn,
@@ -152,7 +142,7 @@ impl<D: Driven> LastTurns<'_, D> {
                 },
             };
             let left = match goal {
-                Goal::Time(until) => ((until - mark.t.0) - mark.t.1) / turn.duration,
+                Goal::Time(until) => mark.until(until) / turn.duration,
                 Goal::Turned(way) => (way / TAU - mark.turns) / turn.count,
             };
             let is_steady = turn.gain.abs() <= 2.0 * f64::EPSILON * mark.kinetic;
@@ -162,24 +152,23 @@ impl<D: Driven> LastTurns<'_, D> {
                 }
                 if left >= 1.0 {
                     self.map.steady = true;
-                    let same = Turn { gain: 0.0, ..turn };
+                    let same = Cycle { gain: 0.0, ..turn };
                     mark = mark.after(&same, left.floor());
                     self.marks.push(mark);
                 }
                 return (mark, None);
             }
-            if mark.turns - known.turns >= FEW_TURNS {
+            if mark.turns - known.turns >= turns_between_marks {
                 self.marks.push(mark);
                 known = mark;
             }
-            if mark.turns - first > MOST_TURNS {
+            if mark.turns - first > most_turns {
                 return (known, Some(NotApplicable::TooManyTurns));
             }
             if self.stepper.limit.is_reached(0) {
                 return (known, Some(NotApplicable::WorkLimit));
             }
-            self.rises = turn.gain > 0.0;
-            self.lost = turn.gain.abs();
+            self.gain = turn.gain;
             before = mark;
             mark = mark.after(&turn, 1.0);
         }
@@ -187,10 +176,16 @@ impl<D: Driven> LastTurns<'_, D> {
 
     /// Adds the cell that begins at this energy, J, and returns the turn from there; an error where the cell would
     /// serve fewer turns than it costs.
-    fn extend(&mut self, kinetic: f64) -> Result<Turn, NotApplicable> {
+    fn extend(&mut self, kinetic: f64) -> Result<Cycle, NotApplicable> {
+        // Range of the width: the energies stay positive and differ by far more than rounding.
+        let (narrowest, widest) = (1e-7, 0.5);
+        // Tail at which the width of the next cell aims, as a fraction of the allowed one.
+        let aim = 0.2;
+        let tail = self.stepper.fine.tail;
+        self.width = self.width.min(widest);
         loop {
             let (ahead, behind) = (self.width * kinetic, 0.01 * self.width * kinetic);
-            let (low, high) = if self.rises {
+            let (low, high) = if self.gain > 0.0 {
                 (kinetic - behind, kinetic + ahead)
             } else {
                 (kinetic - ahead, kinetic + behind)
@@ -198,11 +193,11 @@ impl<D: Driven> LastTurns<'_, D> {
             let tried = self.width;
             let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
                 Ok(cell) => {
-                    let share = SAFETY * self.tail / cell.tail();
+                    let share = aim * tail / cell.tail();
                     let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
-                    self.width = (factor * tried).min(WIDEST);
-                    if cell.tail() <= self.tail {
-                        let turn = cell.turn(kinetic);
+                    self.width = (factor * tried).min(widest);
+                    if cell.tail() <= tail {
+                        let turn = cell.cycle(kinetic);
                         self.map.cells.push(cell);
                         return Ok(turn);
                     }
@@ -214,8 +209,8 @@ impl<D: Driven> LastTurns<'_, D> {
                 }
             };
             let narrows = matches!(why, NotApplicable::TooSlow | NotApplicable::NotSmooth);
-            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.lost;
-            if !narrows || !pays || tried <= NARROWEST {
+            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.gain.abs();
+            if !narrows || !pays || tried <= narrowest {
                 return Err(why);
             }
         }
@@ -224,19 +219,17 @@ impl<D: Driven> LastTurns<'_, D> {
     /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map.
     fn last_turns(
         &mut self,
-        mark: &Mark,
+        mark: &TurnStart,
         goal: Goal,
-        start: Angle,
         map_ended: Option<NotApplicable>,
     ) -> Result<MapEnd, NotApplicable> {
-        self.stepper.restart(mark.kinetic);
-        self.stepper.gives_up = true;
-        let most = match map_ended {
-            None | Some(NotApplicable::WorkLimit | NotApplicable::TooManyTurns) => 1.0,
-            Some(_) => FEW_TURNS,
-        };
+        self.stepper.restart(mark.kinetic, true);
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
+        let most = match limited {
+            None if map_ended.is_some() => SINGLE_TURNS,
+            _ => 1.0,
+        };
         if limited.is_some() {
             self.stepper.limit = WorkLimit::NONE;
         }
@@ -244,23 +237,22 @@ impl<D: Driven> LastTurns<'_, D> {
             let done = match self.stepper.panel() {
                 Ok(done) => done,
                 Err(why) if self.last.len() == 0 => return Err(why),
-                Err(why) => return Ok(MapEnd::Short(why)),
+                Err(why) => return Ok(MapEnd::Early(why)),
             };
             let piece = &done.panel.piece;
-            let turned = (piece.to - start.rest).abs() + done.panel.turns.abs() * TAU;
+            let turned =
+                (piece.to - self.stepper.start.angle.rest).abs() + done.panel.turns.abs() * TAU;
             self.last.push(done.panel.clone());
             let passed = match goal {
-                Goal::Time(until) => self.stepper.progress.t.0 > (until - mark.t.0) - mark.t.1,
+                Goal::Time(until) => self.stepper.progress.t.0 > mark.until(until),
                 Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
             };
-            let all = self.stepper.at_cycle() && self.stepper.progress.turns.abs() >= most;
-            match map_ended {
-                _ if passed => return Ok(MapEnd::AtGoal(done.into())),
-                None if all => return Ok(MapEnd::AtGoal(done.into())),
-                Some(_) if all => {
-                    return Ok(MapEnd::Short(limited.unwrap_or(NotApplicable::TooLong)));
-                }
-                _ => {}
+            let all = self.stepper.panels.at_cycle() && self.stepper.progress.turns.abs() >= most;
+            if passed || all && map_ended.is_none() {
+                return Ok(MapEnd::AtGoal(done.into()));
+            }
+            if all {
+                return Ok(MapEnd::Early(limited.unwrap_or(NotApplicable::TooLong)));
             }
         }
     }

@@ -6,7 +6,7 @@ use super::Table;
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
-use crate::numeric::enclosure::{Detail, MotionPiece};
+use crate::numeric::enclosure::{MotionPiece, Variation};
 
 /// State of the crank at a tabulated position.
 #[derive(Clone, Copy)]
@@ -19,8 +19,9 @@ pub struct State<'a, P> {
     pub speed: f64,
 }
 
-/// Mechanism as the angle engine sees it.
-pub trait Driven {
+/// Equation of motion over the crank angle: tables of what depends on the position alone, and state loads, which are
+/// evaluated at states.
+pub trait Dynamics {
     /// Data of a position that the loads need.
     type Place: Copy;
 
@@ -43,23 +44,23 @@ pub trait Driven {
     /// Returns the number of turns after which everything that depends on the angle repeats.
     fn cycle(&self) -> u32;
 
-    /// True if there are driven loads: loads evaluated at states, in addition to those of the table.
-    fn is_driven(&self) -> bool;
+    /// True if there are state loads, in addition to the loads of the table.
+    fn has_state_loads(&self) -> bool;
 
-    /// True if the driven loads depend on time.
+    /// True if there are state loads that depend on time.
     fn reads_time(&self) -> bool;
 
-    /// Returns the generalized force of the driven loads, N m, in each state.
-    fn drive<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
+    /// Returns the generalized force of the state loads, N m, in each state.
+    fn state_loads<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];
 
-    /// True if the driven loads may vary between the points of a panel without a trace in the decay of their series.
-    fn has_detail(&self) -> bool;
+    /// True if the state loads may vary between the points of a panel without a trace in the decay of their series.
+    fn varies_between_nodes(&self) -> bool;
 
     /// Returns the variation of their generalized force, N m, on a piece and in its Bernstein ellipse, ρ = `ellipse`.
-    fn detail(&self, reach: &MotionPiece, ellipse: f64) -> Detail;
+    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation;
 
-    /// Returns the contribution of the driven loads to the switch.
-    fn drive_switch(&self, at: &State<'_, Self::Place>) -> f64;
+    /// Returns the contribution of the state loads to the switch.
+    fn switch_of_state_loads(&self, at: &State<'_, Self::Place>) -> f64;
 
     /// Returns the angles of a cycle, rad, from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];

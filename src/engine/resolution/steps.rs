@@ -1,9 +1,9 @@
 //! Resolution test for loads on a step in time.
 
-use super::{Hidden, Interpolant, NodeCriterion, hidden};
+use super::{ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
-use crate::numeric::enclosure::{Detail, Interval, MotionPiece};
+use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
 use crate::numeric::gauss::legendre_series;
 
 /// Motion on a step.
@@ -18,19 +18,24 @@ pub struct OnStep<'a> {
 
 /// Returns the time (s) at which a step has to end to resolve the acceleration; none if it does, or cannot be shorter.
 /// A method of order n counts as n nodes.
-pub fn hides(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) -> Option<f64> {
-    if !motion.has_detail() {
+pub fn unresolved_at(
+    motion: &Counted<'_>,
+    step: &Step,
+    order: usize,
+    tolerance: f64,
+) -> Option<f64> {
+    if !motion.varies_between_nodes() {
         return None;
     }
     let (h, nodes) = (step.length(), None);
     let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
-    let look = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
+    let criterion = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
     let way = OnStep {
         motion,
         step,
         nodes,
     };
-    let Hidden { at, .. } = hidden(&way, look)?;
+    let Unresolved { at, .. } = unresolved(&way, criterion)?;
     Some(step.start.t + at * h)
 }
 
@@ -40,8 +45,8 @@ impl OnStep<'_> {
     }
 }
 
-impl Interpolant for OnStep<'_> {
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
+impl ForceAlong for OnStep<'_> {
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation {
         let step = self.step;
         let [begin, end] = [from, to].map(|at| self.time(at));
         let [first, last] = [begin, end].map(|t| step.at(t));
@@ -65,7 +70,7 @@ impl Interpolant for OnStep<'_> {
         }
         let t = Interval::new(begin, end);
         self.motion
-            .detail(&MotionPiece { t, angle, speed }, ellipse)
+            .variation(&MotionPiece { t, angle, speed }, ellipse)
     }
 
     fn corner(&self, from: f64, to: f64) -> Option<f64> {

@@ -4,14 +4,14 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Detail, ellipses, resolved};
+use crate::numeric::enclosure::{Variation, ellipses, resolved};
 
-pub use steps::{OnStep, hides};
+pub use steps::{OnStep, unresolved_at};
 
-/// Force along a panel or a step, over the normalized position from 0 to 1.
-pub trait Interpolant {
+/// Force along a panel or a step, over the normalized position from 0 to 1, with its interpolant through the nodes.
+pub trait ForceAlong {
     /// Returns the variation of the force between two positions, and in the Bernstein ellipse of ρ = `ellipse`.
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail;
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation;
 
     /// Returns the first known corner of the force between two positions.
     fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
@@ -36,19 +36,13 @@ pub struct NodeCriterion {
     /// Distance from either end that rounding cannot resolve, as a fraction of the length.
     pub least: f64,
     /// True if the nodes define an interpolant to compare with; else they resolve features of a quarter the length.
-    pub compares: bool,
+    pub has_interpolant: bool,
 }
 
 /// Halvings of the interval that locate a corner or jump: positions on a panel are rounded by more.
 const HALVINGS: i32 = 46;
 /// Fraction of the allowed error that each corner may leave.
-const AT_CORNER: f64 = 1e-4;
-/// Shortest resolved piece of a step without interpolant, as a fraction: its stages are about a quarter apart.
-const SHOWN_PIECE: f64 = 0.2;
-/// Most pieces of one panel or step that are examined.
-const MOST_PIECES: usize = 400;
-/// Fractions 2⁻²⁰ and 2⁻⁴⁰, cut off at an end with a corner to cover the rounding error of the corner's position.
-const END_PARTS: [f64; 2] = [9.5367431640625e-7, 9.094947017729282e-13];
+const CORNER_SHARE: f64 = 1e-4;
 
 impl NodeCriterion {
     /// Returns the criterion for a step from one time to another (s), with `least` as 16 roundings of the time.
@@ -58,14 +52,14 @@ impl NodeCriterion {
             ellipses: ellipses(nodes, part),
             allowed,
             least: 16.0 * f64::EPSILON * from.abs().max(to.abs()) / (to - from),
-            compares: false,
+            has_interpolant: false,
         }
     }
 }
 
 /// Position at which a panel or a step has to end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hidden {
+pub struct Unresolved {
     /// Position, as a fraction of the length.
     pub at: f64,
     /// True if the force has a corner or a jump there.
@@ -73,36 +67,47 @@ pub struct Hidden {
 }
 
 /// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
-pub fn hidden(way: &impl Interpolant, look: NodeCriterion) -> Option<Hidden> {
-    if look.nodes_on(way, 0.0, 1.0).1.is_some() {
+pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<Unresolved> {
+    if criterion.nodes_on(force, 0.0, 1.0).1.is_some() {
         return None;
     }
-    Search::new(look).run(way)
+    let search = Search {
+        criterion,
+        whole: [0.0, 1.0],
+        missed: [0.0; 2],
+        is_missed: false,
+        first: None,
+        corner: None,
+    };
+    search.run(force)
 }
 
 impl NodeCriterion {
-    /// Returns the detail of the force on a piece, and the number of nodes that resolve it, if at most [`Self::nodes`].
-    fn nodes_on(&self, way: &impl Interpolant, from: f64, to: f64) -> (Detail, Option<usize>) {
-        self.nodes_for(|ellipse| way.detail(from, to, ellipse))
+    /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most
+    /// [`Self::nodes`].
+    fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Variation, Option<usize>) {
+        self.nodes_for(|ellipse| force.variation(from, to, ellipse))
     }
 
-    fn nodes_for(&self, detail: impl Fn(f64) -> Detail) -> (Detail, Option<usize>) {
-        resolved(detail, self.ellipses, self.allowed, self.nodes)
+    fn nodes_for(&self, variation: impl Fn(f64) -> Variation) -> (Variation, Option<usize>) {
+        resolved(variation, self.ellipses, self.allowed, self.nodes)
     }
 
-    /// True if the nodes resolve a force whose detail is given as a function of the ellipse parameter.
-    pub fn shows(&self, detail: impl Fn(f64) -> Detail) -> bool {
-        self.nodes_for(detail).1.is_some()
+    /// True if the nodes resolve a force whose variation is given as a function of the ellipse parameter.
+    pub fn resolves(&self, variation: impl Fn(f64) -> Variation) -> bool {
+        self.nodes_for(variation).1.is_some()
     }
 
-    /// Returns the fraction that may be cut off at an end for a corner there.
-    fn end(&self, way: &impl Interpolant, piece: fn(f64) -> [f64; 2]) -> f64 {
+    /// Returns the fraction that may be cut off at an end for a corner there, to cover the rounding error of its
+    /// position: the larger of two after 20 and 40 halvings, or none.
+    fn end(&self, force: &impl ForceAlong, piece: fn(f64) -> [f64; 2]) -> f64 {
         let little = |end: &f64| {
             let [from, to] = piece(*end);
-            let detail = way.detail(from, to, self.ellipses[0]);
-            detail.change * end <= AT_CORNER * self.allowed
+            let variation = force.variation(from, to, self.ellipses[0]);
+            variation.change * end <= CORNER_SHARE * self.allowed
         };
-        END_PARTS.into_iter().find(little).unwrap_or(0.0)
+        let parts = [20, 40].map(|halvings| 0.5f64.powi(halvings));
+        parts.into_iter().find(little).unwrap_or(0.0)
     }
 }
 
@@ -117,7 +122,7 @@ fn size(missed: f64) -> f64 {
 
 /// State of the search for the first unresolved feature.
 struct Search {
-    look: NodeCriterion,
+    criterion: NodeCriterion,
     /// Interval searched: without corners at the ends.
     whole: [f64; 2],
     /// Integral of |force − interpolant| before the first corner and after it.
@@ -129,43 +134,36 @@ struct Search {
 }
 
 impl Search {
-    fn new(look: NodeCriterion) -> Search {
-        Search {
-            look,
-            whole: [0.0, 1.0],
-            missed: [0.0; 2],
-            is_missed: false,
-            first: None,
-            corner: None,
-        }
-    }
-
     /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
-    fn run(mut self, way: &impl Interpolant) -> Option<Hidden> {
+    fn run(mut self, force: &impl ForceAlong) -> Option<Unresolved> {
         let mut left = [[0.0; 2]; HALVINGS as usize + 2];
-        let begin = self.look.end(way, |end| [0.0, end]);
-        let end = self.look.end(way, |end| [1.0 - end, 1.0]);
+        let begin = self.criterion.end(force, |end| [0.0, end]);
+        let end = self.criterion.end(force, |end| [1.0 - end, 1.0]);
         // A corner made up by rounding there would hide the first one inside.
-        self.whole = [begin.max(self.look.least), 1.0 - end.max(self.look.least)];
+        self.whole = [
+            begin.max(self.criterion.least),
+            1.0 - end.max(self.criterion.least),
+        ];
         left[0] = self.whole;
         let (mut count, mut pieces) = (1, 0);
+        let most_examined = 400;
         while count > 0 {
             let [from, to] = left[count - 1];
             count -= 1;
             pieces += 1;
-            if pieces > MOST_PIECES {
-                let here = Hidden {
+            if pieces > most_examined {
+                let here = Unresolved {
                     at: from,
                     is_corner: false,
                 };
-                return self.place().or((from > self.whole[0]).then_some(here));
+                return self.found().or((from > self.whole[0]).then_some(here));
             }
-            let (detail, nodes) = self.look.nodes_on(way, from, to);
+            let (varies, nodes) = self.criterion.nodes_on(force, from, to);
             match nodes {
-                Some(nodes) => self.compare(way, [from, to], nodes),
-                None if self.is_least(&detail, to - from) => self.note_corner(&detail, from, to),
+                Some(nodes) => self.compare(force, [from, to], nodes),
+                None if self.is_least(&varies, to - from) => self.note_corner(&varies, from, to),
                 None => {
-                    let [before, behind] = self.divided(way, from, to);
+                    let [before, behind] = self.divided(force, from, to);
                     left[count] = [behind, to];
                     left[count + 1] = [from, before];
                     count += 2;
@@ -176,15 +174,15 @@ impl Search {
             }
         }
         (self.is_missed || self.cuts_off())
-            .then(|| self.place())
+            .then(|| self.found())
             .flatten()
     }
 
     /// Returns the ends of the two parts of a piece: on either side of a known corner, or at the middle.
-    fn divided(&mut self, way: &impl Interpolant, from: f64, to: f64) -> [f64; 2] {
-        let least = self.look.least;
+    fn divided(&mut self, force: &impl ForceAlong, from: f64, to: f64) -> [f64; 2] {
+        let least = self.criterion.least;
         let inside = |at: &f64| at - least > from && at + least < to;
-        let Some(at) = way.corner(from, to).filter(inside) else {
+        let Some(at) = force.corner(from, to).filter(inside) else {
             return [0.5 * (from + to); 2];
         };
         self.corner_at(at);
@@ -194,57 +192,60 @@ impl Search {
     fn corner_at(&mut self, at: f64) {
         if self.corner.is_none() {
             self.corner = Some(at);
-            self.is_missed |= !self.look.compares;
+            self.is_missed |= !self.criterion.has_interpolant;
         }
     }
 
     /// True if a corner is so near an end that all nodes lie on one side of it and the other side is missed.
     fn cuts_off(&self) -> bool {
         let [before, behind] = self.missed;
-        let share = 10.0 * AT_CORNER * self.look.allowed;
+        let share = 10.0 * CORNER_SHARE * self.criterion.allowed;
         let missed = self.corner.map(|at| if at < 0.5 { before } else { behind });
-        self.look.compares && missed.is_some_and(|missed| missed > share)
+        self.criterion.has_interpolant && missed.is_some_and(|missed| missed > share)
     }
 
     /// Returns the first corner, or else an end of the first piece with a missed force.
-    fn place(&self) -> Option<Hidden> {
+    fn found(&self) -> Option<Unresolved> {
         let [begin, end] = self.whole;
         let inside = |at: &f64| *at > begin && *at < end;
         let mut ends = self.first.into_iter().flatten();
         let at = self.corner.or_else(|| ends.find(inside))?;
         let is_corner = self.corner.is_some();
-        Some(Hidden { at, is_corner })
+        Some(Unresolved { at, is_corner })
     }
 
-    fn is_least(&self, detail: &Detail, length: f64) -> bool {
-        detail.change * length <= AT_CORNER * self.look.allowed || length < 0.5f64.powi(HALVINGS)
+    fn is_least(&self, varies: &Variation, length: f64) -> bool {
+        let allowed = CORNER_SHARE * self.criterion.allowed;
+        varies.change * length <= allowed || length < 0.5f64.powi(HALVINGS)
     }
 
-    fn note_corner(&mut self, detail: &Detail, from: f64, to: f64) {
+    fn note_corner(&mut self, variation: &Variation, from: f64, to: f64) {
         let is_at_end = from == self.whole[0] || to == self.whole[1];
-        if detail.around.is_none() && !is_at_end {
+        if variation.around.is_none() && !is_at_end {
             self.corner_at(0.5 * (from + to));
         }
     }
 
-    fn compare(&mut self, way: &impl Interpolant, [from, to]: [f64; 2], nodes: usize) {
+    fn compare(&mut self, force: &impl ForceAlong, [from, to]: [f64; 2], nodes: usize) {
         if self.is_missed {
             return;
         }
-        if !self.look.compares {
-            if to - from < SHOWN_PIECE {
+        if !self.criterion.has_interpolant {
+            // The stages of a step are about a quarter apart.
+            let shortest_shown = 0.2;
+            if to - from < shortest_shown {
                 (self.is_missed, self.first) = (true, Some([from, to]));
             }
             return;
         }
         let half = 0.5 * (to - from);
         let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
-        let missed = (0..nodes).map(|i| size(way.missed(at(i)))).sum::<f64>();
+        let missed = (0..nodes).map(|i| size(force.missed(at(i)))).sum::<f64>();
         let integral = missed / nodes as f64 * (to - from);
-        if integral > self.look.allowed * (to - from) && self.first.is_none() {
+        if integral > self.criterion.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
         }
         self.missed[usize::from(self.corner.is_some_and(|at| from >= at))] += integral;
-        self.is_missed = self.missed.iter().sum::<f64>() > self.look.allowed;
+        self.is_missed = self.missed.iter().sum::<f64>() > self.criterion.allowed;
     }
 }

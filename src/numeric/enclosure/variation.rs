@@ -15,33 +15,30 @@ pub struct MotionPiece {
 
 /// Variation of a function on a piece of a motion, and in the plane around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Detail {
+pub struct Variation {
     /// Greatest value less the least.
     pub change: f64,
     /// Bound M of the distance from a constant in the Bernstein ellipse; none where the function may not be analytic.
     pub around: Option<f64>,
 }
 
-/// Least number of nodes: pieces of tables are cubics, which four nodes determine.
-const LEAST_NODES: usize = 4;
-
-impl Detail {
-    /// Detail of a function that is constant, or is known by its values alone.
-    pub const NONE: Detail = Detail {
+impl Variation {
+    /// Variation of a function that is constant, or is known by its values alone.
+    pub const NONE: Variation = Variation {
         change: 0.0,
         around: Some(0.0),
     };
 
-    /// Detail of a function that may do anything.
-    pub const HIDDEN: Detail = Detail {
+    /// Variation of a function that may do anything.
+    pub const HIDDEN: Variation = Variation {
         change: f64::INFINITY,
         around: None,
     };
 
-    /// Returns the detail of a change and a bound: a change that is NaN counts as infinite, a bound that is not finite as
-    /// none.
-    fn new(change: f64, around: Option<f64>) -> Detail {
-        Detail {
+    /// Returns the variation of a change and a bound: a change that is NaN counts as infinite, a bound that is not
+    /// finite as none.
+    fn new(change: f64, around: Option<f64>) -> Variation {
+        Variation {
             change: if change.is_nan() {
                 f64::INFINITY
             } else {
@@ -51,26 +48,26 @@ impl Detail {
         }
     }
 
-    /// Returns the detail of an enclosed function.
-    pub fn of(function: Enclosed) -> Detail {
+    /// Returns the variation of an enclosed function.
+    pub fn of(function: Enclosed) -> Variation {
         let radius = function.plane.map(Rectangle::radius);
-        Detail::new(2.0 * function.real.half(), radius)
+        Variation::new(2.0 * function.real.half(), radius)
     }
 
-    /// Returns the detail of the sum of two functions.
-    pub fn plus(self, other: Detail) -> Detail {
-        Detail {
+    /// Returns the variation of the sum of two functions.
+    pub fn plus(self, other: Variation) -> Variation {
+        Variation {
             change: self.change + other.change,
             around: self.around.zip(other.around).map(|(a, b)| a + b),
         }
     }
 
-    /// Returns the detail of the function times a factor.
-    pub fn times(self, by: f64) -> Detail {
-        if self == Detail::NONE {
+    /// Returns the variation of the function times a factor.
+    pub fn times(self, by: f64) -> Variation {
+        if self == Variation::NONE {
             return self;
         }
-        Detail::new(self.change * by, self.around.map(|around| around * by))
+        Variation::new(self.change * by, self.around.map(|around| around * by))
     }
 
     /// Returns the number of nodes that resolve the function to `allowed`, where it is enclosed in an ellipse of this
@@ -78,7 +75,9 @@ impl Detail {
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
         let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
         let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
-        Some((terms as usize).saturating_add(1).max(LEAST_NODES))
+        // Pieces of tables are cubics, which four nodes determine.
+        let least = 4;
+        Some((terms as usize).saturating_add(1).max(least))
     }
 }
 
@@ -90,26 +89,26 @@ pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
     [smaller, smaller * smaller]
 }
 
-/// Returns the detail of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
+/// Returns the variation of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
 /// ellipses, if no more than `most`.
 pub fn resolved(
-    detail: impl Fn(f64) -> Detail,
+    variation: impl Fn(f64) -> Variation,
     ellipses: [f64; 2],
     allowed: f64,
     most: usize,
-) -> (Detail, Option<usize>) {
+) -> (Variation, Option<usize>) {
     let [smaller, larger] = ellipses;
-    let first = detail(smaller);
+    let first = variation(smaller);
     if first.change <= allowed {
         return (first, Some(1));
     }
-    let few = |detail: Detail, ellipse: f64| {
-        let nodes = detail.nodes(ellipse, allowed);
+    let few = |variation: Variation, ellipse: f64| {
+        let nodes = variation.nodes(ellipse, allowed);
         nodes.filter(|nodes| *nodes <= most)
     };
     let nodes = few(first, smaller).or_else(|| {
         first.around?;
-        few(detail(larger), larger)
+        few(variation(larger), larger)
     });
     (first, nodes)
 }

@@ -7,7 +7,7 @@ use super::profile::Profile;
 use crate::numeric::{gauss, root};
 
 /// End of a whole turn.
-pub(super) struct Return<'a> {
+pub(super) struct TurnEnd<'a> {
     profile: &'a dyn Profile,
     /// Crank angle at the end, rad.
     angle: f64,
@@ -15,13 +15,13 @@ pub(super) struct Return<'a> {
     kinetic: f64,
 }
 
-/// Largest distance from the end at which digits are gained, rad.
-const NEAR_END: f64 = 0.5;
+/// Longest integral from the end that gains digits, rad.
+const LONGEST_INTEGRAL: f64 = 0.5;
 
-impl<'a> Return<'a> {
+impl<'a> TurnEnd<'a> {
     /// Makes the end of a turn; none if the turns differ.
-    pub fn new(profile: &'a dyn Profile, angle: f64, kinetic: f64) -> Option<Return<'a>> {
-        profile.repeats().then_some(Return {
+    pub fn new(profile: &'a dyn Profile, angle: f64, kinetic: f64) -> Option<TurnEnd<'a>> {
+        profile.repeats().then_some(TurnEnd {
             profile,
             angle,
             kinetic,
@@ -39,7 +39,7 @@ impl<'a> Return<'a> {
     }
 
     fn is_near(&self, theta: f64) -> bool {
-        (self.angle - theta).abs() <= NEAR_END
+        (self.angle - theta).abs() <= LONGEST_INTEGRAL
     }
 
     /// Returns the kinetic energy, J, at an angle, rad; none if the angle is too far from the end.
@@ -58,7 +58,7 @@ impl<'a> Return<'a> {
         if !self.is_near(guess) {
             return None;
         }
-        let at = self.angle + (at - self.angle).clamp(-NEAR_END, NEAR_END);
+        let at = self.angle + (at - self.angle).clamp(-LONGEST_INTEGRAL, LONGEST_INTEGRAL);
         let rest = root::bracketed(|theta| self.force(theta), at, self.angle)?;
         root::bracketed(|theta| self.energy(theta), at, rest)
     }

@@ -1,8 +1,8 @@
-//! Detail of the loads between the nodes of a panel or a step, from enclosures of the loads.
+//! Variation of the loads between the nodes of a panel or a step, from enclosures of the loads.
 
 use super::nonlinear_loads::NonlinearLoads;
 use super::{CurveEquation, CurveTerms, EnclosedState, Linkage, Loads, UnitLoadEffects};
-use crate::numeric::enclosure::{Detail, Enclosed, Interval, MotionPiece};
+use crate::numeric::enclosure::{Enclosed, Interval, MotionPiece, Variation};
 use crate::scene::{Load, Variable, Variables};
 
 /// Enclosed state over a piece of a motion, and size of the Bernstein ellipse around the piece.
@@ -27,17 +27,20 @@ impl Around<'_> {
         Enclosed::variable(self.real(variable), self.ellipse)
     }
 
-    /// Returns no detail for a closure on a piece no wider than its finest scale, else [`Detail::HIDDEN`].
-    fn closure(&self, scales: &[(Variable, f64)]) -> Detail {
+    /// Returns no variation for a closure on a piece no wider than its finest scale, else [`Variation::HIDDEN`].
+    fn closure(&self, scales: &[(Variable, f64)]) -> Variation {
         let mut scales = scales.iter();
         let hides = scales.any(|&(variable, scale)| 2.0 * self.real(variable).half() > scale);
-        if hides { Detail::HIDDEN } else { Detail::NONE }
+        match hides {
+            true => Variation::HIDDEN,
+            false => Variation::NONE,
+        }
     }
 
-    fn detail(&self, load: &Load) -> Detail {
+    fn variation(&self, load: &Load) -> Variation {
         match load {
             Load::Function { scales, .. } => self.closure(scales),
-            other => Detail::of(self.load(other)),
+            other => Variation::of(self.load(other)),
         }
     }
 
@@ -64,23 +67,24 @@ impl Around<'_> {
         }
     }
 
-    fn loads(&self, loads: &NonlinearLoads, effects: UnitLoadEffects) -> Detail {
+    fn loads(&self, loads: &NonlinearLoads, effects: UnitLoadEffects) -> Variation {
         let one = |(load, on_slider): &(Load, bool)| {
             let arm = if *on_slider {
                 effects.force
             } else {
                 effects.torque
             };
-            self.detail(load).times(arm.abs())
+            self.variation(load).times(arm.abs())
         };
-        loads.0.iter().map(one).fold(Detail::NONE, Detail::plus)
+        let each = loads.0.iter().map(one);
+        each.fold(Variation::NONE, Variation::plus)
     }
 }
 
 impl Loads {
     /// Whether a load may vary between nodes: formulas, tables, gas pressures, dry loads, and closures that state a
     /// scale.
-    pub fn have_detail(&self) -> bool {
+    pub fn vary_between_nodes(&self) -> bool {
         self.called().any(|load| match load {
             Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_) => true,
             Load::Function { scales, .. } => !scales.is_empty(),
@@ -89,7 +93,7 @@ impl Loads {
     }
 
     /// Whether a load of the position alone may vary between nodes: a formula, a table over x, a closure with a scale.
-    pub fn have_detail_of_place(&self) -> bool {
+    pub fn vary_with_position_between_nodes(&self) -> bool {
         self.placed.loads().any(|load| match load {
             Load::Expression(_) => true,
             // Rows of tables over the crank angle are known corners.
@@ -104,13 +108,23 @@ impl Loads {
         self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
     }
 
-    /// Returns the detail of the loads, times their effects, on a piece of a motion and in an `ellipse` around it.
-    pub fn detail(&self, state: &EnclosedState, effects: UnitLoadEffects, ellipse: f64) -> Detail {
-        Self::detail_of(&self.classes(), state, effects, ellipse)
+    /// Returns the variation of the loads, times their effects, on a piece of a motion and in an `ellipse` around it.
+    pub fn variation(
+        &self,
+        state: &EnclosedState,
+        effects: UnitLoadEffects,
+        ellipse: f64,
+    ) -> Variation {
+        Self::variation_of(&self.classes(), state, effects, ellipse)
     }
 
-    /// Returns the detail of the generalized force, N m, of the loads that depend on the position alone.
-    pub fn detail_of_place(&self, linkage: &Linkage, angle: Interval, ellipse: f64) -> Detail {
+    /// Returns the variation of the generalized force, N m, of the loads that depend on the position alone.
+    pub fn variation_with_position(
+        &self,
+        linkage: &Linkage,
+        angle: Interval,
+        ellipse: f64,
+    ) -> Variation {
         let none = Interval::point(0.0);
         let piece = MotionPiece {
             t: none,
@@ -118,28 +132,28 @@ impl Loads {
             speed: none,
         };
         let state = linkage.enclosed_state(&piece, self.meet_slider());
-        Self::detail_of(&[&self.placed], &state, state.unit_load_effects(), ellipse)
+        Self::variation_of(&[&self.placed], &state, state.unit_load_effects(), ellipse)
     }
 
-    /// Returns the detail of the loads that depend on speed or time, without dry loads.
-    pub fn detail_of_state(
+    /// Returns the variation of the loads that depend on speed or time, without dry loads.
+    pub fn variation_with_state(
         &self,
         state: &EnclosedState,
         effects: UnitLoadEffects,
         ellipse: f64,
-    ) -> Detail {
-        Self::detail_of(&[&self.timed, &self.mixed], state, effects, ellipse)
+    ) -> Variation {
+        Self::variation_of(&[&self.timed, &self.mixed], state, effects, ellipse)
     }
 
-    fn detail_of(
+    fn variation_of(
         classes: &[&NonlinearLoads],
         state: &EnclosedState,
         effects: UnitLoadEffects,
         ellipse: f64,
-    ) -> Detail {
+    ) -> Variation {
         let around = Around { state, ellipse };
-        let details = classes.iter().map(|loads| around.loads(loads, effects));
-        details.fold(Detail::NONE, Detail::plus)
+        let variations = classes.iter().map(|loads| around.loads(loads, effects));
+        variations.fold(Variation::NONE, Variation::plus)
     }
 }
 
@@ -148,13 +162,13 @@ impl CurveEquation {
     /// middle of a range of coordinates (rad): the nodes of a step resolve the linkage.
     pub fn unit_load_effects(&self, q: Interval, c: f64) -> UnitLoadEffects {
         let terms = self.terms(q.middle());
-        let CurveTerms { place, m, a, .. } = terms;
-        let gain = place.dx / m;
+        let CurveTerms { pose, m, a, .. } = terms;
+        let gain = pose.dx / m;
         let rubbed = gain * c / (1.0 - c * (a * gain - terms.x_n));
         let arm = |along: f64, off_guide: f64| along / m + rubbed * (a * along / m - off_guide);
         UnitLoadEffects {
-            torque: arm(place.dtheta, terms.theta_n),
-            force: arm(place.dx, terms.x_n),
+            torque: arm(pose.dtheta, terms.theta_n),
+            force: arm(pose.dx, terms.x_n),
         }
     }
 }

@@ -1,38 +1,38 @@
-//! Resolution test for driven loads on a panel.
+//! Resolution test for state loads on a panel.
 
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::solution::PanelSolution;
-use super::{Driven, State, Table};
-use crate::engine::events::ROUNDED;
-use crate::engine::sight::{Interpolant, NodeCriterion, hidden};
+use super::{Dynamics, State, Table};
+use crate::engine::events::ANGLE_ROUNDING;
+use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
-use crate::numeric::enclosure::{Detail, Interval, MotionPiece, ellipses};
+use crate::numeric::enclosure::{Interval, MotionPiece, Variation, ellipses};
 use crate::numeric::exact::SUM_ROUNDING;
 
 /// Motion on a solved panel.
-struct OnPanel<'a, D: Driven> {
-    driven: &'a D,
+struct OnPanel<'a, D: Dynamics> {
+    dynamics: &'a D,
     panel: &'a PanelTable<D::Place>,
     start: PanelStart,
     solution: &'a PanelSolution,
     /// Time after the start of the panel as a series in x, s.
     time: Series,
     /// Non-conservative force as a series in x, N m.
-    spent: Series,
+    non_conservative: Series,
     /// Bounds of the deviation of dt/dx from its mean and of d²t/dx², s.
     varies: [f64; 2],
 }
 
 /// Returns the fraction at which a solved panel has to end for its points to resolve the loads; none if they do.
-pub(super) fn hides<D: Driven>(
-    driven: &D,
+pub(super) fn unresolved_at<D: Dynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     fine: Fineness,
     solution: &PanelSolution,
 ) -> Option<f64> {
-    if !driven.has_detail() {
+    if !dynamics.varies_between_nodes() {
         return None;
     }
     let (rule, slope) = (panel.rule, &solution.slope);
@@ -42,29 +42,29 @@ pub(super) fn hides<D: Driven>(
         terms.sum::<f64>()
     };
     let way = OnPanel {
-        driven,
+        dynamics,
         panel,
         start,
         solution,
         time: slope.integral(),
-        spent: rule.series(&solution.forces.spent),
+        non_conservative: rule.series(&solution.forces.non_conservative),
         varies: [sum(|_| 1.0), sum(|k| k * k)],
     };
-    let forces = largest(&solution.forces.spent[..=degree]).max(panel.largest_force);
+    let forces = largest(&solution.forces.non_conservative[..=degree]).max(panel.largest_force);
     let rounding = SUM_ROUNDING * forces;
     let look = NodeCriterion {
         nodes: degree,
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
-        least: 2.0 * ROUNDED / panel.half().abs(),
-        compares: true,
+        least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
+        has_interpolant: true,
     };
-    hidden(&way, look).map(|hidden| hidden.at)
+    unresolved(&way, look).map(|unresolved| unresolved.at)
 }
 
 /// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.
-pub(super) fn at_speeds<D: Driven>(
-    driven: &D,
+pub(super) fn resolves_speeds<D: Dynamics>(
+    dynamics: &D,
     panel: &PanelTable<D::Place>,
     speed: Interval,
     look: NodeCriterion,
@@ -77,11 +77,11 @@ pub(super) fn at_speeds<D: Driven>(
             angle: Interval::point(angle.radians()),
             speed,
         };
-        look.shows(|ellipse| driven.detail(&reach, ellipse))
+        look.resolves(|ellipse| dynamics.variation(&reach, ellipse))
     })
 }
 
-impl<D: Driven> OnPanel<'_, D> {
+impl<D: Dynamics> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
         Angle::new(self.start.turns, self.panel.piece.angle(2.0 * at - 1.0))
     }
@@ -95,8 +95,8 @@ impl<D: Driven> OnPanel<'_, D> {
     }
 }
 
-impl<D: Driven> Interpolant for OnPanel<'_, D> {
-    fn detail(&self, from: f64, to: f64, ellipse: f64) -> Detail {
+impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
+    fn variation(&self, from: f64, to: f64, ellipse: f64) -> Variation {
         let slope = &self.solution.slope;
         let [about, steep] = self.varies;
         let by_mean = Interval::point(slope.coefficient(0)).widened(about);
@@ -115,7 +115,7 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
         };
-        self.driven.detail(&reach, ellipse)
+        self.dynamics.variation(&reach, ellipse)
     }
 
     fn missed(&self, at: f64) -> f64 {
@@ -128,18 +128,19 @@ impl<D: Driven> Interpolant for OnPanel<'_, D> {
         angles[1] = self.panel.piece.to;
         let side = self.panel.side;
         let turns = self.panel.turns;
-        self.driven.tabulate(turns, (&angles, 2), side, &mut table);
+        self.dynamics
+            .tabulate(turns, (&angles, 2), side, &mut table);
         let Some(place) = table.places.first() else {
             return 0.0;
         };
-        let [driven] = self.driven.drive(&[State {
+        let [state_loads] = self.dynamics.state_loads(&[State {
             place,
             t: self.time(at),
             angle: self.angle(at),
             speed,
         }]);
         let squared = table.switch.map_or(0.0, |switch| switch.force[0]) * speed * speed;
-        let force = table.push[0] - table.damping[0] * speed + squared + driven;
-        force - self.spent.value(x)
+        let force = table.push[0] - table.damping[0] * speed + squared + state_loads;
+        force - self.non_conservative.value(x)
     }
 }

@@ -1,6 +1,6 @@
 //! Run over the angle: goal, resolution and result.
 
-use super::solution::Spent;
+use super::solution::NonConservativeForce;
 use super::{Errors, Guide};
 use crate::engine::WorkLimit;
 use crate::engine::energy::segment::Segment;
@@ -17,7 +17,7 @@ pub enum Goal {
 }
 
 /// Run up to its goal, or to where the angle can no longer be the independent variable.
-pub struct Driving {
+pub struct AngleRun {
     /// Motion, with time zero at its start.
     pub orbit: Orbit,
     /// Last time, s.
@@ -29,26 +29,26 @@ pub struct Driving {
     /// Evaluations of the loads.
     pub evaluations: u64,
     /// End before the goal, if there was one.
-    pub short: Option<Short>,
+    pub early_end: Option<EarlyEnd>,
 }
 
-impl Driving {
+impl AngleRun {
     /// Makes the result of a complete motion up to a time (s) under loads of the position alone.
-    pub fn whole(orbit: Orbit, end: f64, work: f64) -> Driving {
-        Driving {
+    pub fn whole(orbit: Orbit, end: f64, work: f64) -> AngleRun {
+        AngleRun {
             orbit,
             end,
             work,
             errors: Errors::at(0.0, 0.0),
             evaluations: 0,
-            short: None,
+            early_end: None,
         }
     }
 }
 
 /// End of a run before its goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Short {
+pub struct EarlyEnd {
     /// Reason for the end.
     pub why: NotApplicable,
     /// Crank angle at the end.
@@ -63,21 +63,17 @@ pub struct Resolution<'a> {
     /// Largest tail of a resolved series.
     pub tail: f64,
     /// True if panels are cut unevenly once more from the start: another discretization, for comparison.
-    pub other: bool,
+    pub cuts_unevenly: bool,
     /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,
     /// Limit of load evaluations and tabulated positions.
     pub limit: WorkLimit<'a>,
 }
 
-/// Turns computed one by one before the Poincaré map takes over, and at most after its end; turns between two kept
-/// marks.
-pub(super) const FEW_TURNS: f64 = 48.0;
-
-/// Returns the work from the start of the last panel to a time in it, J.
-pub(super) fn work_until(segment: &Segment, until: f64, spent: &Spent) -> f64 {
+/// Returns the work of a force from the start of the last panel to a time in it, J.
+pub(super) fn work_until(segment: &Segment, until: f64, force: &NonConservativeForce) -> f64 {
     let Some((panel, since)) = segment.panel_at(until) else {
         return 0.0;
     };
-    spent.work(panel.rule, panel.piece.span(), panel.position(since))
+    force.work(panel.rule, panel.piece.span(), panel.position(since))
 }

@@ -10,7 +10,7 @@ impl Orbit {
     /// Returns the positions that resolve the motion up to a time, s: the points of the series, each as the index of
     /// the panel plus the fraction of its variable. A turn that repeats has one more before it and one after it. None
     /// if the states do not all lie on one segment.
-    pub fn places(&self, until: f64) -> Option<Vec<f64>> {
+    pub fn positions(&self, until: f64) -> Option<Vec<f64>> {
         let segment = &self.forward;
         let covers = until <= segment.duration.0 || self.rotates() || self.turns_back();
         if !covers || self.backward.is_some() || self.later.is_some() {
@@ -31,29 +31,29 @@ impl Orbit {
             (0..count).map(move |j| index as f64 + 0.5 * (1.0 + x(j)))
         };
         let inside = (0..segment.len()).flat_map(of_panel);
-        let mut places: Vec<f64> = inside.take_while(|at| *at < last).chain([last]).collect();
-        if let (true, &[_, second, .., before, last]) = (whole, &places[..]) {
-            places.insert(0, before - last);
-            places.push(second + last);
+        let mut positions: Vec<f64> = inside.take_while(|at| *at < last).chain([last]).collect();
+        if let (true, &[_, second, .., before, last]) = (whole, &positions[..]) {
+            positions.insert(0, before - last);
+            positions.push(second + last);
         }
-        Some(places)
+        Some(positions)
     }
 
     /// Returns angle and speed (rad/s) at a position.
-    pub fn state_at_place(&self, at: f64) -> Option<(Angle, f64)> {
-        let (panel, x, _) = self.at_place(at)?;
+    pub fn state_at_position(&self, at: f64) -> Option<(Angle, f64)> {
+        let (panel, x, _) = self.at_position(at)?;
         let angle = Angle::new(self.start.turns + panel.turns, panel.piece.angle(x));
         Some((angle, panel.speed(x)))
     }
 
     /// Returns the time of a position, s.
-    pub fn time_of_place(&self, at: f64) -> Option<f64> {
-        let (panel, x, begin) = self.at_place(at)?;
+    pub fn time_of_position(&self, at: f64) -> Option<f64> {
+        let (panel, x, begin) = self.at_position(at)?;
         Some(begin + panel.time(x))
     }
 
     /// Returns the panel of a position, its variable x, and the start time of the panel, s.
-    fn at_place(&self, at: f64) -> Option<(&Panel, f64, f64)> {
+    fn at_position(&self, at: f64) -> Option<(&Panel, f64, f64)> {
         let count = self.forward.len();
         let at = match self.rotates() {
             true => at.rem_euclid(count as f64),
@@ -63,19 +63,5 @@ impl Orbit {
         let (panel, begin) = self.forward.panel(index)?;
         let x = (2.0 * (at - index as f64) - 1.0).clamp(-1.0, 1.0);
         Some((panel, x, begin))
-    }
-}
-
-impl Panel {
-    /// Replaces angles (rad) of a panel without turning points by |dt/dθ| there, s/rad.
-    pub fn slowness(&self, angles: &mut [f64]) {
-        let share = 2.0 / self.piece.span();
-        for angle in &mut *angles {
-            *angle = (*angle - self.piece.from) * share - 1.0;
-        }
-        self.slope.values(angles);
-        for slope in angles {
-            *slope *= share.abs();
-        }
     }
 }

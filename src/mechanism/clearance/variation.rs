@@ -1,11 +1,11 @@
-//! Detail of the loads between two states of a mechanism with a loose joint.
+//! Variation of the loads between two states of a mechanism with a loose joint.
 
 use std::f64::consts::TAU;
 
 use super::rubbing::Rubbing;
 use super::{Action, LooseMechanism};
-use crate::mechanism::{EnclosedState, LoadValue, LooseState, UnitLoadEffects};
-use crate::numeric::enclosure::{Detail, Interval};
+use crate::mechanism::{EnclosedState, LoadValue, Loads, LooseState, UnitLoadEffects};
+use crate::numeric::enclosure::{Interval, Variation};
 use crate::scene::Joint;
 
 /// Sizes of the speeds, relative to which their changes are measured.
@@ -19,15 +19,20 @@ pub struct SpeedSizes {
 
 impl LooseMechanism {
     /// Whether loads may vary between the stages of a step.
-    pub fn has_detail(&self) -> bool {
-        self.loads.as_ref().is_some_and(|loads| loads.have_detail())
+    pub fn varies_between_nodes(&self) -> bool {
+        self.loads.as_ref().is_some_and(Loads::vary_between_nodes)
     }
 
-    /// Returns the detail of the accelerations by the loads, each over the size of its speed (1/s), where all numbers
-    /// of the state lie between those of two states, and in an ellipse of this size around that range.
-    pub fn detail(&self, [low, high]: [&LooseState; 2], sizes: SpeedSizes, ellipse: f64) -> Detail {
+    /// Returns the variation of the accelerations by the loads, each over the size of its speed (1/s), where all
+    /// numbers of the state lie between those of two states, and in an ellipse of this size around that range.
+    pub fn variation(
+        &self,
+        [low, high]: [&LooseState; 2],
+        sizes: SpeedSizes,
+        ellipse: f64,
+    ) -> Variation {
         let Some(loads) = &self.loads else {
-            return Detail::NONE;
+            return Variation::NONE;
         };
         let between = |of: fn(&LooseState) -> f64| Interval::between(of(low), of(high));
         let state = EnclosedState {
@@ -38,7 +43,7 @@ impl LooseMechanism {
             v: between(|s| s.v),
             dx: Interval::WHOLE,
         };
-        loads.detail(&state, self.unit_load_effects(low, sizes), ellipse)
+        loads.variation(&state, self.unit_load_effects(low, sizes), ellipse)
     }
 
     /// Returns the largest change of an acceleration over the size of its speed per unit load, while the joint is open:

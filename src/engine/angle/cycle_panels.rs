@@ -1,0 +1,196 @@
+//! Panels of a cycle, with the parts into which one of them is cut in the present turn.
+
+use std::f64::consts::TAU;
+
+use super::Dynamics;
+use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
+use crate::engine::energy::NotApplicable;
+use crate::engine::energy::piece::HALF_TURN;
+use crate::numeric::angle::Angle;
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
+
+/// Panels of a cycle in the order of motion, and the position of a run among them.
+pub(super) struct CyclePanels<P> {
+    pub panels: Vec<PanelTable<P>>,
+    /// Parts of a panel that was too long in this turn, the next one last.
+    parts: Vec<PanelTable<P>>,
+    /// Index of the next panel, or of the one in parts.
+    index: usize,
+}
+
+impl<P: Copy> CyclePanels<P> {
+    /// Begins with the first of some panels.
+    pub fn new(panels: Vec<PanelTable<P>>) -> CyclePanels<P> {
+        CyclePanels {
+            panels,
+            parts: Vec::new(),
+            index: 0,
+        }
+    }
+
+    /// Begins again with the first panel.
+    pub fn restart(&mut self) {
+        self.parts.clear();
+        self.index = 0;
+    }
+
+    /// True if the next panel begins a cycle.
+    pub fn at_cycle(&self) -> bool {
+        self.index == 0 && !self.has_parts()
+    }
+
+    /// True if the next panel is part of another one, in this turn alone.
+    pub fn has_parts(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// Returns the next panel or part of a panel.
+    pub fn next(&self) -> &PanelTable<P> {
+        self.parts.last().unwrap_or(&self.panels[self.index])
+    }
+
+    /// Returns the next panel or part of a panel, to be changed.
+    pub fn next_mut(&mut self) -> &mut PanelTable<P> {
+        let whole = &mut self.panels[self.index];
+        self.parts.last_mut().unwrap_or(whole)
+    }
+
+    /// Moves on to the rest of the next panel, or beyond it; true at the end of a turn.
+    pub fn advance(&mut self, rest: Option<PanelTable<P>>) -> bool {
+        self.parts.pop();
+        self.parts.extend(rest);
+        if self.has_parts() {
+            return false;
+        }
+        let turns = self.panels[self.index].turns;
+        self.index += 1;
+        let next = self.panels.get(self.index);
+        let ends_turn = next.is_none_or(|next| next.turns != turns);
+        self.index %= self.panels.len();
+        ends_turn
+    }
+
+    /// Replaces the next panel by two parts, in this turn.
+    pub fn cut_in_turn(&mut self, [first, second]: [PanelTable<P>; 2]) {
+        self.parts.pop();
+        self.parts.extend([second, first]);
+    }
+
+    /// Replaces the next panel by two parts, in all turns.
+    pub fn cut(&mut self, parts: [PanelTable<P>; 2]) {
+        self.panels.splice(self.index..=self.index, parts);
+    }
+
+    /// Cuts every panel that failed, in all turns.
+    pub fn cut_failed(
+        &mut self,
+        dynamics: &impl Dynamics<Place = P>,
+        fine: Fineness,
+    ) -> Result<(), NotApplicable> {
+        let mut all = Vec::with_capacity(2 * self.panels.len());
+        for panel in std::mem::take(&mut self.panels) {
+            let parts = panel.failed.then(|| panel.parts(dynamics, 0.5, fine));
+            match parts.transpose()?.flatten() {
+                Some(parts) => all.extend(parts),
+                None => all.push(panel),
+            }
+        }
+        self.panels = all;
+        Ok(())
+    }
+
+    /// Makes the rest of the next panel from an angle (rad) on.
+    pub fn rest(
+        &self,
+        dynamics: &impl Dynamics<Place = P>,
+        from: f64,
+        fine: Fineness,
+    ) -> Result<PanelTable<P>, NotApplicable> {
+        let panel = self.next();
+        let index = panel.rest_index.map_or(0, |index| index + 1);
+        let known = self.panels[self.index].rests.get(index);
+        panel.rest(dynamics, from, index, known, fine)
+    }
+
+    /// Stores the solution on a rest as the guess for the next turn.
+    pub fn remember_rest(&mut self) {
+        if let Some((index, rest)) = self.parts.last().and_then(PanelTable::as_rest) {
+            let rests = &mut self.panels[self.index].rests;
+            if index < rests.len() {
+                rests[index] = rest;
+            } else {
+                rests.push(rest);
+            }
+        }
+    }
+}
+
+/// Makes the panels of one cycle, which end at the corners.
+pub(super) fn panels<D: Dynamics>(
+    dynamics: &D,
+    start: Angle,
+    fine: Fineness,
+    cuts: &[f64],
+) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
+    let (few, all) = (dynamics.corners(), dynamics.corners_if_light());
+    if few.len() < all.len() {
+        // Beyond this degree more panels cost no more.
+        let heavy = between(dynamics, few, start, fine, cuts, FIRST_DEGREE)?;
+        if let Some(list) = heavy {
+            return Ok(list);
+        }
+    }
+    Ok(between(dynamics, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
+}
+
+/// Makes the panels between corners, cut at fractions `cuts` up to 1; none if one is not resolved at degree `most`.
+fn between<D: Dynamics>(
+    dynamics: &D,
+    corners: &[f64],
+    start: Angle,
+    fine: Fineness,
+    cuts: &[f64],
+    most: usize,
+) -> Result<Option<Vec<PanelTable<D::Place>>>, NotApplicable> {
+    let direction = fine.speed.signum();
+    let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
+    let cycle = f64::from(dynamics.cycle());
+    // Origin of the corners; for a cycle of one turn the whole turns do not matter.
+    let phase = start.turns.rem_euclid(cycle) * TAU + start.rest;
+    for turn in 0..dynamics.cycle() {
+        let before = f64::from(turn);
+        let mut ends: Vec<f64> = corners
+            .iter()
+            .map(|corner| (direction * (corner - phase)).rem_euclid(cycle * TAU) - before * TAU)
+            .filter(|ahead| *ahead > SHORTEST_PANEL && *ahead < TAU - SHORTEST_PANEL)
+            .collect();
+        ends.sort_by(f64::total_cmp);
+        ends.push(TAU);
+        let turns = start.turns + direction * before;
+        let mut from = 0.0;
+        for to in ends {
+            let parts = ((to - from) / HALF_TURN).ceil();
+            let begin = from;
+            let whole = 0..parts as u32;
+            let shares = whole.flat_map(|part| cuts.iter().map(move |cut| f64::from(part) + cut));
+            for share in shares.map(|end| end / parts) {
+                let until = if share < 1.0 {
+                    begin + share * (to - begin)
+                } else {
+                    to
+                };
+                let ends = [from, until].map(|ahead| start.rest + direction * ahead);
+                // The degree of the neighbour is likely to suffice.
+                let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
+                let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
+                panel.tabulate(dynamics)?;
+                if !panel.resolve(dynamics, fine, most)? && most < MAX_DEGREE {
+                    return Ok(None);
+                }
+                list.push(panel);
+                from = until;
+            }
+        }
+    }
+    Ok(Some(list))
+}
