@@ -17,7 +17,7 @@ use crate::numeric::parallel;
 const COMPUTED: f64 = 1.5e-8;
 
 /// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
-const HARMONICS: usize = 24;
+const HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]
@@ -189,7 +189,11 @@ impl Problem<'_> {
                 next.is_some()
             };
             if turns >= 4.0 {
-                extend(&mut found, |prior| Prior { cycle: 2, ..prior });
+                extend(&mut found, |prior| Prior {
+                    cycle: 2,
+                    harmonics: 2 * prior.harmonics,
+                    ..prior
+                });
             }
             // The samples tell no more coefficients than there are samples.
             let has_room =

@@ -64,6 +64,8 @@ impl Problem<'_> {
         Path {
             states: ranges.iter().flat_map(along).collect(),
             variances: (!self.record.is_linear()).then(variances),
+            periodic: None,
+            by_speed: 0.0,
             ranges,
         }
     }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::linearised::State;
+use super::periodic::Periodic;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +25,10 @@ pub(super) struct Path {
     pub states: Vec<State>,
     /// Variance of the crank angle, rad², if the samples are curved in it.
     pub variances: Option<Vec<f64>>,
+    /// Torque that repeats, as far as it is known.
+    pub periodic: Option<Periodic>,
+    /// Mean of g along the path, N m s.
+    pub by_speed: f64,
 }
 
 /// A stretch of a path.
@@ -42,6 +47,8 @@ impl Path {
             ranges: std::iter::once(0..states.len()).collect(),
             states,
             variances,
+            periodic: None,
+            by_speed: 0.0,
         }
     }
 
@@ -77,6 +84,8 @@ impl Path {
                 .variances
                 .is_some()
                 .then(|| variances().flatten().copied().collect()),
+            periodic: self.periodic.clone(),
+            by_speed: self.by_speed,
             ranges,
         }
     }
@@ -85,6 +94,13 @@ impl Path {
     pub fn speed(&self) -> f64 {
         let squares = self.states.iter().map(|state| state[1] * state[1]);
         (squares.sum::<f64>() / self.states.len() as f64).sqrt()
+    }
+
+    /// Returns the derivatives by θ and ω of what is a function of them in u at a state: g ω and what repeats.
+    pub fn slopes(&self, state: &State) -> [f64; 2] {
+        let repeats = self.periodic.as_ref();
+        let [by_theta, by_omega] = repeats.map_or([0.0; 2], |repeats| repeats.slopes(state));
+        [by_theta, by_omega + self.by_speed]
     }
 
     /// The nodes with their states.

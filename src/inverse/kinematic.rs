@@ -45,7 +45,7 @@ impl Problem<'_> {
                     }
                 }
             };
-            let estimates = self.smoothed(&motion, &path, scales, &noise);
+            let estimates = self.smoothed(&motion, &mut path, scales, &noise);
             let change = path.moved(&estimates);
             sigma = noise.sigma;
             let rms = |k: usize| {
@@ -60,6 +60,7 @@ impl Problem<'_> {
                 noise,
                 scales,
                 estimates,
+                periodic: None,
                 settled,
             });
             // A second pass recovers digits lost to rounding about a straight line.

@@ -5,7 +5,7 @@ use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
 use super::periodic::Increments;
 use super::prior::Prior;
-use super::regression::{Posterior, Regression, Spectrum};
+use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
 use super::state_space::{Deviations, Observed};
 
@@ -85,31 +85,23 @@ impl Linear<'_> {
         (evidence, to)
     }
 
-    /// The part that repeats, given the samples.
-    pub fn posterior(&self, noise: &Noise) -> Option<Posterior> {
-        let spectrum = noise.spectrum?;
-        self.regressed(noise).1.solved(spectrum)
-    }
-
     /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
     fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
         let (mut evidence, regression) = self.regressed(noise);
         let starts = self.prior.states() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
-        let score = |found: &Posterior| {
-            let squares = evidence.squares - found.fall;
-            let least = self.scales.known.unwrap_or(self.scales.floor).powi(2);
-            let variance = match self.scales.known {
-                Some(_) => least,
-                None => (squares / free).max(least),
-            };
-            -0.5 * (free * variance.ln() + squares / variance + found.log_determinant)
+        let rest = Rest {
+            squares: evidence.squares,
+            free,
+            least: self.scales.known.unwrap_or(self.scales.floor).powi(2),
+            is_known: self.scales.known.is_some(),
         };
-        noise.spectrum = noise.spectrum.or_else(|| regression.likeliest(near, score));
-        if let Some(found) = noise
-            .spectrum
-            .and_then(|spectrum| regression.solved(spectrum))
-        {
+        let found = match noise.spectrum {
+            Some(spectrum) => regression.solved(spectrum).map(|found| (spectrum, found)),
+            None => regression.likeliest(near, &rest),
+        };
+        noise.spectrum = found.as_ref().map(|(spectrum, _)| *spectrum);
+        if let Some((_, found)) = found {
             evidence.squares -= found.fall;
             evidence.log_variances += found.log_determinant;
         }

@@ -1,5 +1,7 @@
 //! Priors among which the likelihood chooses: the unknown of the equation of motion and its random process.
 
+use super::estimate::Estimate;
+
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unknown {
@@ -51,6 +53,15 @@ impl Prior {
     /// Number of states.
     pub fn states(self) -> usize {
         2 + self.order + usize::from(self.follows_speed)
+    }
+
+    /// Returns the mean of g; 0 without.
+    pub fn mean_by_speed(self, estimates: &[Estimate]) -> f64 {
+        let of = |estimate: &Estimate| estimate.state[2 + self.order];
+        match self.follows_speed {
+            true => estimates.iter().map(of).sum::<f64>() / estimates.len() as f64,
+            false => 0.0,
+        }
     }
 
     /// Names the random term in words.

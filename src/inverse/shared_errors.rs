@@ -127,8 +127,8 @@ impl Source {
             .for_each(|state| state[0] += self.zero);
         let motion = problem.motion(smoothed.prior);
         let moved = Smoothed {
-            estimates: problem.smoothed(&motion, &path, smoothed.scales, &smoothed.noise),
-            ..*smoothed
+            estimates: problem.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise),
+            ..smoothed.clone()
         };
         parallel::list(times.len(), |i| problem.at(&moved, times[i]).motion())
     }

@@ -7,6 +7,8 @@ use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::likelihood::Linear;
+use super::maximum::ENOUGH_RISE;
+use super::periodic::Periodic;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::residual_tests::Whiteness;
@@ -19,6 +21,8 @@ pub(super) struct Smoothed {
     pub noise: Noise,
     pub scales: Scales,
     pub estimates: Vec<Estimate>,
+    /// Torque that repeats.
+    pub periodic: Option<Periodic>,
     /// Whether the iterations came to rest.
     pub settled: bool,
 }
@@ -29,7 +33,11 @@ impl Smoothed {
     pub fn path(&self, is_curved: bool) -> Path {
         let variances = || variances(&self.estimates);
         let states = self.estimates.iter().map(|e| e.state);
-        Path::whole(states.collect(), is_curved.then(variances))
+        Path {
+            periodic: self.periodic.clone(),
+            by_speed: self.prior.mean_by_speed(&self.estimates),
+            ..Path::whole(states.collect(), is_curved.then(variances))
+        }
     }
 }
 
@@ -58,7 +66,7 @@ impl Problem<'_> {
             }
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
-            whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
+            whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
             whole.settled = found.settled && (is_linear || change < PATH_AT_REST);
             if whole.settled || !change.is_finite() {
@@ -136,47 +144,65 @@ impl Problem<'_> {
             scales,
         } = *candidate;
         let mut path = self.path_of(prior, kinematic, ranges);
-        let motion = self.motion(prior);
+        let mut motion = self.motion(prior);
         let mut result = Smoothed {
             prior,
             noise,
             scales,
             estimates: Vec::new(),
+            periodic: None,
             settled: false,
         };
-        let mut before = f64::INFINITY;
+        let mut is_at_rest = false;
         for iteration in 0..ITERATIONS {
-            // About a path that has moved the noise is estimated again, once.
-            if iteration == 1 || iteration == 0 && prior.follows_speed {
+            // The noise is estimated again about the second path, and about the last one until its likelihood rests, too.
+            let is_first = result.prior.harmonics == candidate.prior.harmonics;
+            // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
+            if is_at_rest && is_first {
+                motion.prior.harmonics *= 2;
+            }
+            let prior = motion.prior;
+            if iteration == 1 || is_at_rest || iteration == 0 && prior.follows_speed {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,
                     prior,
                     scales,
                 };
-                if iteration == 1 {
-                    let drift = 0.0;
-                    noise = linear.renewed(Noise { drift, ..noise });
-                }
+                let known = match iteration {
+                    0 => noise,
+                    _ => linear.evaluated(noise),
+                };
+                noise = match iteration {
+                    0 => noise,
+                    _ => linear.improved(known),
+                };
                 if prior.follows_speed {
                     noise = linear.with_drift(noise);
                 }
+                let is_wider = prior != result.prior;
+                if is_at_rest && !is_wider && noise.likelihood < known.likelihood + ENOUGH_RISE {
+                    result.noise = known;
+                    break;
+                }
             }
-            let estimates = self.smoothed(&motion, &path, scales, &noise);
+            let estimates = self.smoothed(&motion, &mut path, scales, &noise);
             let change = path.moved(&estimates);
-            (result.noise, result.estimates) = (noise, estimates);
-            // The second iteration looks for the noise again.
-            if change < PATH_AT_REST && iteration > 0 {
-                result.settled = true;
+            is_at_rest = change < PATH_AT_REST && iteration > 0;
+            // What came to rest with a former noise stands until this one's does.
+            if is_at_rest || !result.settled {
+                result = Smoothed {
+                    prior,
+                    noise,
+                    estimates,
+                    periodic: path.periodic.clone(),
+                    settled: is_at_rest,
+                    ..result
+                };
+            }
+            if !change.is_finite() {
                 break;
             }
-            // What repeats is taken along the path before: its changes fall in one ratio, which may be too slow.
-            let left = ITERATIONS - 1 - iteration;
-            let at_last = change * (change / before).powi(left as i32);
-            if !change.is_finite() || prior.cycle > 0 && iteration > 2 && at_last > PATH_AT_REST {
-                break;
-            }
-            before = change;
         }
         result
     }
