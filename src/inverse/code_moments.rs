@@ -160,7 +160,7 @@ impl Problem<'_> {
             }
             smoothed.estimates =
                 self.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise);
-            smoothed.periodic = path.periodic.clone();
+            smoothed.torque = path.torque.clone();
             if is_last {
                 break;
             }
@@ -188,7 +188,7 @@ impl Problem<'_> {
         for candidate in self.tried(&kinematic, &[]) {
             (self.record.values, self.record.weights) = first.clone();
             let smoothed = self.iterated(&candidate, &kinematic, self.all());
-            if !smoothed.settled {
+            if !smoothed.converged {
                 continue;
             }
             let smoothed = self.propagated(codes, smoothed);

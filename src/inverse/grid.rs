@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use super::harmonics::StateTorque;
 use super::linearised::State;
-use super::periodic::Periodic;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]
@@ -25,10 +25,8 @@ pub(super) struct Path {
     pub states: Vec<State>,
     /// Variance of the crank angle, rad², if the samples are curved in it.
     pub variances: Option<Vec<f64>>,
-    /// Torque that repeats, as far as it is known.
-    pub periodic: Option<Periodic>,
-    /// Mean of g along the path, N m s.
-    pub by_speed: f64,
+    /// Torque that follows the state, as far as it is known.
+    pub torque: StateTorque,
 }
 
 /// A stretch of a path.
@@ -47,8 +45,7 @@ impl Path {
             ranges: std::iter::once(0..states.len()).collect(),
             states,
             variances,
-            periodic: None,
-            by_speed: 0.0,
+            torque: StateTorque::default(),
         }
     }
 
@@ -84,8 +81,7 @@ impl Path {
                 .variances
                 .is_some()
                 .then(|| variances().flatten().copied().collect()),
-            periodic: self.periodic.clone(),
-            by_speed: self.by_speed,
+            torque: self.torque.clone(),
             ranges,
         }
     }
@@ -94,13 +90,6 @@ impl Path {
     pub fn speed(&self) -> f64 {
         let squares = self.states.iter().map(|state| state[1] * state[1]);
         (squares.sum::<f64>() / self.states.len() as f64).sqrt()
-    }
-
-    /// Returns the derivatives by θ and ω of what is a function of them in u at a state: g ω and what repeats.
-    pub fn slopes(&self, state: &State) -> [f64; 2] {
-        let repeats = self.periodic.as_ref();
-        let [by_theta, by_omega] = repeats.map_or([0.0; 2], |repeats| repeats.slopes(state));
-        [by_theta, by_omega + self.by_speed]
     }
 
     /// The nodes with their states.
@@ -134,13 +123,13 @@ pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] 
 }
 
 /// Largest way of the crank from node to node, rad.
-const LONGEST: f64 = 0.12;
+const NODE_ROTATION: f64 = 0.12;
 
 /// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
 /// block, rad.
-const MANY: usize = 100_000;
-const BLOCKS: usize = 50_000;
-const SHORT: f64 = 0.02;
+const BLOCK_SAMPLES: usize = 100_000;
+const LEAST_BLOCKS: usize = 50_000;
+const BLOCK_ROTATION: f64 = 0.02;
 
 impl Grid {
     /// Nodes that stand for blocks of samples, if these are so many and so dense that little happens in a block.
@@ -149,9 +138,9 @@ impl Grid {
         let stride = count.div_ceil(1000);
         let some: Vec<f64> = angles.iter().step_by(stride).copied().collect();
         let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let dense = (SHORT * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
-        let length = dense.min(count / BLOCKS);
-        if count < MANY || length < 2 {
+        let dense = (BLOCK_ROTATION * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
+        let length = dense.min(count / LEAST_BLOCKS);
+        if count < BLOCK_SAMPLES || length < 2 {
             return None;
         }
         let blocks = count / length;
@@ -171,7 +160,7 @@ impl Grid {
 
     /// Nodes at the samples and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64]) -> Grid {
-        Grid::finer(times, angles, LONGEST)
+        Grid::finer(times, angles, NODE_ROTATION)
     }
 
     /// Creates nodes at the samples and between them, at most `longest` apart, rad.

@@ -3,7 +3,6 @@
 //! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
 //! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
-use super::grid::Path;
 use super::prior::{Prior, Unknown};
 use crate::mechanism::{Equation, Terms};
 
@@ -92,13 +91,14 @@ impl Motion<'_> {
         }
     }
 
-    /// Returns θ̈ and its partial derivatives at a state of a path: the Wiener process in u is held.
-    pub fn rates_along(&self, path: &Path, t: f64, state: &State) -> Rates {
-        let mut rates = self.rates(t, state);
-        let [by_theta, by_omega] = path.slopes(state);
-        rates.by_theta += rates.by_unknown * by_theta;
-        rates.by_omega += rates.by_unknown * by_omega;
-        rates
+    /// Returns θ̈ and its partial derivatives at a state whose torque follows θ and ω with these slopes.
+    pub fn rates_following(&self, [by_theta, by_omega]: [f64; 2], t: f64, state: &State) -> Rates {
+        let rates = self.rates(t, state);
+        Rates {
+            by_theta: rates.by_theta + rates.by_unknown * by_theta,
+            by_omega: rates.by_omega + rates.by_unknown * by_omega,
+            ..rates
+        }
     }
 
     /// Returns the mean acceleration of a step, rad/s², the rate at which g adds to u; 0 without g.

@@ -50,11 +50,21 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
-    pub fn with_drift(&self, mut noise: Noise) -> Noise {
+    pub fn with_speed_corner(&self, mut noise: Noise) -> Noise {
         loop {
-            let drift = noise.drift.max(noise.corner);
-            let by_drift = |drift| self.evaluated(Noise { drift, ..noise });
-            let found = self.over(drift, by_drift(drift), by_drift, ENOUGH_RISE);
+            let speed_corner = noise.speed_corner.max(noise.corner);
+            let by_speed_corner = |speed_corner| {
+                self.evaluated(Noise {
+                    speed_corner,
+                    ..noise
+                })
+            };
+            let found = self.over(
+                speed_corner,
+                by_speed_corner(speed_corner),
+                by_speed_corner,
+                ENOUGH_RISE,
+            );
             if found.likelihood < noise.likelihood + ENOUGH_RISE {
                 return noise;
             }

@@ -1,6 +1,6 @@
 //! Priors among which the likelihood chooses: the unknown of the equation of motion and its random process.
 
-use super::estimate::Estimate;
+use super::linearised::State;
 
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,11 +55,10 @@ impl Prior {
         2 + self.order + usize::from(self.follows_speed)
     }
 
-    /// Returns the mean of g; 0 without.
-    pub fn mean_by_speed(self, estimates: &[Estimate]) -> f64 {
-        let of = |estimate: &Estimate| estimate.state[2 + self.order];
+    /// Returns g of a state, N m s; 0 without.
+    pub fn by_speed(self, state: &State) -> f64 {
         match self.follows_speed {
-            true => estimates.iter().map(of).sum::<f64>() / estimates.len() as f64,
+            true => state[2 + self.order],
             false => 0.0,
         }
     }

@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path, hermite};
+use super::harmonics::{Increments, Repeating, StateTorque};
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates, State};
-use super::periodic::{Increments, Periodic, Sensitivities};
+use super::periodic::Sensitivities;
 use super::prior::Prior;
 use super::record::Record;
 use super::regression::Regression;
 use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::Deviations;
+use super::state_space::{Deviations, with_dimension};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -22,7 +23,7 @@ use crate::numeric::stop::Stop;
 pub(super) const NODES_OF_A_THREAD: usize = 8192;
 
 /// Time constants of the smoother after which nothing is left of what was before.
-const FORGOTTEN: f64 = 60.0;
+const MEMORY_TIME_CONSTANTS: f64 = 60.0;
 
 /// A record with its nodes and the equation of its mechanism.
 #[derive(Debug)]
@@ -86,7 +87,8 @@ impl<'a> Problem<'a> {
         let piece = path.piece(&range);
         let states = piece.states;
         let pairs = times.iter().zip(states);
-        let rates = pairs.map(|(t, state)| motion.rates_along(path, *t, state));
+        let rates =
+            pairs.map(|(t, state)| motion.rates_following(path.torque.slopes(state), *t, state));
         let rates: Vec<Rates> = rates.collect();
         let steps = (0..states.len() - 1).map(|k| {
             let ends = [&states[k], &states[k + 1]];
@@ -158,7 +160,7 @@ impl<'a> Problem<'a> {
         };
         let nodes = self.grid.len();
         let times = &self.grid.times;
-        let shared = FORGOTTEN / noise.corner;
+        let shared = MEMORY_TIME_CONSTANTS / noise.corner;
         let density = nodes as f64 / scales.duration;
         let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
         let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
@@ -170,7 +172,8 @@ impl<'a> Problem<'a> {
             let (from, to) = (from.max(known.start), to.min(known.end));
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
             let model = linear.deviations(&stretch, noise);
-            let (all, coefficients) = self.estimates(motion, path, from, &model, noise);
+            let (all, coefficients) = with_dimension!(model.dimension(), N =>
+                self.estimated::<N>(motion, path, from, &model, noise));
             found.copy_from_slice(&all[core.start - from..core.end - from]);
             coefficients
         };
@@ -189,29 +192,16 @@ impl<'a> Problem<'a> {
         let coefficients = parallel::map(jobs.into_iter(), job);
         // What repeats is found along the whole path, in one piece.
         let coefficients = coefficients.into_iter().flatten().next();
-        path.by_speed = motion.prior.mean_by_speed(&found);
-        path.periodic = coefficients.map(|coefficients| Periodic {
-            prior: motion.prior,
-            coefficients,
-            speed: path.speed(),
-        });
+        let by_speed = found.iter().map(|one| motion.prior.by_speed(&one.state));
+        path.torque = StateTorque {
+            by_speed: by_speed.sum::<f64>() / found.len() as f64,
+            repeating: coefficients.map(|coefficients| Repeating {
+                prior: motion.prior,
+                coefficients,
+                speed: path.speed(),
+            }),
+        };
         found
-    }
-
-    fn estimates(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        from: usize,
-        model: &Deviations<'_>,
-        noise: &Noise,
-    ) -> (Vec<Estimate>, Option<Vec<f64>>) {
-        match model.dimension() {
-            3 => self.estimated::<3>(motion, path, from, model, noise),
-            4 => self.estimated::<4>(motion, path, from, model, noise),
-            5 => self.estimated::<5>(motion, path, from, model, noise),
-            _ => self.estimated::<6>(motion, path, from, model, noise),
-        }
     }
 
     fn estimated<const N: usize>(
@@ -242,11 +232,12 @@ impl<'a> Problem<'a> {
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = piece.states[at];
                 // The model has the deviation of u less what follows θ and ω.
-                let slopes = path.slopes(&state);
+                let slopes = path.torque.slopes(&state);
                 state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
                 let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
                 pairs.for_each(|(value, change)| *value += change);
-                let rates = motion.rates_along(path, self.grid.times[from + at], &state);
+                let slopes = path.torque.slopes(&state);
+                let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;
                 let across: [f64; 3] =

@@ -53,18 +53,15 @@ pub(super) struct Rest {
     pub squares: f64,
     /// Degrees of freedom.
     pub free: f64,
-    /// Least variance of a sample, and whether it is the known one.
-    pub least: f64,
-    pub is_known: bool,
+    /// Least and largest variance of a sample.
+    pub variances: [f64; 2],
 }
 
 impl Rest {
     /// The likeliest variance of a sample, given the coefficients.
     fn variance(&self, found: &Posterior) -> f64 {
-        match self.is_known {
-            true => self.least,
-            false => ((self.squares - found.fall) / self.free).max(self.least),
-        }
+        let [least, largest] = self.variances;
+        ((self.squares - found.fall) / self.free).clamp(least, largest)
     }
 
     /// ln of the likelihood, up to what no spectrum changes.

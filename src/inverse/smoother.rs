@@ -6,9 +6,9 @@ use std::ops::Range;
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
+use super::harmonics::StateTorque;
 use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
-use super::periodic::Periodic;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::residual_tests::Whiteness;
@@ -21,10 +21,10 @@ pub(super) struct Smoothed {
     pub noise: Noise,
     pub scales: Scales,
     pub estimates: Vec<Estimate>,
-    /// Torque that repeats.
-    pub periodic: Option<Periodic>,
+    /// Torque that follows the state.
+    pub torque: StateTorque,
     /// Whether the iterations came to rest.
-    pub settled: bool,
+    pub converged: bool,
 }
 
 impl Smoothed {
@@ -34,8 +34,7 @@ impl Smoothed {
         let variances = || variances(&self.estimates);
         let states = self.estimates.iter().map(|e| e.state);
         Path {
-            periodic: self.periodic.clone(),
-            by_speed: self.prior.mean_by_speed(&self.estimates),
+            torque: self.torque.clone(),
             ..Path::whole(states.collect(), is_curved.then(variances))
         }
     }
@@ -56,7 +55,7 @@ impl Problem<'_> {
         let motion = self.motion(found.prior);
         let is_linear = found.prior == KINEMATIC && self.record.is_linear();
         let mut whole = Smoothed {
-            settled: false,
+            converged: false,
             ..found
         };
         for iteration in 0..ITERATIONS {
@@ -68,8 +67,8 @@ impl Problem<'_> {
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
-            whole.settled = found.settled && (is_linear || change < PATH_AT_REST);
-            if whole.settled || !change.is_finite() {
+            whole.converged = found.converged && (is_linear || change < PATH_AT_REST);
+            if whole.converged || !change.is_finite() {
                 break;
             }
         }
@@ -80,7 +79,7 @@ impl Problem<'_> {
     /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, &[]);
-        let Some(mut found) = self.first_settled(&white, &kinematic) else {
+        let Some(mut found) = self.first_converged(&white, &kinematic) else {
             return (kinematic, listed(&white));
         };
         let mut tried = listed(&white);
@@ -96,7 +95,7 @@ impl Problem<'_> {
                 && first.likelihood > likelihood(&white) + cost
             {
                 let correlated = self.tried(&kinematic, &[guess]);
-                let other = self.first_settled(&correlated, &kinematic);
+                let other = self.first_converged(&correlated, &kinematic);
                 let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
                 if let Some(other) = other.filter(|other| gain(other) > cost) {
                     (found, tried) = (other, listed(&correlated));
@@ -114,7 +113,7 @@ impl Problem<'_> {
 
     /// The likeliest smoothed motion of those whose iterations come to rest. About the path that they come to, a prior may be less
     /// likely than about the first one.
-    fn first_settled(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
+    fn first_converged(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
         let mut best: Option<Smoothed> = None;
         for candidate in tried {
             let before = best
@@ -124,7 +123,7 @@ impl Problem<'_> {
                 break;
             }
             let found = self.iterated(candidate, kinematic, self.sampled());
-            if found.settled && found.noise.likelihood > before {
+            if found.converged && found.noise.likelihood > before {
                 best = Some(found);
             }
         }
@@ -150,8 +149,8 @@ impl Problem<'_> {
             noise,
             scales,
             estimates: Vec::new(),
-            periodic: None,
-            settled: false,
+            torque: StateTorque::default(),
+            converged: false,
         };
         let mut is_at_rest = false;
         for iteration in 0..ITERATIONS {
@@ -169,16 +168,13 @@ impl Problem<'_> {
                     prior,
                     scales,
                 };
-                let known = match iteration {
-                    0 => noise,
-                    _ => linear.evaluated(noise),
-                };
-                noise = match iteration {
-                    0 => noise,
-                    _ => linear.improved(known),
-                };
+                let mut known = noise;
+                if iteration > 0 {
+                    known = linear.evaluated(noise);
+                    noise = linear.improved(known);
+                }
                 if prior.follows_speed {
-                    noise = linear.with_drift(noise);
+                    noise = linear.with_speed_corner(noise);
                 }
                 let is_wider = prior != result.prior;
                 if is_at_rest && !is_wider && noise.likelihood < known.likelihood + ENOUGH_RISE {
@@ -190,13 +186,13 @@ impl Problem<'_> {
             let change = path.moved(&estimates);
             is_at_rest = change < PATH_AT_REST && iteration > 0;
             // What came to rest with a former noise stands until this one's does.
-            if is_at_rest || !result.settled {
+            if is_at_rest || !result.converged {
                 result = Smoothed {
                     prior,
                     noise,
                     estimates,
-                    periodic: path.periodic.clone(),
-                    settled: is_at_rest,
+                    torque: path.torque.clone(),
+                    converged: is_at_rest,
                     ..result
                 };
             }
