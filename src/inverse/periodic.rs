@@ -6,7 +6,8 @@
 //!
 //! The filter runs once for β = 0, and beside it the derivatives of its state by β follow the same recursion (augmented Kalman
 //! filter; de Jong, Ann. Statist. 19 (1991) 1073). A prediction error is then e + E β with the variance that it has without β, and
-//! what is left is a linear regression with the information Σ EᵀE/S.
+//! what is left is a linear regression with the information Σ EᵀE/S. The derivatives of p by θ and ω, with the β of the last
+//! iteration, are those of the equation of motion, too: u less p is the state of the linear model.
 
 use nalgebra::DMatrixView;
 

@@ -154,13 +154,12 @@ impl Problem<'_> {
         };
         let mut is_at_rest = false;
         for iteration in 0..ITERATIONS {
-            // The noise is estimated again about the second path, and about the last one until its likelihood rests, too.
-            let is_first = result.prior.harmonics == candidate.prior.harmonics;
             // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
-            if is_at_rest && is_first {
+            if is_at_rest && result.prior == candidate.prior {
                 motion.prior.harmonics *= 2;
             }
             let prior = motion.prior;
+            // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
             if iteration == 1 || is_at_rest || iteration == 0 && prior.follows_speed {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
