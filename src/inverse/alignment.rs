@@ -4,7 +4,7 @@
 //! To first order an error of the lengths shifts and stretches the slider's stroke, as zero and gain of a sensor do.
 //! Without the correction, a slider that turns back short of the scene's dead centre reverses the crank with it.
 
-use super::branch_tracking::OFF;
+use super::branch_tracking::LARGEST_VALUE_ERROR;
 use super::measurement_model::{Scale, Sensor};
 use crate::mechanism::Limits;
 use crate::numeric::median::median;
@@ -37,7 +37,7 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
             error,
         }));
     }
-    found.retain(|turn| (turn.shown - turn.at).abs() < OFF * sensor.linkage.r);
+    found.retain(|turn| (turn.shown - turn.at).abs() < LARGEST_VALUE_ERROR * sensor.linkage.r);
     if !found.iter().any(StrokeEnd::is_off) {
         return list;
     }

@@ -8,6 +8,7 @@ use super::linearised::Motion;
 use super::maximum::vertex;
 use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
+use super::state_space::with_dimension;
 use crate::numeric::parallel;
 
 /// Maximum number of rounds that look beyond the corner frequencies already tried.
@@ -74,12 +75,8 @@ impl Problem<'_> {
         noises: &[Noise],
     ) -> Vec<Evidence> {
         let correlated = noises.iter().any(|noise| noise.correlated.is_some());
-        match motion.prior.states() + usize::from(correlated) {
-            3 => self.filtered::<3>(motion, path, linear, noises),
-            4 => self.filtered::<4>(motion, path, linear, noises),
-            5 => self.filtered::<5>(motion, path, linear, noises),
-            _ => self.filtered::<6>(motion, path, linear, noises),
-        }
+        let states = motion.prior.states() + usize::from(correlated);
+        with_dimension!(states, N => self.filtered::<N>(motion, path, linear, noises))
     }
 
     fn filtered<const N: usize>(

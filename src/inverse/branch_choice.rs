@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::branch_tracking::{self, APART, CrankAngles, EARLY};
+use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::{Image, fork, image};
 use super::samples::{problem, record};
@@ -18,18 +18,18 @@ use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement, Motion};
 
 /// ln of the odds above which a choice needs no warning: 1000 to 1.
-const CERTAIN: f64 = 6.9;
+const CERTAIN_LOG_ODDS: f64 = 6.9;
 
 /// Bound of ln of the odds from the likelihoods of a motion and of its mirror image, and from the sense of a stated
 /// speed: forces that no prior describes make the false motion likelier in one record of fifty (simulated ones of eight
 /// kinds), and a stated sense counts as equally trustworthy.
-const BOUND: f64 = 3.9;
+const MOST_LOG_ODDS: f64 = 3.9;
 
 /// ln of the odds above which a criterion is named in favour of a motion: 2 to 1.
-const TOLD: f64 = 0.7;
+const NAMED_LOG_ODDS: f64 = 0.7;
 
 /// Precision of the scene's initial angle, rad: half a degree.
-const WRITTEN: f64 = 0.01;
+const STATED_ANGLE_ERROR: f64 = 0.01;
 
 /// Returns the crank angles of all samples, continued over the turns.
 ///
@@ -107,9 +107,9 @@ fn best<'a>(
     let taken = turned(&angles.theta);
     let other = pairs
         .iter()
-        .filter(|other| best.likelihood - other.likelihood < CERTAIN)
+        .filter(|other| best.likelihood - other.likelihood < CERTAIN_LOG_ODDS)
         .map(|other| turned(&other.taken.angles.theta))
-        .find(|turned| (turned - taken).abs() > APART);
+        .find(|turned| (turned - taken).abs() > DISTINCT_ROTATION);
     if let Some(other) = other {
         warnings.push(format!(
             "whether the crank went on or turned back at a dead centre is not certain: {:.2} turns are taken, and {:.2} are hardly less likely",
@@ -188,13 +188,13 @@ impl<'a> Reading<'a> {
 
     /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys).
     fn of_angle(&self) -> f64 {
-        -(self.off + WRITTEN).ln()
+        -(self.off + STATED_ANGLE_ERROR).ln()
     }
 
     /// Returns ln of the probability of the sense of the scene's speed.
     fn of_speed(&self, motion: &Motion) -> f64 {
         if self.sense * motion.speed < 0.0 {
-            -BOUND
+            -MOST_LOG_ODDS
         } else {
             0.0
         }
@@ -237,7 +237,7 @@ impl<'a> Pair<'a> {
                 "the sense of the scene's speed",
             ),
             (
-                (reading.likelihood - image.likelihood).clamp(-BOUND, BOUND),
+                (reading.likelihood - image.likelihood).clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS),
                 "the likelihood of its forces",
             ),
         ];
@@ -250,14 +250,14 @@ impl<'a> Pair<'a> {
         let named = |sign: f64| {
             let plainly = speaking
                 .iter()
-                .filter(|(part, _)| sign * part * odds.signum() > TOLD);
+                .filter(|(part, _)| sign * part * odds.signum() > NAMED_LOG_ODDS);
             let list: Vec<&str> = plainly.map(|(_, words)| *words).collect();
             match list.is_empty() {
                 true => "nothing".to_owned(),
                 false => list.join(" and "),
             }
         };
-        let doubt = (odds.abs() < CERTAIN).then(|| {
+        let doubt = (odds.abs() < CERTAIN_LOG_ODDS).then(|| {
             let past = if odds > 0.0 && leaves.is_some() { ", past a limit," } else { "" };
             format!(
                 "{name} alone does not tell a motion from its mirror image on the other strokes: the one that begins at {:.4} rad is taken (for it: {}); the one that begins at {:.4} rad{past} has other forces (for it: {})",

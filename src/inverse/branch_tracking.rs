@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{DROPPED, Hypothesis, Setting, Tracker};
+use super::hypotheses::{DROPPED_LOG_RATIO, Hypothesis, Setting, Tracker};
 use super::measurement_model::Sensor;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -56,10 +56,10 @@ pub(super) fn motions<'a>(
         let (tracker, _, end) = &one;
         let is_new = |(other, _, there): &(Tracker<'_, 'a>, Setting, Hypothesis)| {
             other.sensor.scale != tracker.sensor.scale
-                || (there.turned() - end.turned()).abs() > APART
+                || (there.turned() - end.turned()).abs() > DISTINCT_ROTATION
         };
         let first = likeliest.first().unwrap_or(&one).2.score;
-        if end.score > first - DROPPED && likeliest.iter().all(is_new) {
+        if end.score > first - DROPPED_LOG_RATIO && likeliest.iter().all(is_new) {
             likeliest.push(one);
         }
     }
@@ -69,7 +69,7 @@ pub(super) fn motions<'a>(
             let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
             let alike = |other: &CrankAngles<'_>| {
                 other.sensor.scale == tracker.sensor.scale
-                    && (turned(&other.theta) - turned(&theta)).abs() < APART
+                    && (turned(&other.theta) - turned(&theta)).abs() < DISTINCT_ROTATION
             };
             if motions.len() < MOTIONS && !motions.iter().any(alike) {
                 motions.push(CrankAngles {
@@ -94,7 +94,7 @@ pub(super) fn motions<'a>(
 }
 
 /// Difference of crank angle at which two motions are distinct, rad.
-pub(super) const APART: f64 = 0.5;
+pub(super) const DISTINCT_ROTATION: f64 = 0.5;
 
 /// Maximum number of motions that are compared by their likelihoods through the equation.
 const MOTIONS: usize = 4;
@@ -103,13 +103,13 @@ const MOTIONS: usize = 4;
 pub(super) const EARLY: usize = 500;
 
 /// Largest error of a value, in crank lengths or rad: lengths and zero of an instrument are hardly worse.
-pub(super) const OFF: f64 = 0.1;
+pub(super) const LARGEST_VALUE_ERROR: f64 = 0.1;
 
 /// Refuses values far from all that the mechanism can take.
 pub(super) fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Result<(), Error> {
     let values = measurement.values();
     let excess = |value: f64| sensor.angles(value).1;
-    let is_off = |i: &usize| excess(values[*i]) > OFF * sensor.size();
+    let is_off = |i: &usize| excess(values[*i]) > LARGEST_VALUE_ERROR * sensor.size();
     let on_no_angle = |i: &usize| sensor.angles(values[*i]).0.angles().is_empty();
     // A few values slightly beyond the range are outliers.
     let many = (0..values.len()).filter(is_off).count() * 20 > values.len();

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::grid::Path;
+use super::harmonics::Increments;
 use super::likelihood::{Linear, Stretch};
 use super::maximum::ENOUGH_RISE;
-use super::periodic::Increments;
 use super::prior::{LADDERS, Prior, TORQUE};
 use super::problem::{Problem, ways};
 use super::scales::{Autoregression, Noise, Scales};
@@ -14,10 +14,10 @@ use crate::numeric::parallel;
 
 /// Crank-angle noise below which a record was computed, rad: no instrument resolves the root of double rounding.
 /// Computed records err smoothly, which a prior of order three would take for force.
-const COMPUTED: f64 = 1.5e-8;
+const COMPUTED_ANGLE_NOISE: f64 = 1.5e-8;
 
 /// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
-const HARMONICS: usize = 24;
+const FIRST_HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +111,7 @@ impl Problem<'_> {
 
     /// Whether samples with this noise were computed.
     pub fn is_computed(&self, noise: &Noise) -> bool {
-        noise.sigma < COMPUTED * self.record.sensor.size()
+        noise.sigma < COMPUTED_ANGLE_NOISE * self.record.sensor.size()
     }
 
     /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
@@ -189,7 +189,11 @@ impl Problem<'_> {
                 next.is_some()
             };
             if turns >= 4.0 {
-                extend(&mut found, |prior| Prior { cycle: 2, ..prior });
+                extend(&mut found, |prior| Prior {
+                    cycle: 2,
+                    harmonics: 2 * prior.harmonics,
+                    ..prior
+                });
             }
             // The samples tell no more coefficients than there are samples.
             let has_room =
@@ -208,7 +212,7 @@ impl Problem<'_> {
         let cost = (self.record.times.len() as f64).ln();
         let first = Prior {
             cycle: 1,
-            harmonics: HARMONICS,
+            harmonics: FIRST_HARMONICS,
             ..TORQUE
         };
         let mut found = extended(first, *noise, noise.likelihood + cost);

@@ -147,7 +147,7 @@ impl Problem<'_> {
         for round in 0..PROPAGATION_ROUNDS {
             let beliefs = self.beliefs(codes, &smoothed);
             self.propagate(codes, &beliefs);
-            let path = smoothed.path(false);
+            let mut path = smoothed.path(false);
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
@@ -158,7 +158,9 @@ impl Problem<'_> {
                 };
                 smoothed.noise = linear.renewed(smoothed.noise);
             }
-            smoothed.estimates = self.smoothed(&motion, &path, smoothed.scales, &smoothed.noise);
+            smoothed.estimates =
+                self.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise);
+            smoothed.torque = path.torque.clone();
             if is_last {
                 break;
             }
@@ -186,7 +188,7 @@ impl Problem<'_> {
         for candidate in self.tried(&kinematic, &[]) {
             (self.record.values, self.record.weights) = first.clone();
             let smoothed = self.iterated(&candidate, &kinematic, self.all());
-            if !smoothed.settled {
+            if !smoothed.converged {
                 continue;
             }
             let smoothed = self.propagated(codes, smoothed);

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::grid::Path;
+use super::harmonics::StateTorque;
 use super::linearised::State;
 use super::prior::{Prior, Unknown};
 use super::problem::Problem;
@@ -64,6 +65,7 @@ impl Problem<'_> {
         Path {
             states: ranges.iter().flat_map(along).collect(),
             variances: (!self.record.is_linear()).then(variances),
+            torque: StateTorque::default(),
             ranges,
         }
     }

@@ -32,7 +32,7 @@ pub(super) struct Fitted {
     /// Whether the residuals are plainly not white noise.
     pub patterned: bool,
     /// Whether the iterations converged.
-    pub settled: bool,
+    pub converged: bool,
     /// Row of the outlier with the largest residual.
     pub farthest_outlier: Option<usize>,
     /// Turns per cycle of the periodic torque in the smoother's prior; 0 without a periodic torque.
@@ -83,7 +83,7 @@ impl Fitted {
         let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten()
-            .filter(|polynomial| polynomial.settled && !polynomial.patterned);
+            .filter(|polynomial| polynomial.converged && !polynomial.patterned);
         if let Some(exact) = simple.take_if(|polynomial| polynomial.summary.rms <= polynomial.floor)
         {
             return Ok(exact);
@@ -182,7 +182,7 @@ impl Fitted {
         // Prediction errors of codes are not normal.
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
-        fitted.settled = smoothed.settled;
+        fitted.converged = smoothed.converged;
         fitted.cycle = prior.cycle;
         fitted.summary = FitSummary {
             kind: "smoother",
@@ -209,7 +209,7 @@ impl Fitted {
         let Polynomial {
             fit,
             motion,
-            settled,
+            converged,
         } = polynomial;
         let mut fitted = Fitted::of_motion(record, motion);
         let whiteness = Whiteness::of(fitted.residuals.iter().copied());
@@ -218,7 +218,7 @@ impl Fitted {
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         // Rounding errors have patterns of their own.
         fitted.patterned = whiteness.is_violated() && fitted.summary.rms > record.floor;
-        fitted.settled = settled;
+        fitted.converged = converged;
         fitted.summary = FitSummary {
             kind: "polynomial",
             reason: reason.to_owned(),
@@ -267,7 +267,7 @@ impl Fitted {
             free: 1.0,
             summary,
             patterned: false,
-            settled: true,
+            converged: true,
             cycle: 0,
             farthest_outlier: None,
             coded: None,

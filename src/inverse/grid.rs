@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::harmonics::StateTorque;
 use super::linearised::State;
 
 /// Nodes of the path with their samples.
@@ -24,6 +25,8 @@ pub(super) struct Path {
     pub states: Vec<State>,
     /// Variance of the crank angle, rad², if the samples are curved in it.
     pub variances: Option<Vec<f64>>,
+    /// Torque that follows the state, as far as it is known.
+    pub torque: StateTorque,
 }
 
 /// A stretch of a path.
@@ -42,6 +45,7 @@ impl Path {
             ranges: std::iter::once(0..states.len()).collect(),
             states,
             variances,
+            torque: StateTorque::default(),
         }
     }
 
@@ -77,6 +81,7 @@ impl Path {
                 .variances
                 .is_some()
                 .then(|| variances().flatten().copied().collect()),
+            torque: self.torque.clone(),
             ranges,
         }
     }
@@ -118,13 +123,13 @@ pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] 
 }
 
 /// Largest way of the crank from node to node, rad.
-const LONGEST: f64 = 0.12;
+const NODE_ROTATION: f64 = 0.12;
 
 /// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
 /// block, rad.
-const MANY: usize = 100_000;
-const BLOCKS: usize = 50_000;
-const SHORT: f64 = 0.02;
+const BLOCK_SAMPLES: usize = 100_000;
+const LEAST_BLOCKS: usize = 50_000;
+const BLOCK_ROTATION: f64 = 0.02;
 
 impl Grid {
     /// Nodes that stand for blocks of samples, if these are so many and so dense that little happens in a block.
@@ -133,9 +138,9 @@ impl Grid {
         let stride = count.div_ceil(1000);
         let some: Vec<f64> = angles.iter().step_by(stride).copied().collect();
         let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let dense = (SHORT * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
-        let length = dense.min(count / BLOCKS);
-        if count < MANY || length < 2 {
+        let dense = (BLOCK_ROTATION * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
+        let length = dense.min(count / LEAST_BLOCKS);
+        if count < BLOCK_SAMPLES || length < 2 {
             return None;
         }
         let blocks = count / length;
@@ -155,7 +160,7 @@ impl Grid {
 
     /// Nodes at the samples and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64]) -> Grid {
-        Grid::finer(times, angles, LONGEST)
+        Grid::finer(times, angles, NODE_ROTATION)
     }
 
     /// Creates nodes at the samples and between them, at most `longest` apart, rad.

@@ -53,7 +53,7 @@ pub(super) struct Tracker<'a, 's> {
 
 /// Maximum number of hypotheses, and ln of the likelihood ratio to the best beyond which one is dropped.
 const MOST_HYPOTHESES: usize = 6;
-pub(super) const DROPPED: f64 = 50.0;
+pub(super) const DROPPED_LOG_RATIO: f64 = 50.0;
 
 impl Tracker<'_, '_> {
     /// Returns the settings that are tried: noise levels, at least the resolution (rad or m), by agilities.
@@ -234,7 +234,7 @@ fn prune(list: &mut Vec<Hypothesis>) {
             let off = |i: usize| other.state.mean[i] - now.state.mean[i];
             (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
         };
-        let drop = now.score < list[0].score - DROPPED
+        let drop = now.score < list[0].score - DROPPED_LOG_RATIO
             || list[..kept].iter().any(agrees)
             || kept == MOST_HYPOTHESES;
         if !drop && now.score.is_finite() {

@@ -14,7 +14,7 @@ use super::prior::Prior;
 use super::problem::Problem;
 use super::scales::{Intensities, Noise, Span};
 use super::smoother::Smoothed;
-use super::state_space::Deviations;
+use super::state_space::{Deviations, with_dimension};
 use crate::numeric::maximum::largest_to;
 
 /// Number of parameters of a stretch: begin, end, factor.
@@ -126,12 +126,7 @@ impl Problem<'_> {
             };
             noise = linear.improved(noise);
             let model = linear.deviations(stretch, &noise);
-            let scores = match model.dimension() {
-                3 => scores::<3>(&model, noise.sigma),
-                4 => scores::<4>(&model, noise.sigma),
-                5 => scores::<5>(&model, noise.sigma),
-                _ => scores::<6>(&model, noise.sigma),
-            };
+            let scores = with_dimension!(model.dimension(), N => scores::<N>(&model, noise.sigma));
             let (steps, is_higher, rise) = furthest(&scores);
             if rise < cost {
                 break;
@@ -204,8 +199,8 @@ impl Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inverse::harmonics::Increments;
     use crate::inverse::linearised::{Linearised, exponential};
-    use crate::inverse::periodic::Increments;
     use crate::inverse::prior::TORQUE;
     use crate::inverse::state_space::Observed;
 
@@ -221,7 +216,7 @@ mod tests {
             observed,
             prior: TORQUE,
             noise: 3.0,
-            drift: 0.0,
+            speed_noise: 0.0,
             correlated: None,
             spread: [10.0; 5],
         }

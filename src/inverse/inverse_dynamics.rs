@@ -29,7 +29,7 @@ pub(super) struct Demand {
 
 /// Inverse dynamics of a scene.
 #[derive(Debug)]
-pub(super) struct Backwards<'a> {
+pub(super) struct InverseDynamics<'a> {
     pub equation: &'a Equation,
     /// Whether the forces of the scene act beside the slider force that is computed.
     pub beside_forces: bool,
@@ -44,7 +44,7 @@ const STEP: f64 = 1e-5;
 /// uncertainty of the crank angle.
 pub(super) const NEAR_LIMIT: f64 = 0.3;
 
-impl Backwards<'_> {
+impl InverseDynamics<'_> {
     /// Returns the scene's loads at a state, dry ones against a crank motion of this sense (±1; 0: without dry loads).
     fn loads(&self, t: f64, theta: f64, omega: f64, pose: &Pose, sense: f64) -> LoadValue {
         let loads = self.equation.loads();

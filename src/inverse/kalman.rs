@@ -224,7 +224,7 @@ impl<C: Companion<N>, const N: usize> Companion<N> for Forward<'_, C, N> {
 ///
 /// The backward recursion uses Φ⁻¹ and the precision W of the prediction: with ŵ = Q W (x − x̂) for the noise of a step,
 /// x(k) = Φ⁻¹ (x(k+1) − c − ŵ) and P(k) = Φ⁻¹ [Q − QWQ + (I − QW) P(k+1) (I − WQ)] Φ⁻ᵀ, without a difference of large
-/// numbers where the start is diffuse.
+/// numbers where the start is diffuse. Where rounding grows in it, the means are NaN.
 pub(super) fn smooth<const N: usize>(
     model: &Deviations<'_>,
     companion: &mut impl Companion<N>,
@@ -250,6 +250,10 @@ pub(super) fn smooth<const N: usize>(
         };
         companion.returned(node, &way, [&predicted, &now]);
         now = earlier(&step, &way, &predicted, &now);
+        // All samples leave the angle no more variance than the former ones: rounding has grown on the way back.
+        if now.covariance[0][0] > 2.0 * path[node].covariance[0][0] {
+            now.mean = [f64::NAN; N];
+        }
     }
     path[0] = now;
     (path, innovations)

@@ -1,6 +1,7 @@
 //! Motion from samples without mechanics: Kalman smoother with white snap and the likeliest noise.
 
 use super::grid::Path;
+use super::harmonics::StateTorque;
 use super::likelihood::Linear;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
@@ -9,7 +10,7 @@ use super::smoother::{ITERATIONS, PATH_AT_REST, Smoothed};
 
 /// First standard deviation of a sample over the distance between two, and the factor by which it is lowered: the prior
 /// of the start spans that distance at first.
-const LARGE: f64 = 1e-3;
+const FIRST_SIGMA_PART: f64 = 1e-3;
 
 impl Problem<'_> {
     /// Smooths the motion without mechanics, from a first path and the sample noise σ, rad or m.
@@ -23,7 +24,7 @@ impl Problem<'_> {
         let is_linear = self.record.is_linear();
         let mut sigma = sigma;
         // The width of the initial prior is proportional to σ: a large σ, lowered step by step, makes it wide enough.
-        let mut floor = LARGE * slope * self.way();
+        let mut floor = FIRST_SIGMA_PART * slope * self.way();
         for iteration in 0..ITERATIONS {
             floor = floor.max(self.record.floor);
             let scales = Scales {
@@ -45,7 +46,7 @@ impl Problem<'_> {
                     }
                 }
             };
-            let estimates = self.smoothed(&motion, &path, scales, &noise);
+            let estimates = self.smoothed(&motion, &mut path, scales, &noise);
             let change = path.moved(&estimates);
             sigma = noise.sigma;
             let rms = |k: usize| {
@@ -54,20 +55,21 @@ impl Problem<'_> {
             };
             shape = [rms(2).max(f64::MIN_POSITIVE), rms(3).max(f64::MIN_POSITIVE)];
             let lowered = floor <= self.record.floor || noise.sigma > 3.0 * floor;
-            let settled = lowered && (change < PATH_AT_REST || is_linear);
+            let converged = lowered && (change < PATH_AT_REST || is_linear);
             best = Some(Smoothed {
                 prior: KINEMATIC,
                 noise,
                 scales,
                 estimates,
-                settled,
+                torque: StateTorque::default(),
+                converged,
             });
             // A second pass recovers digits lost to rounding about a straight line.
-            if settled && (!is_linear || iteration > 0) {
+            if converged && (!is_linear || iteration > 0) {
                 break;
             }
             if !lowered {
-                floor *= LARGE;
+                floor *= FIRST_SIGMA_PART;
             }
         }
         let Some(mut found) = best else {

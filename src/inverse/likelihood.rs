@@ -1,13 +1,13 @@
 //! Marginal likelihood of a prior (prediction error decomposition with a diffuse start, that is REML), maximised over the
 //! intensity of its noise; the variance of a sample is profiled out.
 
+use super::harmonics::Increments;
 use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
-use super::periodic::Increments;
 use super::prior::Prior;
-use super::regression::{Posterior, Regression, Spectrum};
+use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
-use super::state_space::{Deviations, Observed};
+use super::state_space::{Deviations, Observed, with_dimension};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +46,8 @@ impl Linear<'_> {
             observed: &stretch.observed,
             prior: self.prior,
             noise: self.scales.density(noise.corner, self.prior.order),
-            drift: match self.prior.follows_speed {
-                true => self.scales.density(noise.drift, 1) / self.scales.speed.powi(2),
+            speed_noise: match self.prior.follows_speed {
+                true => self.scales.density(noise.speed_corner, 1) / self.scales.speed.powi(2),
                 false => 0.0,
             },
             correlated: noise.correlated,
@@ -58,12 +58,7 @@ impl Linear<'_> {
     fn evidence(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            match model.dimension() {
-                3 => kalman::evidence::<3>(&model),
-                4 => kalman::evidence::<4>(&model),
-                5 => kalman::evidence::<5>(&model),
-                _ => kalman::evidence::<6>(&model),
-            }
+            with_dimension!(model.dimension(), N => kalman::evidence::<N>(&model))
         };
         self.stretches.iter().map(of).sum()
     }
@@ -73,22 +68,11 @@ impl Linear<'_> {
         let mut to = Regression::new(self.prior);
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            match model.dimension() {
-                3 => kalman::regressed::<3>(&model, &mut to),
-                4 => kalman::regressed::<4>(&model, &mut to),
-                5 => kalman::regressed::<5>(&model, &mut to),
-                _ => kalman::regressed::<6>(&model, &mut to),
-            }
+            with_dimension!(model.dimension(), N => kalman::regressed::<N>(&model, &mut to))
         };
         let evidence = self.stretches.iter().map(of).sum();
         to.multiply();
         (evidence, to)
-    }
-
-    /// The part that repeats, given the samples.
-    pub fn posterior(&self, noise: &Noise) -> Option<Posterior> {
-        let spectrum = noise.spectrum?;
-        self.regressed(noise).1.solved(spectrum)
     }
 
     /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
@@ -96,20 +80,18 @@ impl Linear<'_> {
         let (mut evidence, regression) = self.regressed(noise);
         let starts = self.prior.states() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
-        let score = |found: &Posterior| {
-            let squares = evidence.squares - found.fall;
-            let least = self.scales.known.unwrap_or(self.scales.floor).powi(2);
-            let variance = match self.scales.known {
-                Some(_) => least,
-                None => (squares / free).max(least),
-            };
-            -0.5 * (free * variance.ln() + squares / variance + found.log_determinant)
+        let Scales { known, floor, .. } = self.scales;
+        let rest = Rest {
+            squares: evidence.squares,
+            free,
+            variances: [known.unwrap_or(floor), known.unwrap_or(f64::INFINITY)].map(|s| s * s),
         };
-        noise.spectrum = noise.spectrum.or_else(|| regression.likeliest(near, score));
-        if let Some(found) = noise
-            .spectrum
-            .and_then(|spectrum| regression.solved(spectrum))
-        {
+        let found = match noise.spectrum {
+            Some(spectrum) => regression.solved(spectrum).map(|found| (spectrum, found)),
+            None => regression.likeliest(near, &rest),
+        };
+        noise.spectrum = found.as_ref().map(|(spectrum, _)| *spectrum);
+        if let Some((_, found)) = found {
             evidence.squares -= found.fall;
             evidence.log_variances += found.log_determinant;
         }

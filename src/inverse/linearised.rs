@@ -91,6 +91,16 @@ impl Motion<'_> {
         }
     }
 
+    /// Returns θ̈ and its partial derivatives at a state whose torque follows θ and ω with these slopes.
+    pub fn rates_following(&self, [by_theta, by_omega]: [f64; 2], t: f64, state: &State) -> Rates {
+        let rates = self.rates(t, state);
+        Rates {
+            by_theta: rates.by_theta + rates.by_unknown * by_theta,
+            by_omega: rates.by_omega + rates.by_unknown * by_omega,
+            ..rates
+        }
+    }
+
     /// Returns the mean acceleration of a step, rad/s², the rate at which g adds to u; 0 without g.
     fn tilt(&self, h: f64, ends: [&State; 2]) -> f64 {
         match self.prior.follows_speed {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::branch_tracking::{APART, CrankAngles};
+use super::branch_tracking::{CrankAngles, DISTINCT_ROTATION};
 
 /// Mirror image of a motion, and the first sample at which it leaves the branch of the scene.
 #[derive(Clone, Debug)]
@@ -36,9 +36,9 @@ pub(super) fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
     }
 }
 
-/// Returns the first sample at which two motions are more than `APART` apart.
+/// Returns the first sample at which two motions are more than `DISTINCT_ROTATION` apart.
 pub(super) fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
     let off = |k: usize| a.theta[k] - b.theta[k];
     let turns = (off(0) / TAU).round() * TAU;
-    (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > APART)
+    (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > DISTINCT_ROTATION)
 }

@@ -40,6 +40,7 @@ mod first_path;
 mod fitted;
 mod grid;
 mod guide;
+mod harmonics;
 mod hypotheses;
 pub mod identify;
 mod intensities;
@@ -94,7 +95,7 @@ pub use summary::{
 
 use self::fitted::Fitted;
 use self::guide::Guide;
-use self::inverse_dynamics::Backwards;
+use self::inverse_dynamics::InverseDynamics;
 use self::measurement_model::{Scale, Sensor};
 use self::quantised::Codes;
 use self::rows::Rows;
@@ -201,7 +202,7 @@ fn recovered(
     if options.stop.as_ref().is_some_and(Stop::is_requested) {
         return Err(Error::Interrupted);
     }
-    let backwards = Backwards {
+    let backwards = InverseDynamics {
         equation: &equation,
         beside_forces: options.beside_forces,
         guide: guide.as_ref(),

@@ -15,7 +15,8 @@ impl MotionEstimate {
     pub fn error(&self, gradient: &[f64; 3], more: f64) -> f64 {
         let parts = gradient.iter().zip(&self.rounding);
         let rounding: f64 = parts.map(|(g, r)| (g * r).abs()).sum();
-        let rounding = RARE * RARE * (rounding * rounding + more * more);
+        let rounding =
+            DEVIATION_PER_BOUND * DEVIATION_PER_BOUND * (rounding * rounding + more * more);
         (quadratic(&self.covariance, gradient) + rounding).sqrt()
     }
 
@@ -40,7 +41,7 @@ impl MotionEstimate {
 }
 
 /// Standard deviation of a rounding error over its bound: roundings of many terms seldom add up.
-const RARE: f64 = 0.5;
+const DEVIATION_PER_BOUND: f64 = 0.5;
 
 /// Returns gᵀ S g, at least 0, for a symmetric matrix given by its lower triangle.
 fn quadratic(matrix: &[f64; 6], gradient: &[f64; 3]) -> f64 {

@@ -1,7 +1,7 @@
 //! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
-use super::maximum::{better, climb};
+use super::maximum::{ENOUGH_RISE, better, climb};
 use super::scales::{Autoregression, Noise};
 
 impl Linear<'_> {
@@ -21,7 +21,7 @@ impl Linear<'_> {
     /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
     pub fn improved(&self, first: Noise) -> Noise {
         let by_corner = |corner| self.evaluated(Noise { corner, ..first });
-        let best = self.over(first.corner, first, by_corner);
+        let best = self.over(first.corner, first, by_corner, 0.0);
         match best.spectrum {
             None => best,
             Some(_) => self.begun(best),
@@ -29,9 +29,9 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over a frequency, rad/s, from a first guess with its noise.
-    fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise) -> Noise {
+    fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise, least_rise: f64) -> Noise {
         let range = self.scales.corners().map(f64::ln);
-        climb(|log| at(log.exp()), guess.ln(), first, range)
+        climb(|log| at(log.exp()), guess.ln(), first, range, least_rise)
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
@@ -50,15 +50,26 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
-    pub fn with_drift(&self, mut noise: Noise) -> Noise {
-        for _ in 0..2 {
-            let drift = noise.drift.max(noise.corner);
-            let first = self.evaluated(Noise { drift, ..noise });
-            let by_drift = |drift| self.evaluated(Noise { drift, ..noise });
-            noise = better(noise, self.over(drift, first, by_drift));
-            noise = better(noise, self.improved(noise));
+    pub fn with_speed_corner(&self, mut noise: Noise) -> Noise {
+        loop {
+            let speed_corner = noise.speed_corner.max(noise.corner);
+            let by_speed_corner = |speed_corner| {
+                self.evaluated(Noise {
+                    speed_corner,
+                    ..noise
+                })
+            };
+            let found = self.over(
+                speed_corner,
+                by_speed_corner(speed_corner),
+                by_speed_corner,
+                ENOUGH_RISE,
+            );
+            if found.likelihood < noise.likelihood + ENOUGH_RISE {
+                return noise;
+            }
+            noise = better(found, self.improved(found));
         }
-        noise
     }
 
     /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess.
@@ -92,7 +103,7 @@ impl Linear<'_> {
                     ..best
                 })
             };
-            best = better(best, climb(by_decay, decay, best, range));
+            best = better(best, climb(by_decay, decay, best, range, 0.0));
             best = better(best, self.improved(best));
             if best.likelihood - before < 0.1 {
                 break;

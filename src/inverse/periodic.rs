@@ -6,68 +6,17 @@
 //!
 //! The filter runs once for β = 0, and beside it the derivatives of its state by β follow the same recursion (augmented Kalman
 //! filter; de Jong, Ann. Statist. 19 (1991) 1073). A prediction error is then e + E β with the variance that it has without β, and
-//! what is left is a linear regression with the information Σ EᵀE/S.
+//! what is left is a linear regression with the information Σ EᵀE/S. The derivatives of p by θ and ω, with the β of the last
+//! iteration, are those of the equation of motion, too: u less p is the state of the linear model.
 
-use std::iter;
+use nalgebra::DMatrixView;
 
-use nalgebra::{DMatrix, DMatrixView};
-
+use super::harmonics::{Increments, dot};
 use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
-use super::prior::Prior;
-use super::regression::{Posterior, ROWS_AT_ONCE, Regression};
+use super::regression::{ROWS_AT_ONCE, Regression, Spectrum};
 use super::state_space::Deviations;
-
-/// Harmonics in the middle and at the end of each step less those at its begin.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Increments {
-    /// Number of coefficients.
-    count: usize,
-    /// Middle and end of each step, one after the other.
-    values: Vec<f64>,
-}
-
-impl Increments {
-    /// Of a prior along a path with these crank angles, rad, and speeds, over their root mean square, at begins, middles and ends.
-    pub fn new(ways: impl Iterator<Item = [[f64; 2]; 3]>, prior: Prior) -> Increments {
-        let at = |[angle, speed]: [f64; 2]| {
-            let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
-            match prior.follows_speed {
-                false => list,
-                true => list
-                    .chunks(2)
-                    .flat_map(|pair| [pair[0], pair[1], speed * pair[0], speed * pair[1]])
-                    .collect(),
-            }
-        };
-        let mut values = Vec::new();
-        let mut known = None;
-        for [begin, middle, end] in ways {
-            let begin = known.unwrap_or_else(|| at(begin));
-            let end = at(end);
-            for list in [&at(middle), &end] {
-                values.extend(list.iter().zip(&begin).map(|(now, before)| now - before));
-            }
-            known = Some(end);
-        }
-        let count = prior.coefficients();
-        Increments { count, values }
-    }
-
-    /// Middle and end of a step.
-    fn of(&self, step: usize) -> (&[f64], &[f64]) {
-        self.values[2 * step * self.count..][..2 * self.count].split_at(self.count)
-    }
-}
-
-/// cos kθ and sin kθ of the cycle angle.
-fn cosines_and_sines(angle: f64, harmonics: usize) -> Vec<f64> {
-    let (sin, cos) = angle.sin_cos();
-    let next = |(c, s): &(f64, f64)| Some((c * cos - s * sin, s * cos + c * sin));
-    let pairs = iter::successors(Some((cos, sin)), next).take(harmonics);
-    pairs.flat_map(|(c, s)| [c, s]).collect()
-}
 
 /// Derivatives of the state by the coefficients, along the filter.
 struct Columns<'a, const N: usize> {
@@ -157,10 +106,6 @@ fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
 /// Companion of the filter that fills the normal equations.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
@@ -190,73 +135,82 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 
 /// Derivatives of the smoothed states by the coefficients.
 pub(super) struct Sensitivities<'a, const N: usize> {
-    columns: Columns<'a, N>,
-    posterior: &'a Posterior,
-    /// Factor A of the covariance Aᵀ A of the coefficients.
-    factor: DMatrix<f64>,
+    regressed: Regressed<'a, N>,
     /// The rows of each node, one after the other.
     list: Vec<f64>,
-    shifts: Vec<f64>,
+    /// Derivatives of the prediction errors over their standard deviations, one row for each sample.
+    errors: Vec<f64>,
 }
 
 impl<'a, const N: usize> Sensitivities<'a, N> {
-    pub fn new(model: &Deviations<'a>, posterior: &'a Posterior) -> Self {
-        let columns = Columns::new(model);
+    pub fn new(model: &Deviations<'a>, to: &'a mut Regression) -> Self {
+        let regressed = Regressed::new(model, to);
+        let rows = model.observed.len();
         Sensitivities {
-            list: Vec::with_capacity(model.observed.len() * columns.of.len()),
-            columns,
-            posterior,
-            factor: posterior.factor(),
-            shifts: vec![0.0; model.observed.len()],
+            list: Vec::with_capacity(rows * regressed.columns.of.len()),
+            errors: Vec::with_capacity(rows * regressed.columns.errors.len()),
+            regressed,
         }
     }
 
-    /// Adds what the coefficients do to the smoothed states and prediction errors.
-    pub fn add(&mut self, path: &mut [Gaussian<N>], innovations: &mut [Option<f64>]) {
-        let count = self.columns.errors.len();
+    /// Adds what the coefficients with a spectrum do to the smoothed states and prediction errors; returns the coefficients.
+    pub fn add(
+        self,
+        spectrum: Option<Spectrum>,
+        path: &mut [Gaussian<N>],
+        innovations: &mut [Option<f64>],
+    ) -> Option<Vec<f64>> {
+        let Regressed { columns, to } = self.regressed;
+        to.multiply();
+        let posterior = to.solved(spectrum?)?;
+        // Factor A of the covariance Aᵀ A of the coefficients.
+        let factor = posterior.factor();
+        let count = columns.errors.len();
         let size = N * count;
-        self.list[..size].copy_from_slice(&self.columns.of);
-        for (shift, innovation) in self.shifts.iter().zip(innovations) {
-            *innovation = innovation.map(|value| value + shift);
+        let (mut list, coefficients) = (self.list, posterior.coefficients);
+        list[..size].copy_from_slice(&columns.of);
+        let known = innovations.iter_mut().flatten();
+        for (row, innovation) in self.errors.chunks_exact(count).zip(known) {
+            *innovation += dot(row, &coefficients);
         }
-        for (columns, states) in self
-            .list
+        for (columns, states) in list
             .chunks(ROWS_AT_ONCE * size)
             .zip(path.chunks_mut(ROWS_AT_ONCE))
         {
-            let spread =
-                &self.factor * DMatrixView::from_slice(columns, count, columns.len() / count);
+            let spread = &factor * DMatrixView::from_slice(columns, count, columns.len() / count);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);
                 for i in 0..N {
-                    state.mean[i] += dot(rows[N * k + i], &self.posterior.coefficients);
+                    state.mean[i] += dot(rows[N * k + i], &coefficients);
                     for j in 0..N {
                         state.covariance[i][j] += spread.column(i).dot(&spread.column(j));
                     }
                 }
             }
         }
+        Some(coefficients)
     }
 }
 
 impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
     fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.columns.step(node, step);
+        self.regressed.stepped(node, step);
     }
 
     fn predicted(&mut self, _: usize, _: &Gaussian<N>) {
-        self.list.extend(&self.columns.of);
+        self.list.extend(&self.regressed.columns.of);
     }
 
     fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.columns.update(sample, found);
-        let shift = dot(&self.columns.errors, &self.posterior.coefficients);
-        self.shifts[node] = shift / found.variance.sqrt();
+        self.regressed.updated(node, sample, found);
+        let per = 1.0 / found.variance.sqrt();
+        let rows = self.regressed.columns.errors.iter();
+        self.errors.extend(rows.map(|value| value * per));
     }
 
     fn returned(&mut self, node: usize, way: &Return<N>, _: [&Gaussian<N>; 2]) {
-        let columns = &mut self.columns;
+        let columns = &mut self.regressed.columns;
         let (count, size) = (columns.errors.len(), columns.of.len());
         let off = &mut self.list[(node + 1) * size..][..size];
         // The smoothed rows of the next node take the place of those that were predicted.

@@ -19,7 +19,7 @@ pub(super) struct Polynomial {
     pub fit: PolynomialFit,
     pub motion: Vec<MotionEstimate>,
     /// Whether the iterations converged.
-    pub settled: bool,
+    pub converged: bool,
 }
 
 impl Polynomial {
@@ -62,12 +62,12 @@ impl Polynomial {
             let change = pairs.fold(0.0, |most: f64, (state, theta)| {
                 most.max((state.value[0] - theta).abs())
             });
-            let settled = record.is_linear() || change < ANGLE_AT_REST;
-            if settled || iteration + 1 == ITERATIONS || !change.is_finite() {
+            let converged = record.is_linear() || change < ANGLE_AT_REST;
+            if converged || iteration + 1 == ITERATIONS || !change.is_finite() {
                 return Ok(Polynomial {
                     fit,
                     motion,
-                    settled,
+                    converged,
                 });
             }
             if iteration + 1 >= CHOICES {

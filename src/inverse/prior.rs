@@ -1,5 +1,7 @@
 //! Priors among which the likelihood chooses: the unknown of the equation of motion and its random process.
 
+use super::linearised::State;
+
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unknown {
@@ -51,6 +53,14 @@ impl Prior {
     /// Number of states.
     pub fn states(self) -> usize {
         2 + self.order + usize::from(self.follows_speed)
+    }
+
+    /// Returns g of a state, N m s; 0 without.
+    pub fn by_speed(self, state: &State) -> f64 {
+        match self.follows_speed {
+            true => state[2 + self.order],
+            false => 0.0,
+        }
     }
 
     /// Names the random term in words.

@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path, hermite};
+use super::harmonics::{Increments, Repeating, StateTorque};
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates, State};
-use super::periodic::{Increments, Sensitivities};
+use super::periodic::Sensitivities;
 use super::prior::Prior;
 use super::record::Record;
-use super::regression::Posterior;
+use super::regression::Regression;
 use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::Deviations;
+use super::state_space::{Deviations, with_dimension};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -22,7 +23,7 @@ use crate::numeric::stop::Stop;
 pub(super) const NODES_OF_A_THREAD: usize = 8192;
 
 /// Time constants of the smoother after which nothing is left of what was before.
-const FORGOTTEN: f64 = 60.0;
+const MEMORY_TIME_CONSTANTS: f64 = 60.0;
 
 /// A record with its nodes and the equation of its mechanism.
 #[derive(Debug)]
@@ -86,7 +87,9 @@ impl<'a> Problem<'a> {
         let piece = path.piece(&range);
         let states = piece.states;
         let pairs = times.iter().zip(states);
-        let rates: Vec<Rates> = pairs.map(|(t, state)| motion.rates(*t, state)).collect();
+        let rates =
+            pairs.map(|(t, state)| motion.rates_following(path.torque.slopes(state), *t, state));
+        let rates: Vec<Rates> = rates.collect();
         let steps = (0..states.len() - 1).map(|k| {
             let ends = [&states[k], &states[k + 1]];
             let ends =
@@ -142,45 +145,37 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    /// The smoothed motion, in pieces side by side.
+    /// Moves a path to the smoothed motion about it, computed in pieces side by side; returns the motion.
     pub fn smoothed(
         &self,
         motion: &Motion<'_>,
-        path: &Path,
+        path: &mut Path,
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        // What repeats is found along the whole path.
-        let stretches = match motion.prior.cycle {
-            0 => Vec::new(),
-            _ => self.stretches(motion, path, noise.sigma),
-        };
         let linear = Linear {
-            stretches: &stretches,
+            stretches: &[],
             prior: motion.prior,
             scales,
         };
-        let posterior = linear.posterior(noise);
         let nodes = self.grid.len();
         let times = &self.grid.times;
-        let shared = FORGOTTEN / noise.corner;
+        let shared = MEMORY_TIME_CONSTANTS / noise.corner;
         let density = nodes as f64 / scales.duration;
         let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
         let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
             if self.is_stopped() {
-                return;
+                return None;
             }
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let (from, to) = (from.max(known.start), to.min(known.end));
-            let own =
-                (stretches.is_empty()).then(|| self.stretch(motion, path, from..to, noise.sigma));
-            let Some(stretch) = own.as_ref().or(stretches.first()) else {
-                return;
-            };
-            let model = linear.deviations(stretch, noise);
-            let all = self.estimates(motion, path, from, &model, noise, posterior.as_ref());
+            let stretch = self.stretch(motion, path, from..to, noise.sigma);
+            let model = linear.deviations(&stretch, noise);
+            let (all, coefficients) = with_dimension!(model.dimension(), N =>
+                self.estimated::<N>(motion, path, from, &model, noise));
             found.copy_from_slice(&all[core.start - from..core.end - from]);
+            coefficients
         };
         let mut found = vec![Estimate::default(); path.states.len()];
         let mut jobs = Vec::new();
@@ -194,25 +189,19 @@ impl<'a> Problem<'a> {
             };
             jobs.extend(cores.zip(mine.chunks_mut(length)).map(job));
         }
-        parallel::map(jobs.into_iter(), job);
+        let coefficients = parallel::map(jobs.into_iter(), job);
+        // What repeats is found along the whole path, in one piece.
+        let coefficients = coefficients.into_iter().flatten().next();
+        let by_speed = found.iter().map(|one| motion.prior.by_speed(&one.state));
+        path.torque = StateTorque {
+            by_speed: by_speed.sum::<f64>() / found.len() as f64,
+            repeating: coefficients.map(|coefficients| Repeating {
+                prior: motion.prior,
+                coefficients,
+                speed: path.speed(),
+            }),
+        };
         found
-    }
-
-    fn estimates(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        from: usize,
-        model: &Deviations<'_>,
-        noise: &Noise,
-        posterior: Option<&Posterior>,
-    ) -> Vec<Estimate> {
-        match model.dimension() {
-            3 => self.estimated::<3>(motion, path, from, model, noise, posterior),
-            4 => self.estimated::<4>(motion, path, from, model, noise, posterior),
-            5 => self.estimated::<5>(motion, path, from, model, noise, posterior),
-            _ => self.estimated::<6>(motion, path, from, model, noise, posterior),
-        }
     }
 
     fn estimated<const N: usize>(
@@ -222,26 +211,33 @@ impl<'a> Problem<'a> {
         from: usize,
         model: &Deviations<'_>,
         noise: &Noise,
-        posterior: Option<&Posterior>,
-    ) -> Vec<Estimate> {
-        let (deviations, innovations) = match posterior {
-            None => kalman::smooth::<N>(model, &mut ()),
-            Some(posterior) => {
-                let mut sensitivities = Sensitivities::new(model, posterior);
-                let (mut path, mut innovations) = kalman::smooth::<N>(model, &mut sensitivities);
-                sensitivities.add(&mut path, &mut innovations);
-                (path, innovations)
+    ) -> (Vec<Estimate>, Option<Vec<f64>>) {
+        let (mut deviations, mut innovations, coefficients);
+        match motion.prior.cycle {
+            0 => {
+                (deviations, innovations) = kalman::smooth::<N>(model, &mut ());
+                coefficients = None;
             }
-        };
+            _ => {
+                let mut to = Regression::new(motion.prior);
+                let mut sensitivities = Sensitivities::new(model, &mut to);
+                (deviations, innovations) = kalman::smooth::<N>(model, &mut sensitivities);
+                coefficients = sensitivities.add(noise.spectrum, &mut deviations, &mut innovations);
+            }
+        }
         let piece = path.piece(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
         let dimension = model.prior.states();
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = piece.states[at];
+                // The model has the deviation of u less what follows θ and ω.
+                let slopes = path.torque.slopes(&state);
+                state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
                 let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
                 pairs.for_each(|(value, change)| *value += change);
-                let rates = motion.rates(self.grid.times[from + at], &state);
+                let slopes = path.torque.slopes(&state);
+                let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;
                 let across: [f64; 3] =
@@ -255,12 +251,8 @@ impl<'a> Problem<'a> {
                     innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
                 }
             };
-        deviations
-            .iter()
-            .zip(&innovations)
-            .enumerate()
-            .map(estimate)
-            .collect()
+        let found = deviations.iter().zip(&innovations).enumerate();
+        (found.map(estimate).collect(), coefficients)
     }
 }
 

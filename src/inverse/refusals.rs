@@ -1,6 +1,6 @@
 //! Refusals of scenes and motions that inverse dynamics cannot treat.
 
-use super::inverse_dynamics::Backwards;
+use super::inverse_dynamics::InverseDynamics;
 use super::row::InverseRow;
 use super::rows::Rows;
 use crate::error::Error;
@@ -40,7 +40,7 @@ pub(super) fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), E
 /// Refuses loads without a finite value along the motion, and a guide that locks at every sample; returns a warning if
 /// it locks at some.
 pub(super) fn finite(
-    backwards: &Backwards<'_>,
+    backwards: &InverseDynamics<'_>,
     measurement: &Measurement,
     rows: &[InverseRow],
 ) -> Result<Option<String>, Error> {

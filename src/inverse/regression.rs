@@ -2,8 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
-use crate::numeric::cholesky::cholesky;
+use crate::numeric::cholesky::{cholesky, inverse_of_lower};
 use crate::numeric::maximum::largest_to;
 
 /// Rows that are multiplied by a matrix at once.
@@ -12,32 +13,61 @@ pub(super) const ROWS_AT_ONCE: usize = 128;
 /// Columns of the information that are filled at once.
 const BLOCK: usize = 64;
 
-/// Largest order of the periodic process.
-const ORDERS: i32 = 3;
-
-/// Tolerance of the search for ln s of a spectrum.
-const SPECTRUM_WIDTH: f64 = 0.2;
+/// Least and largest order of the periodic process: its torque is continuous, and as smooth as a prior's at most.
+const ORDERS: [f64; 2] = [1.0, 3.0];
 
 /// Variances of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spectrum {
-    /// s, N m in units of σ
-    size: f64,
-    /// Order m of the periodic Wiener process.
-    order: i32,
+    /// ln of s, N m in units of σ
+    log_size: f64,
+    /// Order m of the periodic Wiener process; between whole numbers a fractional one.
+    order: f64,
 }
 
 impl Spectrum {
     /// Standard deviation of each coefficient in units of σ.
     fn deviations(self, prior: Prior) -> Vec<f64> {
-        let of = |j: usize| self.size / (1.0 + (j / prior.of_harmonic()) as f64).powi(self.order);
-        (0..prior.coefficients()).map(of).collect()
+        let of = |log: f64| (self.log_size - self.order * log).exp();
+        log_harmonics(prior).map(of).collect()
     }
 
-    /// Returns s of the spectrum of another order with the same variance at the middle of `harmonics`, on a logarithmic
-    /// scale.
-    fn of_order(self, order: i32, harmonics: usize) -> f64 {
-        self.size * (harmonics as f64).sqrt().powi(order - self.order)
+    /// Returns the spectrum after a step along ln s and m, within the bounds of both.
+    fn moved(self, [size, order]: [f64; 2], [low, high]: [f64; 2]) -> Spectrum {
+        Spectrum {
+            log_size: (self.log_size + size).clamp(low, high),
+            order: (self.order + order).clamp(ORDERS[0], ORDERS[1]),
+        }
+    }
+}
+
+/// ln of one plus the index of the harmonic of each coefficient.
+fn log_harmonics(prior: Prior) -> impl Iterator<Item = f64> {
+    (0..prior.coefficients()).map(move |j| (1.0 + (j / prior.of_harmonic()) as f64).ln())
+}
+
+/// Evidence of the samples without the periodic part, to which that part adds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    /// Sum of squared prediction errors.
+    pub squares: f64,
+    /// Degrees of freedom.
+    pub free: f64,
+    /// Least and largest variance of a sample.
+    pub variances: [f64; 2],
+}
+
+impl Rest {
+    /// The likeliest variance of a sample, given the coefficients.
+    fn variance(&self, found: &Posterior) -> f64 {
+        let [least, largest] = self.variances;
+        ((self.squares - found.fall) / self.free).clamp(least, largest)
+    }
+
+    /// ln of the likelihood, up to what no spectrum changes.
+    fn likelihood(&self, found: &Posterior) -> f64 {
+        let (variance, squares) = (self.variance(found), self.squares - found.fall);
+        -0.5 * (self.free * variance.ln() + squares / variance + found.log_determinant)
     }
 }
 
@@ -87,35 +117,76 @@ impl Regression {
         self.rows.clear();
     }
 
-    /// Returns the likeliest spectrum, near one or of all; `likelihood` uses `fall` and `log_determinant`.
-    pub fn likeliest(
-        &self,
-        near: Option<Spectrum>,
-        likelihood: impl Fn(&Posterior) -> f64,
-    ) -> Option<Spectrum> {
-        let told = 1.0 / self.information.diagonal().max().sqrt();
-        let of_order = |order: i32| {
-            let [low, high] = match near {
-                // From e⁻² to 1e13 times the least standard error of a coefficient.
-                None => [told * (-2f64).exp(), told * 30f64.exp()],
-                Some(near) => {
-                    [0.25, 4.0].map(|part| part * near.of_order(order, self.prior.harmonics))
+    /// Returns the likeliest spectrum with its coefficients, from one or from the likeliest of the middle order, by
+    /// Fisher's scoring: the step is the score over its variance (Patterson and Thompson, Biometrika 58 (1971) 545), halved
+    /// where the likelihood falls.
+    pub fn likeliest(&self, near: Option<Spectrum>, rest: &Rest) -> Option<(Spectrum, Posterior)> {
+        // From e⁻² to 1e13 times the least standard error of a coefficient.
+        let least = -0.5 * self.information.diagonal().max().ln();
+        let sizes = [least - 2.0, least + 30.0];
+        let mut now = near.unwrap_or_else(|| self.likeliest_of_middle(sizes, rest));
+        let mut found = self.solved(now)?;
+        loop {
+            let mut step = self.scoring(&found, rest.variance(&found), now)?;
+            loop {
+                if step.rise.max(0.0) < ENOUGH_RISE {
+                    return Some((now, found));
                 }
-            };
-            let with = |log: f64| Spectrum {
-                size: log.exp(),
-                order,
-            };
-            let value = |log: f64| {
-                self.solved(with(log))
-                    .map_or(f64::NEG_INFINITY, |found| likelihood(&found))
-            };
-            let (log, value) = largest_to(value, [low.ln(), high.ln()], SPECTRUM_WIDTH);
-            (value, with(log))
+                let next = now.moved(step.change, sizes);
+                match self.solved(next) {
+                    Some(other) if rest.likelihood(&other) > rest.likelihood(&found) => {
+                        (now, found) = (next, other);
+                        break;
+                    }
+                    _ => step = step.halved(),
+                }
+            }
+        }
+    }
+
+    /// Returns the likeliest spectrum of the middle order.
+    fn likeliest_of_middle(&self, sizes: [f64; 2], rest: &Rest) -> Spectrum {
+        let with = |log_size: f64| Spectrum {
+            log_size,
+            order: 0.5 * (ORDERS[0] + ORDERS[1]),
         };
-        let orders = (1..=ORDERS).map(of_order);
-        let best = orders.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        best.0.is_finite().then_some(best.1)
+        let value = |log: f64| {
+            let found = self.solved(with(log));
+            found.map_or(f64::NEG_INFINITY, |found| rest.likelihood(&found))
+        };
+        with(largest_to(value, sizes, 1.0).0)
+    }
+
+    /// The scoring step of ln s and m: with the shares H = I − (I + D½ information D½)⁻¹ that the samples have in the
+    /// coefficients β, the score of ln of each deviation is β²/(σ² D) − H, with the covariance 2 H² of each two.
+    fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Option<Scoring> {
+        let factor = inverse_of_lower(&found.lower)?;
+        let left = factor.transpose() * factor;
+        let logs: Vec<f64> = log_harmonics(self.prior).collect();
+        let (mut slope, mut information) = ([0.0; 2], [0.0; 3]);
+        for (j, log) in logs.iter().enumerate() {
+            let size = found.coefficients[j] / found.deviations[j];
+            let score = size * size / variance - (1.0 - left[(j, j)]);
+            slope = [slope[0] + score, slope[1] - log * score];
+            for (i, other) in logs.iter().enumerate() {
+                let unit = if i == j { 1.0 } else { 0.0 };
+                let square = 2.0 * (unit - left[(i, j)]).powi(2);
+                let parts = [square, -square * log, square * log * other];
+                (0..3).for_each(|k| information[k] += parts[k]);
+            }
+        }
+        let [a, b, c] = information;
+        let both = [
+            (c * slope[0] - b * slope[1]) / (a * c - b * b),
+            (a * slope[1] - b * slope[0]) / (a * c - b * b),
+        ];
+        // At the least or largest order the size alone may change.
+        let change = match (at.order + both[1]).clamp(ORDERS[0], ORDERS[1]) - at.order {
+            0.0 => [slope[0] / a, 0.0],
+            _ => both,
+        };
+        let rise = 0.5 * (slope[0] * change[0] + slope[1] * change[1]);
+        Some(Scoring { change, rise })
     }
 
     /// The coefficients given the samples.
@@ -140,6 +211,22 @@ impl Regression {
     }
 }
 
+/// Change of ln s and m, and the rise of ln of the likelihood that it promises.
+#[derive(Clone, Copy, Debug)]
+struct Scoring {
+    change: [f64; 2],
+    rise: f64,
+}
+
+impl Scoring {
+    fn halved(self) -> Scoring {
+        Scoring {
+            change: self.change.map(|part| 0.5 * part),
+            rise: 0.5 * self.rise,
+        }
+    }
+}
+
 /// The coefficients given the samples, in units of σ.
 #[derive(Clone, Debug)]
 pub(super) struct Posterior {
@@ -157,8 +244,10 @@ impl Posterior {
     /// A factor A of the covariance Aᵀ A.
     pub fn factor(&self) -> DMatrix<f64> {
         let count = self.coefficients.len();
-        let deviations = DMatrix::from_diagonal(&DVector::from_column_slice(&self.deviations));
-        let solved = self.lower.solve_lower_triangular(&deviations);
-        solved.unwrap_or_else(|| DMatrix::identity(count, count))
+        let mut factor =
+            inverse_of_lower(&self.lower).unwrap_or_else(|| DMatrix::identity(count, count));
+        let pairs = factor.column_iter_mut().zip(&self.deviations);
+        pairs.for_each(|(mut column, deviation)| column *= *deviation);
+        factor
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bands::{BandRule, DeadCentreBand, alike};
 use super::fitted::Fitted;
-use super::inverse_dynamics::Backwards;
+use super::inverse_dynamics::InverseDynamics;
 use super::row::{Doubt, InverseRow, Residual};
 use super::shared_errors::SharedErrors;
 use crate::mechanism::Linkage;
@@ -21,7 +21,7 @@ pub(super) struct Rows {
 
 /// Computes all rows with their forces, and the criteria of doubt for each.
 fn demanded(
-    backwards: &Backwards<'_>,
+    backwards: &InverseDynamics<'_>,
     fitted: &Fitted,
     measurement: &Measurement,
     shared: &SharedErrors,
@@ -68,7 +68,7 @@ impl Residual {
 impl Rows {
     /// Computes the rows; half of a 95 % band is `factor` standard errors.
     pub fn new(
-        backwards: &Backwards<'_>,
+        backwards: &InverseDynamics<'_>,
         fitted: &Fitted,
         measurement: &Measurement,
         shared: &SharedErrors,

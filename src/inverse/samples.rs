@@ -16,13 +16,13 @@ use crate::numeric::stop::Stop;
 use crate::scene::{Beside, BesideColumn, Measured, Measurement};
 
 /// Lower bound of the standard deviation of a sample, in units of rounding of the largest value.
-const COMPUTED: f64 = 2.0;
+const ROUNDING_STEPS: f64 = 2.0;
 
 /// Maximum number of rounds of outlier detection.
 const OUTLIER_ROUNDS: usize = 6;
 
 /// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
-const SLOW: f64 = 0.3;
+const BLOCK_PHASE: f64 = 0.3;
 
 /// Returns the samples of a measurement at full weight; a measured crank angle is the unwrapped one of `angles`.
 pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
@@ -40,7 +40,8 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
         codes: None,
         intervals: Vec::new(),
         beside: sensors_beside(measurement, sensor),
-        floor: (measurement.resolution() / 12f64.sqrt()).max(COMPUTED * f64::EPSILON * largest),
+        floor: (measurement.resolution() / 12f64.sqrt())
+            .max(ROUNDING_STEPS * f64::EPSILON * largest),
         origin: measurement.origin(),
     }
 }
@@ -144,7 +145,7 @@ fn without_outliers<'a>(
     let first = first_path(&problem, angles);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
-    if problem.grid.block * kinematic.noise.corner > SLOW {
+    if problem.grid.block * kinematic.noise.corner > BLOCK_PHASE {
         problem.grid = Grid::new(&problem.record.times, &theta);
         let first = first_path(&problem, angles);
         kinematic = problem.kinematic(first, sigma);

@@ -32,7 +32,7 @@ pub(super) struct Noise {
     pub corner: f64,
     /// Corner frequency, rad/s, of the Wiener process g in u = g ω: density of a prior of order one, over the squared
     /// spread of the speed; 0 if g is constant or absent.
-    pub drift: f64,
+    pub speed_corner: f64,
     /// Variances of the harmonics of the periodic part.
     pub spectrum: Option<Spectrum>,
     /// First-order autoregression in the noise of the samples.
@@ -48,7 +48,7 @@ impl Noise {
     pub fn white(corner: f64) -> Noise {
         Noise {
             corner,
-            drift: 0.0,
+            speed_corner: 0.0,
             spectrum: None,
             correlated: None,
             sigma: 1.0,
@@ -98,14 +98,14 @@ pub(super) struct Autoregression {
 }
 
 /// White fraction of the variance of correlated noise, held fixed.
-const WHITE: f64 = 0.02;
+const WHITE_FRACTION: f64 = 0.02;
 
 impl Autoregression {
     /// Returns first guesses for a sample spacing, s: correlation over 0.2, 1 and 5 samples.
     pub fn guesses(spacing: f64) -> [Autoregression; 3] {
         [0.2, 1.0, 5.0].map(|steps| Autoregression {
             decay: 1.0 / (steps * spacing),
-            white: WHITE,
+            white: WHITE_FRACTION,
         })
     }
 }

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::guide::Guide;
-use super::inverse_dynamics::Backwards;
+use super::inverse_dynamics::InverseDynamics;
 use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
@@ -127,8 +127,8 @@ impl Source {
             .for_each(|state| state[0] += self.zero);
         let motion = problem.motion(smoothed.prior);
         let moved = Smoothed {
-            estimates: problem.smoothed(&motion, &path, smoothed.scales, &smoothed.noise),
-            ..*smoothed
+            estimates: problem.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise),
+            ..smoothed.clone()
         };
         parallel::list(times.len(), |i| problem.at(&moved, times[i]).motion())
     }
@@ -145,13 +145,13 @@ impl SharedErrors {
     /// Computes the errors from the motion of the samples and the motions under each source.
     pub fn new(
         sources: &[Source],
-        backwards: &Backwards<'_>,
+        backwards: &InverseDynamics<'_>,
         motion: &[MotionEstimate],
         moved: &[Vec<[f64; 3]>],
         times: &[f64],
     ) -> SharedErrors {
         let of = |(source, moved): (&Source, &Vec<[f64; 3]>)| {
-            let there = Backwards {
+            let there = InverseDynamics {
                 equation: &source.equation,
                 guide: source.guide.as_ref(),
                 ..*backwards

@@ -6,7 +6,9 @@ use std::ops::Range;
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
+use super::harmonics::StateTorque;
 use super::likelihood::Linear;
+use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::residual_tests::Whiteness;
@@ -19,8 +21,10 @@ pub(super) struct Smoothed {
     pub noise: Noise,
     pub scales: Scales,
     pub estimates: Vec<Estimate>,
+    /// Torque that follows the state.
+    pub torque: StateTorque,
     /// Whether the iterations came to rest.
-    pub settled: bool,
+    pub converged: bool,
 }
 
 impl Smoothed {
@@ -29,7 +33,10 @@ impl Smoothed {
     pub fn path(&self, is_curved: bool) -> Path {
         let variances = || variances(&self.estimates);
         let states = self.estimates.iter().map(|e| e.state);
-        Path::whole(states.collect(), is_curved.then(variances))
+        Path {
+            torque: self.torque.clone(),
+            ..Path::whole(states.collect(), is_curved.then(variances))
+        }
     }
 }
 
@@ -48,7 +55,7 @@ impl Problem<'_> {
         let motion = self.motion(found.prior);
         let is_linear = found.prior == KINEMATIC && self.record.is_linear();
         let mut whole = Smoothed {
-            settled: false,
+            converged: false,
             ..found
         };
         for iteration in 0..ITERATIONS {
@@ -58,10 +65,10 @@ impl Problem<'_> {
             }
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
-            whole.estimates = self.smoothed(&motion, &path, whole.scales, &whole.noise);
+            whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
             let change = path.moved(&whole.estimates);
-            whole.settled = found.settled && (is_linear || change < PATH_AT_REST);
-            if whole.settled || !change.is_finite() {
+            whole.converged = found.converged && (is_linear || change < PATH_AT_REST);
+            if whole.converged || !change.is_finite() {
                 break;
             }
         }
@@ -72,7 +79,7 @@ impl Problem<'_> {
     /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, &[]);
-        let Some(mut found) = self.first_settled(&white, &kinematic) else {
+        let Some(mut found) = self.first_converged(&white, &kinematic) else {
             return (kinematic, listed(&white));
         };
         let mut tried = listed(&white);
@@ -88,7 +95,7 @@ impl Problem<'_> {
                 && first.likelihood > likelihood(&white) + cost
             {
                 let correlated = self.tried(&kinematic, &[guess]);
-                let other = self.first_settled(&correlated, &kinematic);
+                let other = self.first_converged(&correlated, &kinematic);
                 let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
                 if let Some(other) = other.filter(|other| gain(other) > cost) {
                     (found, tried) = (other, listed(&correlated));
@@ -106,7 +113,7 @@ impl Problem<'_> {
 
     /// The likeliest smoothed motion of those whose iterations come to rest. About the path that they come to, a prior may be less
     /// likely than about the first one.
-    fn first_settled(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
+    fn first_converged(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
         let mut best: Option<Smoothed> = None;
         for candidate in tried {
             let before = best
@@ -116,7 +123,7 @@ impl Problem<'_> {
                 break;
             }
             let found = self.iterated(candidate, kinematic, self.sampled());
-            if found.settled && found.noise.likelihood > before {
+            if found.converged && found.noise.likelihood > before {
                 best = Some(found);
             }
         }
@@ -136,47 +143,61 @@ impl Problem<'_> {
             scales,
         } = *candidate;
         let mut path = self.path_of(prior, kinematic, ranges);
-        let motion = self.motion(prior);
+        let mut motion = self.motion(prior);
         let mut result = Smoothed {
             prior,
             noise,
             scales,
             estimates: Vec::new(),
-            settled: false,
+            torque: StateTorque::default(),
+            converged: false,
         };
-        let mut before = f64::INFINITY;
+        let mut is_at_rest = false;
         for iteration in 0..ITERATIONS {
-            // About a path that has moved the noise is estimated again, once.
-            if iteration == 1 || iteration == 0 && prior.follows_speed {
+            // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
+            if is_at_rest && result.prior == candidate.prior {
+                motion.prior.harmonics *= 2;
+            }
+            let prior = motion.prior;
+            // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
+            if iteration == 1 || is_at_rest || iteration == 0 && prior.follows_speed {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,
                     prior,
                     scales,
                 };
-                if iteration == 1 {
-                    let drift = 0.0;
-                    noise = linear.renewed(Noise { drift, ..noise });
+                let mut known = noise;
+                if iteration > 0 {
+                    known = linear.evaluated(noise);
+                    noise = linear.improved(known);
                 }
                 if prior.follows_speed {
-                    noise = linear.with_drift(noise);
+                    noise = linear.with_speed_corner(noise);
+                }
+                let is_wider = prior != result.prior;
+                if is_at_rest && !is_wider && noise.likelihood < known.likelihood + ENOUGH_RISE {
+                    result.noise = known;
+                    break;
                 }
             }
-            let estimates = self.smoothed(&motion, &path, scales, &noise);
+            let estimates = self.smoothed(&motion, &mut path, scales, &noise);
             let change = path.moved(&estimates);
-            (result.noise, result.estimates) = (noise, estimates);
-            // The second iteration looks for the noise again.
-            if change < PATH_AT_REST && iteration > 0 {
-                result.settled = true;
+            is_at_rest = change < PATH_AT_REST && iteration > 0;
+            // What came to rest with a former noise stands until this one's does.
+            if is_at_rest || !result.converged {
+                result = Smoothed {
+                    prior,
+                    noise,
+                    estimates,
+                    torque: path.torque.clone(),
+                    converged: is_at_rest,
+                    ..result
+                };
+            }
+            if !change.is_finite() {
                 break;
             }
-            // What repeats is taken along the path before: its changes fall in one ratio, which may be too slow.
-            let left = ITERATIONS - 1 - iteration;
-            let at_last = change * (change / before).powi(left as i32);
-            if !change.is_finite() || prior.cycle > 0 && iteration > 2 && at_last > PATH_AT_REST {
-                break;
-            }
-            before = change;
         }
         result
     }

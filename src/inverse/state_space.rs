@@ -2,12 +2,32 @@
 
 #![allow(clippy::needless_range_loop)]
 
+use super::harmonics::Increments;
 use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::{Linearised, State};
 use super::matrix::{Matrix, diagonal};
-use super::periodic::Increments;
 use super::prior::Prior;
 use super::scales::Autoregression;
+
+/// Evaluates an expression with the number of states as a constant.
+macro_rules! with_dimension {
+    ($states:expr, $n:ident => $value:expr) => {
+        with_dimension!($states, $n => $value, 3 4 5 or 6)
+    };
+    ($states:expr, $n:ident => $value:expr, $($count:literal)* or $most:literal) => {
+        match $states {
+            $($count => {
+                const $n: usize = $count;
+                $value
+            })*
+            _ => {
+                const $n: usize = $most;
+                $value
+            }
+        }
+    };
+}
+pub(super) use with_dimension;
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,7 +51,7 @@ pub(super) struct Deviations<'a> {
     /// Spectral density of the process noise over σ².
     pub noise: f64,
     /// Spectral density of the white noise that g integrates, over σ².
-    pub drift: f64,
+    pub speed_noise: f64,
     pub correlated: Option<Autoregression>,
     /// Standard deviations of the state before the first sample, in σ.
     pub spread: State,
@@ -169,10 +189,10 @@ impl Deviations<'_> {
                 add(noise, [0, 1, 2, 3, 4], &response, density);
             }
         }
-        if self.drift > 0.0 {
+        if self.speed_noise > 0.0 {
             let states = [0, 1, 2, 2 + self.prior.order];
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
-            add(noise, states, &response, time * self.drift);
+            add(noise, states, &response, time * self.speed_noise);
         }
     }
 }
@@ -229,7 +249,7 @@ mod tests {
             observed: &[],
             prior: Prior::new(Unknown::Torque, 2),
             noise: 1.0,
-            drift: 0.0,
+            speed_noise: 0.0,
             correlated: Some(Autoregression {
                 decay: 2.0,
                 white: 0.1,

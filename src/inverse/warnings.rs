@@ -67,7 +67,7 @@ pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) 
 pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> {
     let summary = &fitted.summary;
     let mut warnings = Vec::new();
-    if !fitted.settled {
+    if !fitted.converged {
         warnings.push(
             "the iterations did not settle: the motion between the samples is not certain"
                 .to_owned(),

@@ -22,6 +22,28 @@ pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     Some(Cholesky::pack_dirty(a))
 }
 
+/// Returns the inverse of a lower triangular matrix, by halves.
+pub(crate) fn inverse_of_lower(lower: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let order = lower.nrows();
+    if order <= BLOCK {
+        return lower.solve_lower_triangular(&DMatrix::identity(order, order));
+    }
+    let (first, rest) = (order / 2, order - order / 2);
+    let square = |at: usize, size: usize| lower.view((at, at), (size, size)).into_owned();
+    let above = inverse_of_lower(&square(0, first))?;
+    let below = inverse_of_lower(&square(first, rest))?;
+    let beside = &below * (lower.view((first, 0), (rest, first)) * &above);
+    let mut inverse = DMatrix::zeros(order, order);
+    inverse.view_mut((0, 0), (first, first)).copy_from(&above);
+    inverse
+        .view_mut((first, 0), (rest, first))
+        .copy_from(&-beside);
+    inverse
+        .view_mut((first, first), (rest, rest))
+        .copy_from(&below);
+    Some(inverse)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -34,6 +56,9 @@ mod tests {
             let lower = cholesky(matrix.clone()).expect("positive definite").l();
             let off = (&lower * lower.transpose() - &matrix).amax();
             assert!(off < 1e-13 * matrix.amax(), "{order}: {off}");
+            let inverse = inverse_of_lower(&lower).expect("regular");
+            let off = (inverse * lower - DMatrix::identity(order, order)).amax();
+            assert!(off < 1e-11, "{order}: {off}");
             assert!(cholesky(matrix - DMatrix::identity(order, order) * 2.0).is_none());
         }
     }

@@ -161,7 +161,13 @@ impl<'a> Trials<'a> {
             .map(|log| (log, self.at(model, log.exp())))
             .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
         let (guess, first) = best.unwrap_or_else(|| (low, self.at(model, low.exp())));
-        climb(|log| self.at(model, log.exp()), guess, first, [low, high])
+        climb(
+            |log| self.at(model, log.exp()),
+            guess,
+            first,
+            [low, high],
+            0.0,
+        )
     }
 
     /// Maximises the likelihood near this corner frequency, rad/s; keeps it where the gain is below `ENOUGH_RISE`.
@@ -173,6 +179,7 @@ impl<'a> Trials<'a> {
             corner.ln(),
             here,
             [low, high],
+            0.0,
         );
         match found.likelihood - here.likelihood > ENOUGH_RISE {
             true => found,
