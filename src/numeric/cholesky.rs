@@ -2,12 +2,14 @@
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
+/// Columns of a block, whose square takes 18 kB: half of a usual first cache.
+const BLOCK: usize = 48;
+
 /// Factorizes A = L Lᵀ, symmetric and given by its lower triangle; none where A is not positive definite.
 pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
     let order = a.nrows();
-    let columns = 48;
-    for first in (0..order).step_by(columns) {
-        let size = columns.min(order - first);
+    for first in (0..order).step_by(BLOCK) {
+        let size = BLOCK.min(order - first);
         let (left, below) = (order - first, order - first - size);
         let (known, mut rest) = a.columns_range_pair_mut(..first, first..);
         let mut block = rest.view_mut((first, 0), (left, size));
