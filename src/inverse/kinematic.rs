@@ -41,8 +41,8 @@ impl Problem<'_> {
                         scales,
                     };
                     match last {
-                        Some(last) => linear.maximised(last.noise.corner, None),
-                        None => linear.anywhere(),
+                        Some(last) => linear.renewed(last.noise),
+                        None => linear.anywhere(None),
                     }
                 }
             };

@@ -31,6 +31,9 @@ impl Linear<'_> {
     /// Standard deviations of the state before the first sample, in σ.
     fn spread(&self) -> State {
         let mut spread = self.scales.spread();
+        if self.scales.identified.is_some() {
+            spread[2] = 0.0;
+        }
         if self.prior.follows_speed {
             // With this spread, g times the spread of the speed has the spread of u.
             spread[2 + self.prior.order] = spread[2] / self.scales.speed;
@@ -119,7 +122,10 @@ impl Linear<'_> {
 
     /// Returns the noise with its likelihood and σ, from the evidence of filters that were started `begun` times.
     pub fn judged(&self, mut noise: Noise, evidence: &Evidence, begun: usize) -> Noise {
-        let starts = (self.prior.states() * begun) as f64;
+        let starts = match self.scales.identified {
+            None => (self.prior.states() * begun) as f64,
+            Some(values) => (2 + values) as f64,
+        };
         let free = evidence.samples as f64 - starts;
         let profiled = (evidence.squares / free.max(1.0)).sqrt();
         noise.sigma = self.scales.known.unwrap_or(profiled).max(self.scales.floor);
@@ -134,7 +140,9 @@ impl Linear<'_> {
         let mut start = (spread[0] * spread[1]).ln();
         let mut prior = alpha / lever;
         for spread in &spread[2..2 + self.prior.order] {
-            start += (spread / prior).ln();
+            if *spread > 0.0 {
+                start += (spread / prior).ln();
+            }
             prior *= jerk / alpha;
         }
         if self.prior.follows_speed {

@@ -5,14 +5,6 @@ use super::maximum::{ENOUGH_RISE, better, climb};
 use super::scales::{Autoregression, Noise};
 
 impl Linear<'_> {
-    /// Maximises the likelihood over the corner frequency, from a first guess, rad/s.
-    pub fn maximised(&self, guess: f64, correlated: Option<Autoregression>) -> Noise {
-        self.renewed(Noise {
-            correlated,
-            ..Noise::white(guess)
-        })
-    }
-
     /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
     pub fn renewed(&self, noise: Noise) -> Noise {
         self.improved(self.evaluated(noise))
@@ -35,18 +27,17 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
-    pub fn anywhere(&self) -> Noise {
+    pub fn anywhere(&self, correlated: Option<Autoregression>) -> Noise {
         let lowest = (0.5 / self.scales.duration).ln();
         let highest = (3.0 / self.scales.spacing).ln();
         let count = (highest - lowest).ceil().max(1.0);
-        let best = (0..=count as usize)
-            .map(|k| (lowest + (highest - lowest) * k as f64 / count).exp())
-            .map(|corner| self.evaluated(Noise::white(corner)))
-            .max_by(|a, b| a.likelihood.total_cmp(&b.likelihood));
-        best.map_or_else(
-            || self.maximised(highest.exp(), None),
-            |best| self.improved(best),
-        )
+        let at = |k: usize| Noise {
+            correlated,
+            ..Noise::white((lowest + (highest - lowest) * k as f64 / count).exp())
+        };
+        let tried = (0..=count as usize).map(|k| self.evaluated(at(k)));
+        let best = tried.reduce(better).unwrap_or_else(|| at(0));
+        self.improved(best)
     }
 
     /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.

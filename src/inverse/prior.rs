@@ -93,11 +93,9 @@ impl Prior {
             (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
             (.., true) => "torque that follows the speed, and a Wiener process",
             (Unknown::Torque, 1, _) => "torque as a Wiener process",
-            (Unknown::Torque, 2, _) => "torque as an integrated Wiener process",
-            (Unknown::Torque, ..) => "torque as a twice integrated Wiener process",
+            (Unknown::Torque, ..) => "torque as an integrated Wiener process",
             (Unknown::Force, 1, _) => "force as a Wiener process",
-            (Unknown::Force, 2, _) => "force as an integrated Wiener process",
-            (Unknown::Force, ..) => "force as a twice integrated Wiener process",
+            (Unknown::Force, ..) => "force as an integrated Wiener process",
         }
     }
 }
@@ -108,15 +106,6 @@ pub(super) const KINEMATIC: Prior = Prior::new(Unknown::Acceleration, 2);
 /// A torque as a Wiener process.
 pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
 
-/// The priors of an unknown by their order.
-const fn ladder(unknown: Unknown) -> [Prior; 3] {
-    [
-        Prior::new(unknown, 1),
-        Prior::new(unknown, 2),
-        Prior::new(unknown, 3),
-    ]
-}
-
 /// A torque in proportion to the speed, and a Wiener process.
 const FOLLOWING: Prior = Prior {
     follows_speed: true,
@@ -125,8 +114,8 @@ const FOLLOWING: Prior = Prior {
 
 /// All priors without a part that repeats, in lists along which the order rises.
 pub(super) const LADDERS: [&[Prior]; 4] = [
-    &ladder(Unknown::Force),
-    &ladder(Unknown::Torque),
+    &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
+    &[TORQUE, Prior::new(Unknown::Torque, 2)],
     &[FOLLOWING],
     &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
 ];

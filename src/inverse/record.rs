@@ -7,6 +7,7 @@ use super::grid::{Grid, Piece};
 use super::measurement_model::Sensor;
 use super::quantised::{Codes, Interval};
 use super::state_space::Observed;
+use crate::mechanism::Linkage;
 use crate::scene::Measured;
 
 /// Samples of a sensor with their weights, and of the sensors beside it.
@@ -51,6 +52,31 @@ impl Record<'_> {
         self.weights.truncate(range.len());
         for sensor in &mut self.beside {
             sensor.values = sensor.values[range.clone()].to_vec().into();
+        }
+    }
+
+    /// Returns the samples less their codes for another linkage, shifted by a zero, rad or m.
+    pub fn moved<'b>(&'b self, linkage: &'b Linkage, zero: f64) -> Record<'b> {
+        let beside = self.beside.iter().map(|other| SensorBeside {
+            sensor: Sensor {
+                linkage,
+                ..other.sensor
+            },
+            values: other.values.as_ref().into(),
+            ..*other
+        });
+        Record {
+            sensor: Sensor {
+                linkage,
+                ..self.sensor
+            },
+            times: self.times.as_ref().into(),
+            values: self.values.iter().map(|value| value + zero).collect(),
+            weights: self.weights.clone(),
+            codes: None,
+            intervals: Vec::new(),
+            beside: beside.collect(),
+            ..*self
         }
     }
 

@@ -22,6 +22,8 @@ pub(super) struct Scales {
     pub floor: f64,
     /// Standard deviation of a sample of weight 1, rad, where it is known (codes).
     pub known: Option<f64>,
+    /// Number of values of the scene that are estimated beside a torque that begins at 0; none where it begins anywhere.
+    pub identified: Option<usize>,
 }
 
 /// Parameters of the process noise and of the sample noise.

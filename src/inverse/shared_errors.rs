@@ -5,12 +5,10 @@ use serde::Serialize;
 
 use super::guide::Guide;
 use super::inverse_dynamics::InverseDynamics;
-use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::problem::Problem;
 use super::record::Record;
-use super::record::SensorBeside;
 use super::row::InverseRow;
 use super::smoother::Smoothed;
 use crate::error::Error;
@@ -61,38 +59,6 @@ pub(super) fn sources(
 }
 
 impl Source {
-    fn beside<'a>(&'a self, record: &'a Record<'a>) -> Vec<SensorBeside<'a>> {
-        let moved = |other: &'a SensorBeside<'a>| SensorBeside {
-            sensor: Sensor {
-                linkage: self.equation.linkage(),
-                ..other.sensor
-            },
-            values: other.values.as_ref().into(),
-            ..*other
-        };
-        record.beside.iter().map(moved).collect()
-    }
-
-    fn record<'a>(&'a self, record: &'a Record<'a>) -> Record<'a> {
-        Record {
-            sensor: Sensor {
-                linkage: self.equation.linkage(),
-                ..record.sensor
-            },
-            times: record.times.as_ref().into(),
-            values: record
-                .values
-                .iter()
-                .map(|value| value + self.zero)
-                .collect(),
-            weights: record.weights.clone(),
-            codes: None,
-            intervals: Vec::new(),
-            beside: self.beside(record),
-            ..*record
-        }
-    }
-
     /// Returns θ, ω, θ̈ of the polynomial of a degree under this error.
     pub fn polynomial(
         &self,
@@ -101,7 +67,11 @@ impl Source {
         degree: usize,
     ) -> Vec<[f64; 3]> {
         let theta: Vec<f64> = motion.iter().map(|m| m.value[0] + self.zero).collect();
-        let found = Polynomial::new(&self.record(record), &theta, Some(degree));
+        let found = Polynomial::new(
+            &record.moved(self.equation.linkage(), self.zero),
+            &theta,
+            Some(degree),
+        );
         let found = found.map_or_else(|_| motion.to_vec(), |found| found.motion);
         found.iter().map(|state| state.value).collect()
     }
@@ -115,7 +85,7 @@ impl Source {
     ) -> Vec<[f64; 3]> {
         let record = &problem.record;
         let problem = Problem {
-            record: self.record(record),
+            record: record.moved(self.equation.linkage(), self.zero),
             grid: problem.grid.clone(),
             equation: &self.equation,
             intensities: problem.intensities.clone(),

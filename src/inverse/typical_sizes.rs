@@ -58,6 +58,7 @@ impl Problem<'_> {
             speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
             floor: self.record.floor,
             known: self.record.codes.map(Codes::spread),
+            identified: None,
         }
     }
 }

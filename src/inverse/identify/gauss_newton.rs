@@ -1,10 +1,8 @@
 //! Gauss-Newton iterations for free values (prediction errors), path (smoother) and noise (marginal likelihood).
 
 use super::super::grid::Path;
-use super::super::kalman;
-use super::super::likelihood::Stretch;
 use super::super::problem::Problem;
-use super::super::scales::Noise;
+use super::super::scales::{Noise, Scales};
 use super::super::smoother::Smoothed;
 use super::information::Information;
 use super::misfit::Misfit;
@@ -65,7 +63,10 @@ impl<'a> Search<'a> {
         let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
         let path = Path::whole(states.collect(), None);
         let motion = problem.motion(MISSING);
-        let scales = problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion);
+        let scales = Scales {
+            identified: Some(count),
+            ..problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion)
+        };
         let trials = Trials {
             scene_at,
             all,
@@ -135,11 +136,11 @@ impl<'a> Search<'a> {
             let trials = &self.trials;
             let model = trials.model(&values, &self.path, sigma)?;
             let noise = match (with_torque, last) {
-                (false, _) => trials.at(&model, trials.lowest()),
+                (false, _) => trials.without_torque(&model),
                 (true, None) => trials.likeliest(&model),
-                (true, Some(corner)) => trials.likelier(&model, corner),
+                (true, Some(last)) => trials.likelier(&model, last),
             };
-            last = Some(noise.corner);
+            last = Some(noise);
             sigma = noise.sigma;
             let base = trials.innovations(&model, &noise);
             let step = self.step(&values, &steps, &base, &noise, width)?;
@@ -161,8 +162,7 @@ impl<'a> Search<'a> {
                 .map(|k| step.whole[k].abs() / (sigma * step.information.error(k)))
                 .fold(0.0, f64::max);
             values = taken;
-            let model = self.trials.model(&values, &self.path, sigma)?;
-            let (turned, innovations) = self.smooth(&model, &noise);
+            let (turned, innovations) = self.smooth(&values, &noise)?;
             let settled = full.max(moved).max(turned) < VALUES_AT_REST;
             if settled || part == 0.0 && !with_torque || iterations == ITERATIONS {
                 return Ok(Optimum {
@@ -270,29 +270,13 @@ impl<'a> Search<'a> {
 
     /// Moves the path to the smoothed one; returns the root mean square change of the crank angle in standard errors,
     /// and the standardised prediction errors.
-    fn smooth(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
-        match noise.correlated {
-            None => self.smoothed::<3>(model, noise),
-            Some(_) => self.smoothed::<4>(model, noise),
-        }
-    }
-
-    fn smoothed<const N: usize>(&mut self, model: &Stretch, noise: &Noise) -> (f64, Vec<f64>) {
-        let deviations = self.trials.deviations(model, noise);
-        let (deviations, innovations) = kalman::smooth::<N>(&deviations, &mut ());
-        let mut sum = 0.0;
-        for (state, deviation) in self.path.states.iter_mut().zip(&deviations) {
-            for (value, change) in state[..3].iter_mut().zip(&deviation.mean) {
-                *value += change;
-            }
-            let variance = deviation.covariance[0][0] * noise.sigma * noise.sigma;
-            let least = (1e-14 * state[0]).powi(2).max(f64::MIN_POSITIVE);
-            sum += deviation.mean[0].powi(2) / variance.max(least);
-        }
-        let told = innovations.into_iter().flatten();
-        (
-            (sum / deviations.len() as f64).sqrt(),
-            told.map(|value| value / noise.sigma).collect(),
-        )
+    fn smooth(&mut self, values: &[f64], noise: &Noise) -> Result<(f64, Vec<f64>), Error> {
+        let Search { trials, path } = self;
+        let estimates = trials.with(values, |problem| {
+            problem.smoothed(&problem.motion(MISSING), path, trials.scales, noise)
+        })?;
+        let innovations = estimates.iter().map(|e| e.innovation);
+        let told = innovations.filter(|value| value.is_finite()).collect();
+        Ok((path.moved(&estimates), told))
     }
 }

@@ -31,7 +31,7 @@ impl Misfit {
     /// [`Error::Interrupted`], and the errors of values that a scene may not have.
     pub fn of(trials: &Trials<'_>, at: &Optimum) -> Result<Option<Misfit>, Error> {
         let model = trials.model(&at.values, &at.path, at.noise.sigma)?;
-        let noise = trials.at(&model, trials.lowest());
+        let noise = trials.without_torque(&model);
         let with_torque = trials.likeliest(&model);
         let is_white = |errors: &[f64]| !Whiteness::of(errors.iter().copied()).is_violated();
         let base = trials.innovations(&model, &noise);

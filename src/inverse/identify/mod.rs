@@ -96,6 +96,8 @@ fn identify_among(
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }
+    problem.record.beside.clear();
+    problem.record.sensor.scale = Scale::TRUE;
     if problem.grid.block == 0.0 {
         let along = match problem.record.is_linear() {
             true => &problem.record.values,

@@ -1,17 +1,13 @@
 //! Linear model of a record for trial values of the scene, and its prediction errors.
 
-use std::borrow::Cow;
-
 use super::super::grid::Path;
 use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::{Linear, Stretch};
-use super::super::maximum::{ENOUGH_RISE, climb};
-use super::super::measurement_model::{Scale, Sensor};
+use super::super::maximum::ENOUGH_RISE;
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
-use super::super::record::Record;
 use super::super::scales::{Autoregression, Intensities, Noise, Scales};
-use super::super::state_space::Deviations;
+use super::super::state_space::with_dimension;
 use super::values::FreeValue;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -69,8 +65,8 @@ impl<'a> Trials<'a> {
         &self.all[..self.count]
     }
 
-    /// Returns the linear model about a path for these values.
-    pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
+    /// Applies a function to the record with the mechanism of these values.
+    pub fn with<T>(&self, values: &[f64], f: impl FnOnce(&Problem<'_>) -> T) -> Result<T, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
         let of_sensor = self.all.iter().zip(values);
@@ -78,109 +74,60 @@ impl<'a> Trials<'a> {
             .filter(|(free, _)| free.is_sensor_zero)
             .map(|(_, value)| *value)
             .sum();
-        let record = &self.problem.record;
-        let problem = Problem {
-            record: Record {
-                sensor: Sensor {
-                    linkage: equation.linkage(),
-                    measured: record.sensor.measured,
-                    scale: Scale::TRUE,
-                },
-                times: Cow::Borrowed(&record.times),
-                values: record.values.iter().map(|value| value - zero).collect(),
-                weights: record.weights.clone(),
-                codes: None,
-                intervals: Vec::new(),
-                beside: Vec::new(),
-                ..*record
-            },
+        Ok(f(&Problem {
+            record: self.problem.record.moved(equation.linkage(), -zero),
             grid: self.problem.grid.clone(),
             equation: &equation,
             intensities: Intensities::default(),
             stop: None,
-        };
-        let motion = problem.motion(MISSING);
-        Ok(problem.stretch(&motion, path, 0..problem.grid.len(), sigma))
+        }))
     }
 
-    /// Returns the state-space model of the deviations from the path; u begins at 0.
-    pub fn deviations<'b>(&self, model: &'b Stretch, noise: &Noise) -> Deviations<'b> {
-        let linear = Linear {
-            stretches: &[],
+    /// Returns the linear model about a path for these values.
+    pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
+        self.with(values, |problem| {
+            let motion = problem.motion(MISSING);
+            problem.stretch(&motion, path, 0..problem.grid.len(), sigma)
+        })
+    }
+
+    fn linear<'b>(&self, model: &'b Stretch) -> Linear<'b> {
+        Linear {
+            stretches: std::slice::from_ref(model),
             prior: MISSING,
             scales: self.scales,
-        };
-        let mut deviations = linear.deviations(model, noise);
-        deviations.spread[2] = 0.0;
-        deviations
+        }
     }
 
     /// Returns the prediction errors of a model.
     pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
         let mut found = Innovations::default();
-        let deviations = self.deviations(model, noise);
-        match self.correlated {
-            None => drop(kalman::run::<3>(&deviations, None, &mut found)),
-            Some(_) => drop(kalman::run::<4>(&deviations, None, &mut found)),
-        }
+        let model = self.linear(model).deviations(model, noise);
+        with_dimension!(model.dimension(), N => {
+            kalman::run::<N>(&model, None, &mut found);
+        });
         found
     }
 
-    /// Evaluates the marginal likelihood and σ at a corner frequency, rad/s, of the missing torque.
-    pub fn at(&self, model: &Stretch, corner: f64) -> Noise {
-        let mut noise = Noise {
+    /// Evaluates the likelihood where the missing torque has no effect on the samples.
+    pub fn without_torque(&self, model: &Stretch) -> Noise {
+        let [lowest, _] = self.scales.corners();
+        self.linear(model).evaluated(Noise {
             correlated: self.correlated,
-            ..Noise::white(corner)
-        };
-        let deviations = self.deviations(model, &noise);
-        let evidence = match self.correlated {
-            None => kalman::evidence::<3>(&deviations),
-            Some(_) => kalman::evidence::<4>(&deviations),
-        };
-        let free = (evidence.samples as f64 - 2.0 - self.count as f64).max(1.0);
-        noise.sigma = (evidence.squares / free).sqrt().max(self.scales.floor);
-        let likelihood = -free * noise.sigma.ln()
-            - 0.5 * (evidence.log_variances + evidence.squares / noise.sigma.powi(2));
-        if likelihood.is_finite() {
-            noise.likelihood = likelihood;
-        }
-        noise
+            ..Noise::white(lowest)
+        })
     }
 
-    /// Returns the corner frequency, rad/s, at which the missing torque has no effect on the samples.
-    pub fn lowest(&self) -> f64 {
-        0.1 / self.scales.duration
-    }
-
-    /// Maximises the likelihood over the corner frequency, from the best point of a grid.
+    /// Maximises the likelihood over the intensity of the missing torque.
     pub fn likeliest(&self, model: &Stretch) -> Noise {
-        let (low, high) = (self.lowest().ln(), (30.0 / self.scales.spacing).ln());
-        let count = (high - low).ceil().max(1.0);
-        let guesses = (0..=count as usize).map(|k| low + (high - low) * k as f64 / count);
-        let best = guesses
-            .map(|log| (log, self.at(model, log.exp())))
-            .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
-        let (guess, first) = best.unwrap_or_else(|| (low, self.at(model, low.exp())));
-        climb(
-            |log| self.at(model, log.exp()),
-            guess,
-            first,
-            [low, high],
-            0.0,
-        )
+        self.linear(model).anywhere(self.correlated)
     }
 
-    /// Maximises the likelihood near this corner frequency, rad/s; keeps it where the gain is below `ENOUGH_RISE`.
-    pub fn likelier(&self, model: &Stretch, corner: f64) -> Noise {
-        let (low, high) = (self.lowest().ln(), (30.0 / self.scales.spacing).ln());
-        let here = self.at(model, corner);
-        let found = climb(
-            |log| self.at(model, log.exp()),
-            corner.ln(),
-            here,
-            [low, high],
-            0.0,
-        );
+    /// Maximises the likelihood from this intensity of the missing torque; keeps it where the gain is below `ENOUGH_RISE`.
+    pub fn likelier(&self, model: &Stretch, noise: Noise) -> Noise {
+        let linear = self.linear(model);
+        let here = linear.evaluated(noise);
+        let found = linear.improved(here);
         match found.likelihood - here.likelihood > ENOUGH_RISE {
             true => found,
             false => here,
