@@ -7,7 +7,7 @@ use super::prior::Prior;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
-use super::samples::{kinematic, likeliest, record};
+use super::samples::{kinematic, record};
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
@@ -123,7 +123,7 @@ impl Fitted {
         stop: Option<&Stop>,
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
-        let (smoothed, candidates) = likeliest(&mut problem, kinematic);
+        let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic);
         let times = measurement.elapsed();
         Fitted {
             moved: parallel::map(sources.iter(), |source| {

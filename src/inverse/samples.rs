@@ -3,7 +3,7 @@
 use super::branch_tracking::CrankAngles;
 use super::grid::{Grid, Path};
 use super::measurement_model::{Scale, Sensor};
-use super::prior::{KINEMATIC, Prior};
+use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::Record;
@@ -169,37 +169,6 @@ fn without_outliers<'a>(
         kinematic = problem.kinematic(path, kinematic.noise.sigma);
     }
     (problem, kinematic)
-}
-
-/// Returns the likeliest smoothed motion and the priors compared. Outliers are judged by the chosen prior: a force that
-/// jumps puts samples where a motion without mechanics does not expect them.
-pub(super) fn likeliest(
-    problem: &mut Problem<'_>,
-    kinematic: Smoothed,
-) -> (Smoothed, Vec<(Prior, f64)>) {
-    let mut found = problem.likeliest_with_intensities(&kinematic);
-    for _ in 0..OUTLIER_ROUNDS {
-        let before = problem.record.weights.clone();
-        // The weights of codes are precisions of the normal distributions in their place.
-        if problem.record.codes.is_some() || before.iter().all(|weight| *weight == 1.0) {
-            break;
-        }
-        let Some(judged) = outliers::judge(problem, &found.0, 0.0) else {
-            break;
-        };
-        let weights = match judged.few {
-            true => judged.weights,
-            false => vec![1.0; before.len()],
-        };
-        if outliers::alike(&before, &weights) {
-            break;
-        }
-        problem.record.weights = weights;
-        let path = problem.path_of(KINEMATIC, &found.0, problem.all());
-        let kinematic = problem.kinematic(path, found.0.noise.sigma);
-        found = problem.likeliest_with_intensities(&kinematic);
-    }
-    found
 }
 
 pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
