@@ -82,10 +82,7 @@ impl About {
         let linear = self.linear(prior);
         let mut noise = linear.improved(first);
         if !correlated.is_empty() {
-            let found = linear.correlated(&noise, correlated);
-            // Noise that leaves the path rougher than white noise does is motion.
-            let rougher = found.corner > noise.corner;
-            noise = if rougher { noise } else { found };
+            noise = linear.correlated(&noise, correlated);
         }
         Candidate {
             prior,
@@ -203,10 +200,6 @@ impl Problem<'_> {
                 ..prior
             };
             while found.last().is_some_and(has_room) && extend(&mut found, double) {}
-            let smoother =
-                |Candidate { prior, noise, .. }| with(Prior { order: 2, ..prior }, noise, least);
-            let next = found.last().copied().and_then(smoother);
-            found.extend(next);
             found
         };
         let cost = (self.record.times.len() as f64).ln();

@@ -65,37 +65,24 @@ impl Prior {
 
     /// Names the random term in words.
     pub fn name(self) -> &'static str {
-        match (self.cycle, self.follows_speed, self.order) {
-            (0, ..) => {}
-            (1, false, 1) => return "torque that repeats every turn, and a Wiener process",
-            (1, false, _) => {
-                return "torque that repeats every turn, and an integrated Wiener process";
+        match (self.cycle, self.follows_speed) {
+            (0, false) => match (self.unknown, self.order) {
+                (Unknown::Acceleration, 3) => "angle with white crackle, without mechanics",
+                (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
+                (Unknown::Torque, 1) => "torque as a Wiener process",
+                (Unknown::Torque, _) => "torque as an integrated Wiener process",
+                (Unknown::Force, 1) => "force as a Wiener process",
+                (Unknown::Force, _) => "force as an integrated Wiener process",
+            },
+            (0, true) => "torque that follows the speed, and a Wiener process",
+            (1, false) => "torque that repeats every turn, and a Wiener process",
+            (1, true) => {
+                "torque that repeats every turn and follows the speed, and a Wiener process"
             }
-            (1, true, 1) => {
-                return "torque that repeats every turn and follows the speed, and a Wiener process";
+            (_, false) => "torque that repeats every two turns, and a Wiener process",
+            (_, true) => {
+                "torque that repeats every two turns and follows the speed, and a Wiener process"
             }
-            (1, true, _) => {
-                return "torque that repeats every turn and follows the speed, and an integrated Wiener process";
-            }
-            (_, false, 1) => return "torque that repeats every two turns, and a Wiener process",
-            (_, false, _) => {
-                return "torque that repeats every two turns, and an integrated Wiener process";
-            }
-            (_, true, 1) => {
-                return "torque that repeats every two turns and follows the speed, and a Wiener process";
-            }
-            _ => {
-                return "torque that repeats every two turns and follows the speed, and an integrated Wiener process";
-            }
-        }
-        match (self.unknown, self.order, self.follows_speed) {
-            (Unknown::Acceleration, 3, _) => "angle with white crackle, without mechanics",
-            (Unknown::Acceleration, ..) => "angle with white snap, without mechanics",
-            (.., true) => "torque that follows the speed, and a Wiener process",
-            (Unknown::Torque, 1, _) => "torque as a Wiener process",
-            (Unknown::Torque, ..) => "torque as an integrated Wiener process",
-            (Unknown::Force, 1, _) => "force as a Wiener process",
-            (Unknown::Force, ..) => "force as an integrated Wiener process",
         }
     }
 }
