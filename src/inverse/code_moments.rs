@@ -147,7 +147,7 @@ impl Problem<'_> {
         for round in 0..PROPAGATION_ROUNDS {
             let beliefs = self.beliefs(codes, &smoothed);
             self.propagate(codes, &beliefs);
-            let mut path = smoothed.path(false);
+            let mut path = smoothed.path();
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {

@@ -16,7 +16,7 @@ pub(super) fn straight(problem: &Problem<'_>) -> Path {
     let (theta, last) = (&record.values, record.values.len() - 1);
     let speed = (theta[last] - theta[0]) / (record.times[last] - record.times[0]);
     let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0, 0.0];
-    Path::whole(times.iter().map(state).collect(), None)
+    Path::whole(times.iter().map(state).collect())
 }
 
 /// Returns a path along crank angles, rad, with their slopes by differences.
@@ -29,7 +29,7 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
         let slope = (theta[next] - theta[next - 1]) / (b - a);
         [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0, 0.0]
     });
-    Path::whole(states.collect(), Some(vec![0.0; times.len()]))
+    Path::whole(states.collect())
 }
 
 impl Problem<'_> {
@@ -58,13 +58,8 @@ impl Problem<'_> {
             let first = range.start;
             parallel::list(range.len(), |k| self.state_of(prior, from, first + k))
         };
-        let variances = || {
-            let nodes = ranges.iter().flat_map(Clone::clone);
-            nodes.map(|k| from.estimates[k].covariance[0]).collect()
-        };
         Path {
             states: ranges.iter().flat_map(along).collect(),
-            variances: (!self.record.is_linear()).then(variances),
             torque: StateTorque::default(),
             ranges,
         }

@@ -23,8 +23,6 @@ pub(super) struct Path {
     pub ranges: Vec<Range<usize>>,
     /// State at each of these nodes.
     pub states: Vec<State>,
-    /// Variance of the crank angle, rad², if the samples are curved in it.
-    pub variances: Option<Vec<f64>>,
     /// Torque that follows the state, as far as it is known.
     pub torque: StateTorque,
 }
@@ -35,16 +33,14 @@ pub(super) struct Piece<'a> {
     /// The first node.
     pub first: usize,
     pub states: &'a [State],
-    pub variances: Option<&'a [f64]>,
 }
 
 impl Path {
     /// A path along all nodes.
-    pub fn whole(states: Vec<State>, variances: Option<Vec<f64>>) -> Path {
+    pub fn whole(states: Vec<State>) -> Path {
         Path {
             ranges: std::iter::once(0..states.len()).collect(),
             states,
-            variances,
             torque: StateTorque::default(),
         }
     }
@@ -62,25 +58,15 @@ impl Path {
         let places = before..before + nodes.len();
         Piece {
             first: nodes.start,
-            states: &self.states[places.clone()],
-            variances: self.variances.as_ref().map(|list| &list[places]),
+            states: &self.states[places],
         }
     }
 
     /// Returns the path along some nodes of its ranges only.
     pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
-        let pieces: Vec<Piece<'_>> = ranges.iter().map(|range| self.piece(range)).collect();
-        let variances = || pieces.iter().filter_map(|piece| piece.variances);
+        let pieces = ranges.iter().map(|range| self.piece(range).states);
         Path {
-            states: pieces
-                .iter()
-                .flat_map(|piece| piece.states)
-                .copied()
-                .collect(),
-            variances: self
-                .variances
-                .is_some()
-                .then(|| variances().flatten().copied().collect()),
+            states: pieces.flatten().copied().collect(),
             torque: self.torque.clone(),
             ranges,
         }

@@ -102,7 +102,7 @@ impl Problem<'_> {
     fn intensities_of(&self, found: &Smoothed) -> Intensities {
         let mut intensities = Intensities::default();
         let motion = self.motion(found.prior);
-        let path = found.path(!self.record.is_linear());
+        let path = found.path();
         let mut stretches = self.stretches(&motion, &path, found.noise.sigma);
         let cost = 0.5 * PARAMETERS * (self.record.times.len() as f64).ln();
         let evaluated = |stretch: &Stretch, noise: Noise| {

@@ -126,12 +126,7 @@ impl Record<'_> {
         for i in range {
             let theta = self.angle(grid, path, node, i);
             let (residual, shown) = self.sensor.residual(self.values[i], theta);
-            let mut precision = self.weights[i];
-            if let Some(variances) = path.variances {
-                // Deviation of h from its tangent by the curvature.
-                let bent = 0.5 * shown.curvature * variances[node - path.first] / sigma;
-                precision /= 1.0 + precision * 2.0 * bent * bent;
-            }
+            let precision = self.weights[i];
             if !(precision > 0.0 && residual.is_finite() && shown.slope.is_finite()) {
                 continue;
             }
@@ -166,9 +161,7 @@ impl Record<'_> {
             let theta = self.angle(grid, path, node, i);
             for other in &self.beside {
                 let (residual, shown) = other.sensor.residual(other.values[i], theta);
-                let variance = path.variances.map_or(0.0, |list| list[node - path.first]);
-                let bent = 0.5 * shown.curvature * variance / other.sigma;
-                let weight = (sigma / other.sigma).powi(2) / (1.0 + 2.0 * bent * bent);
+                let weight = (sigma / other.sigma).powi(2);
                 if weight > 0.0 && residual.is_finite() && shown.slope.is_finite() {
                     information += weight * shown.slope * shown.slope;
                     sum += weight * shown.slope * residual;

@@ -25,7 +25,7 @@ impl Problem<'_> {
                 (other.sigma, other.mean) = (sigma, mean);
             }
             let sigma = smoothed.noise.sigma;
-            smoothed = self.kinematic(smoothed.path(true), sigma);
+            smoothed = self.kinematic(smoothed.path(), sigma);
         }
         smoothed
     }

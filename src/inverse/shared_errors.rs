@@ -91,7 +91,7 @@ impl Source {
             intensities: problem.intensities.clone(),
             stop: problem.stop,
         };
-        let mut path = smoothed.path(!record.is_linear());
+        let mut path = smoothed.path();
         path.states
             .iter_mut()
             .for_each(|state| state[0] += self.zero);

@@ -28,14 +28,12 @@ pub(super) struct Smoothed {
 }
 
 impl Smoothed {
-    /// The path of the states that were smoothed at all nodes, with their variances where the samples are curved in the crank
-    /// angle.
-    pub fn path(&self, is_curved: bool) -> Path {
-        let variances = || variances(&self.estimates);
+    /// The path of the states that were smoothed at all nodes.
+    pub fn path(&self) -> Path {
         let states = self.estimates.iter().map(|e| e.state);
         Path {
             torque: self.torque.clone(),
-            ..Path::whole(states.collect(), is_curved.then(variances))
+            ..Path::whole(states.collect())
         }
     }
 }
@@ -203,19 +201,12 @@ impl Problem<'_> {
     }
 }
 
-fn variances(estimates: &[Estimate]) -> Vec<f64> {
-    estimates.iter().map(|e| e.covariance[0]).collect()
-}
-
 impl Path {
     /// Moves to the smoothed states; returns the rms change of the crank angles in their standard errors.
     pub fn moved(&mut self, estimates: &[Estimate]) -> f64 {
         let change = change(estimates, self);
         self.states.clear();
         self.states.extend(estimates.iter().map(|e| e.state));
-        if let Some(list) = &mut self.variances {
-            *list = variances(estimates);
-        }
         change
     }
 }

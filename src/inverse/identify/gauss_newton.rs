@@ -61,7 +61,7 @@ impl<'a> Search<'a> {
     ) -> Search<'a> {
         let states = smooth.estimates.iter();
         let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
-        let path = Path::whole(states.collect(), None);
+        let path = Path::whole(states.collect());
         let motion = problem.motion(MISSING);
         let scales = Scales {
             identified: Some(count),
