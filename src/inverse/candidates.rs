@@ -16,7 +16,7 @@ use crate::numeric::parallel;
 /// Computed records err smoothly, which a prior of order three would take for force.
 const COMPUTED_ANGLE_NOISE: f64 = 1.5e-8;
 
-/// Harmonics of a cycle at first; they are doubled as long as that makes the samples likelier.
+/// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
@@ -59,36 +59,28 @@ impl About {
         }
     }
 
-    /// A prior with its likeliest noise.
-    pub fn candidate(&self, prior: Prior, correlated: &[Autoregression]) -> Candidate {
-        let first = self.linear(prior).begun(Noise::white(self.corner));
-        self.climbed(prior, first, correlated)
-    }
-
-    /// A prior with its likeliest noise, from a first one; none where `least` says that it is not worth that.
-    fn candidate_from(
+    /// A prior with its likeliest noise, from a first one; none where this is less likely than `least`.
+    pub fn candidate(
         &self,
         prior: Prior,
         first: Noise,
         least: f64,
         correlated: &[Autoregression],
     ) -> Option<Candidate> {
-        let first = self.linear(prior).begun(first);
-        (first.likelihood >= least).then(|| self.climbed(prior, first, correlated))
-    }
-
-    /// A prior with its likeliest noise, from a first one whose likelihood is known.
-    fn climbed(&self, prior: Prior, first: Noise, correlated: &[Autoregression]) -> Candidate {
         let linear = self.linear(prior);
+        let first = linear.begun(first);
+        if first.likelihood < least {
+            return None;
+        }
         let mut noise = linear.improved(first);
         if !correlated.is_empty() {
             noise = linear.correlated(&noise, correlated);
         }
-        Candidate {
+        Some(Candidate {
             prior,
             noise,
             scales: self.scales,
-        }
+        })
     }
 }
 
@@ -111,7 +103,7 @@ impl Problem<'_> {
         noise.sigma < COMPUTED_ANGLE_NOISE * self.record.sensor.size()
     }
 
-    /// Priors about a path, the likeliest first. The order of each unknown rises as long as its likelihood does.
+    /// Priors about a path, the likeliest first.
     pub fn tried(&self, kinematic: &Smoothed, correlated: &[Autoregression]) -> Vec<Candidate> {
         // What repeats is noise that comes down: of what was computed there is none.
         let turns = match self.is_computed(&kinematic.noise) {
@@ -119,24 +111,14 @@ impl Problem<'_> {
             false => self.turns(kinematic),
         };
         let tried = parallel::map(LADDERS.iter(), |ladder| {
-            let mut tried: Vec<Candidate> = Vec::new();
             let about = self.about(ladder[0], kinematic);
-            for prior in *ladder {
-                let next = about.candidate(*prior, correlated);
-                let before = tried
-                    .last()
-                    .map_or(f64::NEG_INFINITY, |c| c.noise.likelihood);
-                let rises = next.noise.likelihood > before;
-                let is_computed = self.is_computed(&next.noise);
-                tried.push(next);
-                if !rises || is_computed && prior.order == 2 {
-                    break;
-                }
-            }
-            (tried, about)
+            let first = Noise::white(about.corner);
+            let of = |prior: &Prior| about.candidate(*prior, first, f64::NEG_INFINITY, correlated);
+            (ladder.iter().filter_map(of).collect::<Vec<_>>(), about)
         });
         let (tried, abouts): (Vec<_>, Vec<_>) = tried.into_iter().unzip();
         let mut tried: Vec<_> = tried.into_iter().flatten().collect();
+        tried.retain(|one| one.prior.order < 3 || !self.is_computed(&one.noise));
         let repeating = self.repeating(turns, &tried, &abouts, correlated);
         tried.extend(repeating);
         tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
@@ -144,8 +126,8 @@ impl Problem<'_> {
     }
 
     /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost (Schwarz 1978)
-    /// beside the torque as it is without; and with amplitudes that follow the speed, where these make them likelier still. Not of
-    /// records so long that stretches stand for them: the columns of each node would take fifty times the time.
+    /// beside the torque as it is without. Not of records so long that stretches stand for them: the columns of each node
+    /// would take fifty times the time.
     fn repeating(
         &self,
         turns: f64,
@@ -159,6 +141,10 @@ impl Problem<'_> {
             return Vec::new();
         };
         let with = |prior: Prior, before: Noise, least: f64| {
+            // The samples tell no more coefficients than there are samples.
+            if 2 * prior.coefficients() > self.record.times.len() {
+                return None;
+            }
             let plain = Prior {
                 follows_speed: prior.follows_speed,
                 ..TORQUE
@@ -170,52 +156,40 @@ impl Problem<'_> {
                 path: about.path.clone(),
                 ..*about
             };
-            let next = about.candidate_from(prior, before, least, correlated)?;
+            let next = about.candidate(prior, before, least, correlated)?;
             (!self.is_computed(&next.noise)).then_some(next)
         };
-        // What is added to a prior is kept where it makes the samples likelier.
-        let extended = |prior: Prior, before: Noise, least: f64| {
-            let mut found = Vec::from_iter(with(prior, before, least));
-            let extend = |found: &mut Vec<Candidate>, by: fn(Prior) -> Prior| {
-                let last = found.last().copied();
-                let likelier = |Candidate { prior, noise, .. }| {
-                    with(by(prior), noise, noise.likelihood + ENOUGH_RISE)
-                };
-                let next = last.and_then(likelier);
-                found.extend(next);
-                next.is_some()
-            };
-            if turns >= 4.0 {
-                extend(&mut found, |prior| Prior {
-                    cycle: 2,
-                    harmonics: 2 * prior.harmonics,
-                    ..prior
-                });
-            }
-            // The samples tell no more coefficients than there are samples.
-            let has_room =
-                |one: &Candidate| 4 * one.prior.coefficients() <= self.record.times.len();
-            let double = |prior: Prior| Prior {
-                harmonics: 2 * prior.harmonics,
-                ..prior
-            };
-            while found.last().is_some_and(has_room) && extend(&mut found, double) {}
-            found
-        };
-        let cost = (self.record.times.len() as f64).ln();
         let first = Prior {
             cycle: 1,
             harmonics: FIRST_HARMONICS,
             ..TORQUE
         };
-        let mut found = extended(first, *noise, noise.likelihood + cost);
-        if let Some(Candidate { noise, .. }) = found.first().copied() {
-            let following = Prior {
-                follows_speed: true,
-                ..first
+        let cost = (self.record.times.len() as f64).ln();
+        let mut found = Vec::from_iter(with(first, *noise, noise.likelihood + cost));
+        // Forward selection: what is added stays where it makes the samples likelier.
+        let mut extend = |by: fn(Prior) -> Prior| {
+            let likelier = |Candidate { prior, noise, .. }| {
+                with(by(prior), noise, noise.likelihood + ENOUGH_RISE)
             };
-            found.extend(extended(following, noise, noise.likelihood));
+            let next = found.last().copied().and_then(likelier);
+            found.extend(next);
+            next.is_some()
+        };
+        extend(|prior| Prior {
+            follows_speed: true,
+            ..prior
+        });
+        if turns >= 4.0 {
+            extend(|prior| Prior {
+                cycle: 2,
+                harmonics: 2 * prior.harmonics,
+                ..prior
+            });
         }
+        while extend(|prior| Prior {
+            harmonics: 2 * prior.harmonics,
+            ..prior
+        }) {}
         found
     }
 

@@ -99,7 +99,7 @@ const FOLLOWING: Prior = Prior {
     ..TORQUE
 };
 
-/// All priors without a part that repeats, in lists along which the order rises.
+/// All priors without a part that repeats, in lists of one unknown.
 pub(super) const LADDERS: [&[Prior]; 4] = [
     &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
     &[TORQUE, Prior::new(Unknown::Torque, 2)],

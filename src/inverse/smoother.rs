@@ -88,10 +88,11 @@ impl Problem<'_> {
             let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
             let about = self.about(found.prior, &kinematic);
-            let first = about.candidate(found.prior, &guesses).noise;
-            if let Some(guess) = first.correlated
-                && first.likelihood > likelihood(&white) + cost
-            {
+            let least = likelihood(&white) + cost;
+            let first = Noise::white(kinematic.noise.corner);
+            let first = about.candidate(found.prior, first, f64::NEG_INFINITY, &guesses);
+            let first = first.filter(|first| first.noise.likelihood > least);
+            if let Some(guess) = first.and_then(|first| first.noise.correlated) {
                 let correlated = self.tried(&kinematic, &[guess]);
                 let other = self.first_converged(&correlated, &kinematic);
                 let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
