@@ -54,8 +54,7 @@ impl<'a> Search<'a> {
     /// Creates the search from a motion that was smoothed without mechanics.
     pub fn new(
         scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-        all: &'a [FreeValue],
-        count: usize,
+        free: &'a [FreeValue],
         problem: &'a Problem<'a>,
         smooth: &Smoothed,
     ) -> Search<'a> {
@@ -64,13 +63,12 @@ impl<'a> Search<'a> {
         let path = Path::whole(states.collect());
         let motion = problem.motion(MISSING);
         let scales = Scales {
-            identified: Some(count),
+            identified: Some(free.len()),
             ..problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion)
         };
         let trials = Trials {
             scene_at,
-            all,
-            count,
+            free,
             problem,
             scales,
             noise: match smooth.scales.known {
@@ -85,7 +83,7 @@ impl<'a> Search<'a> {
     /// Maximises the likelihood without a missing torque first, and with one from the values found: beside a torque
     /// that follows every misfit of a first guess the values are not determined.
     pub fn run(mut self) -> Result<Found, Error> {
-        let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
+        let start: Vec<f64> = self.trials.free.iter().map(|one| one.start).collect();
         let first = self.path.clone();
         let alone = self.climbed(start.clone(), false).ok();
         let from = match alone.as_ref().filter(|found| found.settled) {
@@ -107,7 +105,7 @@ impl<'a> Search<'a> {
         let squares: f64 = best.path.states.iter().map(|s| s[2] * s[2]).sum();
         let told = best
             .information
-            .is_told(&best.values, best.noise.sigma, trials.free());
+            .is_told(&best.values, best.noise.sigma, trials.free);
         if let (Err(_), Some(misfit)) = (&told, &misfit) {
             return Err(misfit.refused());
         }
@@ -121,12 +119,7 @@ impl<'a> Search<'a> {
 
     /// Iterates until values and path converge, with a missing torque beside the equation or without.
     fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
-        let mut steps: Vec<f64> = self
-            .trials
-            .free()
-            .iter()
-            .map(FreeValue::first_step)
-            .collect();
+        let mut steps: Vec<f64> = self.trials.free.iter().map(FreeValue::first_step).collect();
         let mut sigma = self.trials.scales.floor;
         let mut last = None;
         let mut width = WIDTH;
@@ -145,7 +138,7 @@ impl<'a> Search<'a> {
             let base = trials.innovations(&model, &noise);
             let step = self.step(&values, &steps, &base, &noise, width)?;
             for (k, h) in steps.iter_mut().enumerate() {
-                let size = values[k].abs().max(trials.free()[k].scale);
+                let size = values[k].abs().max(trials.free[k].scale);
                 *h = (STEP * sigma * step.information.error_alone(k)).min(1e-2 * size);
             }
             let (taken, part) = match self.taken(&values, &step, &base, &noise) {
@@ -191,7 +184,7 @@ impl<'a> Search<'a> {
         let column = |k: usize| trials.derivatives(values, k, steps[k], &self.path, base, noise);
         let columns = parallel::list(values.len(), column);
         let columns = columns.into_iter().collect::<Result<Vec<_>, Error>>()?;
-        let information = Information::new(&columns, values, trials.free())?;
+        let information = Information::new(&columns, values, trials.free)?;
         let gradient: Vec<f64> = columns
             .iter()
             .map(|column| {
@@ -199,7 +192,7 @@ impl<'a> Search<'a> {
                 -rest.map(|((e, s), j)| j * e / s.sqrt()).sum::<f64>()
             })
             .collect();
-        let widths: Vec<f64> = trials.free().iter().map(|one| width * one.scale).collect();
+        let widths: Vec<f64> = trials.free.iter().map(|one| width * one.scale).collect();
         Ok(Step {
             whole: information.solved(&gradient),
             change: information.damped(&gradient, noise.sigma, &widths),
@@ -241,7 +234,7 @@ impl<'a> Search<'a> {
     /// Returns the error of a step that fails at every fraction, and names the values that no scene may have.
     fn beyond(&self, values: &[f64], step: &Step, sigma: f64, error: &Error) -> Error {
         let mut words = Vec::new();
-        for (k, free) in self.trials.free().iter().enumerate() {
+        for (k, free) in self.trials.free.iter().enumerate() {
             let mut at = values.to_vec();
             at[k] += step.whole[k];
             if (self.trials.scene_at)(&at).is_err() {

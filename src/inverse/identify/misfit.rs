@@ -1,13 +1,13 @@
-//! Misfit of the equation to a record that it does not describe, and score tests (Lagrange multiplier tests, Rao 1948)
-//! of the keys that are not free.
-
-use nalgebra::DVector;
+//! Misfit of the equation to a record that it does not describe.
 
 use super::gauss_newton::SIGNIFICANT_RISE;
 use super::optimum::Optimum;
 use super::trial::Trials;
 use crate::error::Error;
 use crate::inverse::residual_tests::{Runs, Whiteness};
+
+/// Remedy for a misfit.
+pub(super) const MISFIT_HELP: &str = "check that the scene has all loads of the rig, and that its other values are right, or let another key be free";
 
 /// Misfit of the equation with the free keys and without a torque beside it.
 #[derive(Clone, Debug)]
@@ -17,12 +17,7 @@ pub(super) struct Misfit {
     runs: Runs,
     /// Whether the samples are significantly likelier with a torque beside the equation.
     pub misses_torque: bool,
-    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` expected then.
-    helpers: Vec<(String, f64)>,
 }
-
-/// Relative norm below which the part of a derivative orthogonal to those of other keys is rounding.
-const SCORE_ROUNDING: f64 = 1e-5;
 
 impl Misfit {
     /// Returns the misfit at an optimum; none if no torque is significant and the residuals are white (not for codes).
@@ -34,49 +29,16 @@ impl Misfit {
         let noise = trials.without_torque(&model);
         let with_torque = trials.likeliest(&model);
         let is_white = |errors: &[f64]| !Whiteness::of(errors.iter().copied()).is_violated();
-        let base = trials.innovations(&model, &noise);
-        let errors = base.standardised();
+        let errors = trials.innovations(&model, &noise).standardised();
         let is_code = trials.noise.is_infinite();
         let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT_RISE;
         if is_likely && (is_code || is_white(&errors)) {
             return Ok(None);
         }
-        let mut values = at.values.clone();
-        values.extend(trials.all[trials.count..].iter().map(|one| one.start));
-        let column = |k: usize| {
-            let step = trials.all[k].first_step();
-            let found = trials.derivatives(&values, k, step, &at.path, &base, &noise);
-            found.ok().map(DVector::from_vec)
-        };
-        let mut basis: Vec<DVector<f64>> = Vec::new();
-        for k in 0..trials.count {
-            basis.extend(column(k).and_then(|column| beside(&basis, column)));
-        }
-        let ratio = noise.sigma / with_torque.sigma.min(trials.noise);
-        let rest = beside(&basis, DVector::from_column_slice(&errors));
-        let score = |k: usize| {
-            let direction = beside(&basis, column(k)?)?;
-            let explained = direction.dot(rest.as_ref()?).powi(2);
-            let gain = -0.5 * errors.len() as f64 * (1.0 - explained).ln();
-            let left = (ratio * (1.0 - explained).sqrt()).max(1.0);
-            Some((trials.all[k].key.clone(), left, gain))
-        };
-        let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
-        helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
-        // Keys nearly as good as the best, and significantly better than none.
-        let least = helpers
-            .first()
-            .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
-        helpers.retain(|one| one.2 > SIGNIFICANT_RISE.max(least));
-        let helpers = helpers
-            .into_iter()
-            .map(|(key, left, _)| (key, left))
-            .collect();
         Ok(Some(Misfit {
-            ratio,
+            ratio: noise.sigma / with_torque.sigma.min(trials.noise),
             runs: Runs::of(&errors),
             misses_torque: !is_likely,
-            helpers,
         }))
     }
 
@@ -91,54 +53,8 @@ impl Misfit {
         )
     }
 
-    /// Describes remedies in words.
-    pub fn help(&self) -> String {
-        let load =
-            "check that the scene has all loads of the rig, and that its other values are right";
-        if self.helpers.is_empty() {
-            return load.to_owned();
-        }
-        let named = self.helpers.iter();
-        let named = named.map(|(key, left)| format!("`{key}` ({left:.2} times)"));
-        format!(
-            "residuals nearer to the noise are expected with one more key free: {}; or {load}",
-            named.collect::<Vec<_>>().join(", ")
-        )
-    }
-
     /// Returns the misfit as a refusal.
     pub fn refused(&self) -> Error {
-        Error::refused(self.words(), self.help())
-    }
-}
-
-/// Returns the unit vector along the part of a vector orthogonal to an orthonormal basis; none if that is rounding.
-fn beside(basis: &[DVector<f64>], vector: DVector<f64>) -> Option<DVector<f64>> {
-    let size = vector.norm();
-    let mut rest = vector;
-    for _ in 0..2 {
-        for unit in basis {
-            let along = unit.dot(&rest);
-            rest.axpy(-along, unit, 1.0);
-        }
-    }
-    let left = rest.norm();
-    (left.is_finite() && left > SCORE_ROUNDING * size).then(|| rest / left)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_left_beside_a_basis_is_at_right_angles_to_it() {
-        let x = DVector::from_vec(vec![1.0, 0.0, 0.0]);
-        let found = beside(
-            std::slice::from_ref(&x),
-            DVector::from_vec(vec![5.0, 3.0, 4.0]),
-        );
-        let exact = DVector::from_vec(vec![0.0, 0.6, 0.8]);
-        assert!((found.expect("a direction") - exact).norm() < 1e-15);
-        assert!(beside(std::slice::from_ref(&x), 2.0 * &x).is_none());
+        Error::refused(self.words(), MISFIT_HELP)
     }
 }
