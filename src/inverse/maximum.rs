@@ -7,14 +7,12 @@ pub(super) fn better(a: Noise, b: Noise) -> Noise {
     if b.likelihood > a.likelihood { b } else { a }
 }
 
-/// Maximises the likelihood near a guess: uphill in growing steps while each
-/// adds more than the least rise, then parabolas through the three best points.
+/// Maximises the likelihood near a guess: uphill in growing steps, then parabolas through the three best points.
 pub(super) fn climb(
     at: impl Fn(f64) -> Noise,
     guess: f64,
     first: Noise,
     [lowest, highest]: [f64; 2],
-    least_rise: f64,
 ) -> Noise {
     const FIRST: f64 = 0.5;
     let mut points = vec![(guess, first)];
@@ -29,7 +27,7 @@ pub(super) fn climb(
             let found = at(next);
             let before = value(&points, here);
             points.push((next, found));
-            if found.likelihood <= before + least_rise {
+            if found.likelihood <= before {
                 break;
             }
             here = next;

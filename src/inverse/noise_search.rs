@@ -4,6 +4,9 @@ use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, better, climb};
 use super::scales::{Autoregression, Noise};
 
+/// A frequency of a noise, rad/s; none if the noise is without it.
+type Frequency = fn(&mut Noise) -> Option<&mut f64>;
+
 impl Linear<'_> {
     /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
     pub fn renewed(&self, noise: Noise) -> Noise {
@@ -12,18 +15,37 @@ impl Linear<'_> {
 
     /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
     pub fn improved(&self, first: Noise) -> Noise {
-        let by_corner = |corner| self.evaluated(Noise { corner, ..first });
-        let best = self.over(first.corner, first, by_corner, 0.0);
+        let best = self.along(first, |noise| Some(&mut noise.corner));
         match best.spectrum {
             None => best,
             Some(_) => self.begun(best),
         }
     }
 
-    /// Maximises the likelihood over a frequency, rad/s, from a first guess with its noise.
-    fn over(&self, guess: f64, first: Noise, at: impl Fn(f64) -> Noise, least_rise: f64) -> Noise {
-        let range = self.scales.corners().map(f64::ln);
-        climb(|log| at(log.exp()), guess.ln(), first, range, least_rise)
+    /// Maximises the likelihood of an evaluated noise over a frequency.
+    fn along(&self, first: Noise, which: Frequency) -> Noise {
+        let Some(guess) = which(&mut first.clone()).map(|frequency| frequency.ln()) else {
+            return first;
+        };
+        let at = |log: f64| {
+            let mut noise = first;
+            which(&mut noise)
+                .into_iter()
+                .for_each(|frequency| *frequency = log.exp());
+            self.evaluated(noise)
+        };
+        climb(at, guess, first, self.scales.corners().map(f64::ln))
+    }
+
+    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn.
+    fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
+        loop {
+            let next = better(noise, self.improved(self.along(noise, which)));
+            if next.likelihood < noise.likelihood + ENOUGH_RISE {
+                return noise;
+            }
+            noise = next;
+        }
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
@@ -41,68 +63,30 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
-    pub fn with_speed_corner(&self, mut noise: Noise) -> Noise {
-        loop {
-            let speed_corner = noise.speed_corner.max(noise.corner);
-            let by_speed_corner = |speed_corner| {
-                self.evaluated(Noise {
-                    speed_corner,
-                    ..noise
-                })
-            };
-            let found = self.over(
-                speed_corner,
-                by_speed_corner(speed_corner),
-                by_speed_corner,
-                ENOUGH_RISE,
-            );
-            if found.likelihood < noise.likelihood + ENOUGH_RISE {
-                return noise;
-            }
-            noise = better(found, self.improved(found));
+    pub fn with_speed_corner(&self, noise: Noise) -> Noise {
+        let first = Noise {
+            speed_corner: noise.speed_corner.max(noise.corner),
+            ..noise
+        };
+        let found = self.in_turn(self.evaluated(first), |noise| Some(&mut noise.speed_corner));
+        match found.likelihood < noise.likelihood + ENOUGH_RISE {
+            true => noise,
+            false => found,
         }
     }
 
     /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess.
     pub fn correlated(&self, from: &Noise, guesses: &[Autoregression]) -> Noise {
-        let mut best = Noise {
-            likelihood: f64::NEG_INFINITY,
-            ..*from
-        };
-        for guess in guesses {
-            let correlated = Some(*guess);
-            let found = self.evaluated(Noise {
-                correlated,
+        let tried = guesses.iter().map(|guess| {
+            self.evaluated(Noise {
+                correlated: Some(*guess),
+                likelihood: f64::NEG_INFINITY,
                 ..*from
-            });
-            if found.likelihood > best.likelihood {
-                best = found;
-            }
-        }
-        for _ in 0..CORRELATION_ROUNDS {
-            let before = best.likelihood;
-            let Some(now) = best.correlated else { break };
-            let decay = now.decay.ln();
-            let range = [
-                (0.01 / self.scales.duration).ln(),
-                (5.0 / self.scales.spacing).ln(),
-            ];
-            let by_decay = |log: f64| {
-                let decay = log.exp();
-                self.evaluated(Noise {
-                    correlated: Some(Autoregression { decay, ..now }),
-                    ..best
-                })
-            };
-            best = better(best, climb(by_decay, decay, best, range, 0.0));
-            best = better(best, self.improved(best));
-            if best.likelihood - before < 0.1 {
-                break;
-            }
-        }
-        best
+            })
+        });
+        let best = tried.reduce(better).unwrap_or(*from);
+        self.in_turn(best, |noise| {
+            noise.correlated.as_mut().map(|noise| &mut noise.decay)
+        })
     }
 }
-
-/// Maximum number of rounds of the search over one parameter after the other.
-const CORRELATION_ROUNDS: usize = 8;

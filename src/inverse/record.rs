@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::grid::{Grid, Piece};
-use super::measurement_model::Sensor;
+use super::measurement_model::{Sensor, Shown};
 use super::quantised::{Codes, Interval};
 use super::state_space::Observed;
 use crate::mechanism::Linkage;
@@ -115,69 +115,38 @@ impl Record<'_> {
         }
     }
 
-    /// Returns the mean deviation of the samples of a node from the nominal path.
+    /// Returns the mean deviation of the samples of a node from the nominal path; of several sensors, that of the angle by
+    /// their information Σ w h′² and Σ w h′ r.
     pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
-        let none = Observed {
-            variance: f64::INFINITY,
-            ..Observed::default()
-        };
-        let range = grid.first[node]..grid.first[node + 1];
-        let (mut weight, mut sum, mut slope) = (0.0, 0.0, 0.0);
-        for i in range {
-            let theta = self.angle(grid, path, node, i);
-            let (residual, shown) = self.sensor.residual(self.values[i], theta);
-            let precision = self.weights[i];
-            if !(precision > 0.0 && residual.is_finite() && shown.slope.is_finite()) {
-                continue;
-            }
-            weight += precision;
-            sum += precision * residual;
-            slope += precision * shown.slope;
-        }
-        if !self.beside.is_empty() {
-            let own = (weight > 0.0).then(|| [slope * slope / weight, slope * sum / weight]);
-            return self.observed_by_all(own.unwrap_or_default(), grid, path, node, sigma);
-        }
-        if weight == 0.0 {
-            return none;
-        }
-        Observed {
-            residual: sum / weight,
-            slope: slope / weight,
-            variance: 1.0 / weight,
-        }
-    }
-
-    /// Returns the mean deviation of all sensors at a node, rad, from Σ w h′² and Σ w h′ r of the record's own.
-    fn observed_by_all(
-        &self,
-        [mut information, mut sum]: [f64; 2],
-        grid: &Grid,
-        path: &Piece<'_>,
-        node: usize,
-        sigma: f64,
-    ) -> Observed {
+        let mut sums = [0.0; 5];
         for i in grid.first[node]..grid.first[node + 1] {
             let theta = self.angle(grid, path, node, i);
-            for other in &self.beside {
-                let (residual, shown) = other.sensor.residual(other.values[i], theta);
-                let weight = (sigma / other.sigma).powi(2);
-                if weight > 0.0 && residual.is_finite() && shown.slope.is_finite() {
-                    information += weight * shown.slope * shown.slope;
-                    sum += weight * shown.slope * residual;
+            let beside = self.beside.iter();
+            let beside = beside.map(|other| {
+                (
+                    &other.sensor,
+                    other.values[i],
+                    (sigma / other.sigma).powi(2),
+                )
+            });
+            let own = (&self.sensor, self.values[i], self.weights[i]);
+            for (sensor, value, weight) in std::iter::once(own).chain(beside) {
+                let (residual, Shown { slope, .. }) = sensor.residual(value, theta);
+                if weight > 0.0 && residual.is_finite() && slope.is_finite() {
+                    let parts = [1.0, residual, slope, slope * residual, slope * slope];
+                    (0..5).for_each(|k| sums[k] += weight * parts[k]);
                 }
             }
         }
-        match information > 0.0 {
-            true => Observed {
-                residual: sum / information,
-                slope: 1.0,
-                variance: 1.0 / information,
-            },
-            false => Observed {
-                variance: f64::INFINITY,
-                ..Observed::default()
-            },
+        let [weight, residual, slope, both, square] = sums;
+        let (weight, sum, slope) = match self.beside.is_empty() {
+            true => (weight, residual, slope / weight),
+            false => (square, both, 1.0),
+        };
+        Observed {
+            residual: sum / weight,
+            slope,
+            variance: 1.0 / weight,
         }
     }
 
