@@ -187,7 +187,8 @@ impl Problem<'_> {
         let mut found = Vec::new();
         for candidate in self.tried(&kinematic, &[]) {
             (self.record.values, self.record.weights) = first.clone();
-            let smoothed = self.iterated(&candidate, &kinematic, self.all());
+            let path = self.path_of(candidate.prior, &kinematic, self.all());
+            let smoothed = self.iterated(&candidate, path);
             if !smoothed.converged {
                 continue;
             }

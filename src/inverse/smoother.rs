@@ -1,8 +1,6 @@
 //! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
 //! prior chosen by marginal likelihood.
 
-use std::ops::Range;
-
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
@@ -39,7 +37,7 @@ impl Smoothed {
 }
 
 /// Most iterations of Gauss and Newton.
-pub(super) const ITERATIONS: usize = 12;
+const ITERATIONS: usize = 12;
 
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
 pub(super) const PATH_AT_REST: f64 = 0.05;
@@ -121,7 +119,8 @@ impl Problem<'_> {
             if before >= candidate.noise.likelihood {
                 break;
             }
-            let found = self.iterated(candidate, kinematic, self.sampled());
+            let path = self.path_of(candidate.prior, kinematic, self.sampled());
+            let found = self.iterated(candidate, path);
             if found.converged && found.noise.likelihood > before {
                 best = Some(found);
             }
@@ -129,19 +128,13 @@ impl Problem<'_> {
         best
     }
 
-    /// The smoothed motion with a prior at some ranges of nodes, about paths that approach it.
-    pub fn iterated(
-        &self,
-        candidate: &Candidate,
-        kinematic: &Smoothed,
-        ranges: Vec<Range<usize>>,
-    ) -> Smoothed {
+    /// The smoothed motion with a prior, about paths that approach it.
+    pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
         let Candidate {
             prior,
             mut noise,
             scales,
         } = *candidate;
-        let mut path = self.path_of(prior, kinematic, ranges);
         let mut motion = self.motion(prior);
         let mut result = Smoothed {
             prior,

@@ -27,14 +27,6 @@ impl Problem<'_> {
         way.abs() / std::f64::consts::TAU
     }
 
-    /// Estimates the root mean square crank rotation from sample to sample, rad.
-    pub fn way(&self) -> f64 {
-        let record = &self.record;
-        let squares = record.values.windows(2).map(|w| (w[1] - w[0]).powi(2));
-        let mean = squares.sum::<f64>() / record.values.len() as f64;
-        mean.sqrt() / record.sensor.size()
-    }
-
     /// Returns the typical magnitudes along a path with a prior.
     pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
         let times = &self.grid.times;
