@@ -5,7 +5,6 @@
 
 use super::estimate::Estimate;
 use super::interval::{Cavity, Site};
-use super::likelihood::Linear;
 use super::prior::Prior;
 use super::problem::Problem;
 use super::quantised::{Codes, Interval};
@@ -151,12 +150,8 @@ impl Problem<'_> {
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
-                let linear = Linear {
-                    stretches: &self.stretches(&motion, &path, smoothed.noise.sigma),
-                    prior: smoothed.prior,
-                    scales: smoothed.scales,
-                };
-                smoothed.noise = linear.renewed(smoothed.noise);
+                let stretches = self.stretches(&motion, &path, smoothed.noise.sigma);
+                smoothed.noise = smoothed.linear(&stretches).renewed(smoothed.noise);
             }
             smoothed.estimates =
                 self.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise);

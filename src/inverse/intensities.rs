@@ -7,12 +7,11 @@
 use std::ops::Range;
 
 use super::kalman::{self, Companion, Gaussian, Return};
-use super::likelihood::{Linear, Stretch};
 use super::matrix::{Matrix, diagonal, product, shares, sum, times};
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
 use super::problem::Problem;
-use super::scales::{Intensities, Noise, Span};
+use super::scales::{Intensities, Span};
 use super::smoother::Smoothed;
 use super::state_space::{Deviations, with_dimension};
 use crate::numeric::maximum::largest_to;
@@ -93,67 +92,44 @@ fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
 }
 
 impl Problem<'_> {
-    /// Returns the cost of stretches in ln of the likelihood (Schwarz 1978).
-    fn cost(&self, intensities: &Intensities) -> f64 {
-        PARAMETERS * intensities.0.len() as f64 * 0.5 * (self.record.times.len() as f64).ln()
+    /// Returns the cost of a stretch in ln of the likelihood (Schwarz 1978).
+    fn cost(&self) -> f64 {
+        0.5 * PARAMETERS * (self.record.times.len() as f64).ln()
     }
 
     /// Finds the stretches in which the process noise under a prior has another intensity.
     fn intensities_of(&self, found: &Smoothed) -> Intensities {
         let mut intensities = Intensities::default();
         let motion = self.motion(found.prior);
-        let path = found.path();
-        let mut stretches = self.stretches(&motion, &path, found.noise.sigma);
-        let cost = 0.5 * PARAMETERS * (self.record.times.len() as f64).ln();
-        let evaluated = |stretch: &Stretch, noise: Noise| {
-            let stretches = std::slice::from_ref(stretch);
-            let linear = Linear {
-                stretches,
-                prior: found.prior,
-                scales: found.scales,
-            };
-            linear.evaluated(noise)
-        };
-        let [stretch] = &mut stretches[..] else {
-            return intensities;
-        };
-        let mut noise = evaluated(stretch, found.noise);
+        let mut stretches = self.stretches(&motion, &found.path(), found.noise.sigma);
+        let mut noise = found.noise;
         while intensities.0.len() < self.record.times.len() / 10 {
-            let linear = Linear {
-                stretches: std::slice::from_ref(stretch),
-                prior: found.prior,
-                scales: found.scales,
+            noise = found.linear(&stretches).renewed(noise);
+            let Some(stretch) = stretches.first() else {
+                break;
             };
-            noise = linear.improved(noise);
-            let model = linear.deviations(stretch, &noise);
+            let model = found.linear(&stretches).deviations(stretch, &noise);
             let scores = with_dimension!(model.dimension(), N => scores::<N>(&model, noise.sigma));
             let (steps, is_higher, rise) = furthest(&scores);
-            if rise < cost {
+            if rise < self.cost() {
                 break;
             }
             let with = |log: f64| {
                 let mut other = stretch.clone();
-                let sign = if is_higher { log } else { -log };
-                let among = &mut other.steps[steps.clone()];
-                among
-                    .iter_mut()
-                    .for_each(|step| step.intensity *= sign.exp());
-                other
+                let factor = if is_higher { log.exp() } else { (-log).exp() };
+                let among = other.steps[steps.clone()].iter_mut();
+                among.for_each(|step| step.intensity *= factor);
+                (vec![other], factor)
             };
-            let likelihood = |log: f64| evaluated(&with(log), noise).likelihood;
+            let likelihood = |log: f64| found.linear(&with(log).0).evaluated(noise).likelihood;
             let (log, likelihood) = largest_to(likelihood, [0.0, LARGEST], WIDTH);
-            if likelihood - noise.likelihood < cost {
+            if likelihood - noise.likelihood < self.cost() {
                 break;
             }
-            let other = with(log);
-            noise = evaluated(&other, noise);
-            let times = [steps.start, steps.end].map(|node| self.grid.times[node]);
-            intensities.0.push(Span {
-                from: times[0],
-                to: times[1],
-                factor: other.steps[steps.start].intensity / stretch.steps[steps.start].intensity,
-            });
-            *stretch = other;
+            let (other, factor) = with(log);
+            let [from, to] = [steps.start, steps.end].map(|node| self.grid.times[node]);
+            intensities.0.push(Span { from, to, factor });
+            stretches = other;
         }
         intensities
     }
@@ -173,9 +149,9 @@ impl Problem<'_> {
             let before = std::mem::take(&mut self.intensities);
             self.intensities = self.intensities_of(&best.0);
             if !self.intensities.0.is_empty() {
-                let cost = self.cost(&self.intensities) - self.cost(&before);
+                let more = self.intensities.0.len() as f64 - before.0.len() as f64;
                 let next = self.likeliest_of_all(kinematic);
-                let rise = next.0.noise.likelihood - best.0.noise.likelihood - cost;
+                let rise = next.0.noise.likelihood - best.0.noise.likelihood - more * self.cost();
                 if rise > ENOUGH_RISE {
                     best = next;
                     continue;

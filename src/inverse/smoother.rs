@@ -5,7 +5,7 @@ use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::harmonics::StateTorque;
-use super::likelihood::Linear;
+use super::likelihood::{Linear, Stretch};
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
@@ -26,6 +26,15 @@ pub(super) struct Smoothed {
 }
 
 impl Smoothed {
+    /// The likelihood of its prior by some stretches.
+    pub fn linear<'a>(&self, stretches: &'a [Stretch]) -> Linear<'a> {
+        Linear {
+            stretches,
+            prior: self.prior,
+            scales: self.scales,
+        }
+    }
+
     /// The path of the states that were smoothed at all nodes.
     pub fn path(&self) -> Path {
         let states = self.estimates.iter().map(|e| e.state);
@@ -85,18 +94,12 @@ impl Problem<'_> {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
-            let about = self.about(found.prior, &kinematic);
-            let least = likelihood(&white) + cost;
-            let first = Noise::white(kinematic.noise.corner);
-            let first = about.candidate(found.prior, first, f64::NEG_INFINITY, &guesses);
-            let first = first.filter(|first| first.noise.likelihood > least);
-            if let Some(guess) = first.and_then(|first| first.noise.correlated) {
-                let correlated = self.tried(&kinematic, &[guess]);
-                let other = self.first_converged(&correlated, &kinematic);
-                let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
-                if let Some(other) = other.filter(|other| gain(other) > cost) {
-                    (found, tried) = (other, listed(&correlated));
-                }
+            let correlated = self.tried(&kinematic, &guesses);
+            let is_likelier = likelihood(&correlated) > likelihood(&white) + cost;
+            let other = is_likelier.then(|| self.first_converged(&correlated, &kinematic));
+            let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
+            if let Some(other) = other.flatten().filter(|other| gain(other) > cost) {
+                (found, tried) = (other, listed(&correlated));
             }
         }
         let path = self.path_of(found.prior, &kinematic, self.all());
