@@ -7,8 +7,6 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::matrix::{Matrix, Vector, congruent, dot, product, shares, sum, times};
-use super::periodic::Regressed;
-use super::regression::Regression;
 use super::state_space::Deviations;
 
 /// Step of the model from a node to the next.
@@ -135,20 +133,6 @@ impl std::iter::Sum for Evidence {
 
 impl<const N: usize> Companion<N> for () {}
 
-impl<const N: usize, A: Companion<N>, B: Companion<N>> Companion<N> for (A, B) {
-    #[inline(always)]
-    fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.0.stepped(node, step);
-        self.1.stepped(node, step);
-    }
-
-    #[inline(always)]
-    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.0.updated(node, sample, found);
-        self.1.updated(node, sample, found);
-    }
-}
-
 impl<const N: usize> Companion<N> for Evidence {
     #[inline(always)]
     fn updated(&mut self, _: usize, _: &Sample<N>, found: &Innovation<N>) {
@@ -163,13 +147,6 @@ pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
     run::<N>(model, None, &mut evidence);
     evidence
-}
-
-/// Computes the prediction error decomposition without the periodic part, and the regression of that part in `to`.
-pub(super) fn regressed<const N: usize>(model: &Deviations<'_>, to: &mut Regression) -> Evidence {
-    let mut both = (Evidence::default(), Regressed::new(model, to));
-    run::<N>(model, None, &mut both);
-    both.0
 }
 
 /// Runs the filter from the prior before the first sample, or from a known distribution after it.

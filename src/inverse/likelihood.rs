@@ -4,6 +4,7 @@
 use super::harmonics::Increments;
 use super::kalman::{self, Evidence};
 use super::linearised::{Linearised, State};
+use super::periodic::Regressed;
 use super::prior::Prior;
 use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
@@ -66,21 +67,19 @@ impl Linear<'_> {
         self.stretches.iter().map(of).sum()
     }
 
-    /// Returns the evidence without the periodic part, and the regression of that part.
-    fn regressed(&self, noise: &Noise) -> (Evidence, Regression) {
-        let mut to = Regression::new(self.prior);
-        let of = |stretch: &Stretch| {
-            let model = self.deviations(stretch, noise);
-            with_dimension!(model.dimension(), N => kalman::regressed::<N>(&model, &mut to))
-        };
-        let evidence = self.stretches.iter().map(of).sum();
-        to.multiply();
-        (evidence, to)
-    }
-
     /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
     fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
-        let (mut evidence, regression) = self.regressed(noise);
+        let mut regression = Regression::new(self.prior);
+        let of = |stretch: &Stretch| {
+            let model = self.deviations(stretch, noise);
+            with_dimension!(model.dimension(), N => {
+                let mut regressed = Regressed::<N>::new(&model, &mut regression);
+                kalman::run::<N>(&model, None, &mut regressed);
+                regressed.evidence
+            })
+        };
+        let mut evidence: Evidence = self.stretches.iter().map(of).sum();
+        regression.multiply();
         let starts = self.prior.states() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;

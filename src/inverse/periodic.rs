@@ -12,7 +12,7 @@
 use nalgebra::DMatrixView;
 
 use super::harmonics::{Increments, dot};
-use super::kalman::{Companion, Gaussian, Innovation, Return, Sample, Step};
+use super::kalman::{Companion, Evidence, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
 use super::regression::{ROWS_AT_ONCE, Regression, Spectrum};
@@ -106,10 +106,11 @@ fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-/// Companion of the filter that fills the normal equations.
+/// Companion of the filter that fills the normal equations, beside the likelihood terms without what repeats.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
     to: &'a mut Regression,
+    pub evidence: Evidence,
 }
 
 impl<'a, const N: usize> Regressed<'a, N> {
@@ -117,6 +118,7 @@ impl<'a, const N: usize> Regressed<'a, N> {
         Regressed {
             columns: Columns::new(model),
             to,
+            evidence: Evidence::default(),
         }
     }
 }
@@ -126,7 +128,8 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
         self.columns.step(node, step);
     }
 
-    fn updated(&mut self, _: usize, sample: &Sample<N>, found: &Innovation<N>) {
+    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
+        self.evidence.updated(node, sample, found);
         self.columns.update(sample, found);
         let per = 1.0 / found.variance.sqrt();
         self.to.take(&self.columns.errors, found.error, per);
@@ -160,7 +163,7 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         path: &mut [Gaussian<N>],
         innovations: &mut [Option<f64>],
     ) -> Option<Vec<f64>> {
-        let Regressed { columns, to } = self.regressed;
+        let Regressed { columns, to, .. } = self.regressed;
         to.multiply();
         let posterior = to.solved(spectrum?)?;
         // Factor A of the covariance Aᵀ A of the coefficients.

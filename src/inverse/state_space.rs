@@ -88,14 +88,6 @@ impl Deviations<'_> {
         }
     }
 
-    /// Returns the covariance of the process noise in a step.
-    #[inline(always)]
-    pub fn process_noise<const N: usize>(&self, node: usize) -> Matrix<N> {
-        let mut noise = [[0.0; N]; N];
-        self.add_noise(&self.steps[node], &mut noise);
-        noise
-    }
-
     /// Returns Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
     #[inline(always)]
     pub fn inverse<const N: usize>(&self, node: usize) -> Matrix<N> {
@@ -174,9 +166,12 @@ impl Deviations<'_> {
         }
     }
 
-    /// Adds the process noise ∫ ψ ψᵀ ds of the responses ψ of the state to unit white noise.
+    /// Returns the covariance ∫ ψ ψᵀ ds of the process noise in a step, from the responses ψ of the state to white noise.
     #[inline(always)]
-    fn add_noise<const N: usize>(&self, step: &Linearised, noise: &mut Matrix<N>) {
+    pub fn process_noise<const N: usize>(&self, node: usize) -> Matrix<N> {
+        let step = &self.steps[node];
+        let mut covariance = [[0.0; N]; N];
+        let noise = &mut covariance;
         let (h, b, tilt) = (step.h, step.lever, step.tilt);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
         let time = h * step.intensity;
@@ -194,6 +189,7 @@ impl Deviations<'_> {
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
             add(noise, states, &response, time * self.speed_noise);
         }
+        covariance
     }
 }
 
