@@ -41,10 +41,11 @@ impl Linear<'_> {
     fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
         loop {
             let next = better(noise, self.improved(self.along(noise, which)));
-            if next.likelihood < noise.likelihood + ENOUGH_RISE {
-                return noise;
+            // A likelihood that is not finite does not rise.
+            match next.likelihood > noise.likelihood + ENOUGH_RISE {
+                true => noise = next,
+                false => return noise,
             }
-            noise = next;
         }
     }
 
