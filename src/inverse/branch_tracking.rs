@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{DROPPED_LOG_RATIO, Hypothesis, Setting, Tracker};
+use super::hypotheses::{DROPPED_LOG_RATIO, Tracker};
 use super::measurement_model::Sensor;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -35,36 +35,27 @@ pub(super) fn motions<'a>(
     measurement: &Measurement,
 ) -> Result<Vec<CrankAngles<'a>>, Error> {
     let early = measurement.len().min(EARLY);
-    let tried = sensors.iter().flat_map(|sensor| {
+    let likeliest = |sensor| {
         let tracker = Tracker {
             sensor,
             times: measurement.elapsed(),
             values: measurement.values(),
             speed: typical_speed(sensor, measurement),
         };
-        let settings = tracker.settings(measurement.resolution());
-        settings.into_iter().map(move |setting| (tracker, setting))
-    });
-    let scored = parallel::map(tried, |(tracker, setting)| {
-        let followed = tracker.followed(&setting, early);
-        Some((tracker, setting, *followed.first()?))
-    });
-    let mut scored: Vec<_> = scored.into_iter().flatten().collect();
-    scored.sort_by(|a, b| b.2.score.total_cmp(&a.2.score));
-    let mut likeliest: Vec<(Tracker<'_, 'a>, Setting, Hypothesis)> = Vec::new();
-    for one in scored {
-        let (tracker, _, end) = &one;
-        let is_new = |(other, _, there): &(Tracker<'_, 'a>, Setting, Hypothesis)| {
-            other.sensor.scale != tracker.sensor.scale
-                || (there.turned() - end.turned()).abs() > DISTINCT_ROTATION
-        };
-        let first = likeliest.first().unwrap_or(&one).2.score;
-        if end.score > first - DROPPED_LOG_RATIO && likeliest.iter().all(is_new) {
-            likeliest.push(one);
-        }
-    }
+        let settings = tracker.settings(measurement.resolution()).into_iter();
+        let scored = parallel::map(settings, |setting| {
+            (tracker.score(&setting, early), setting)
+        });
+        let best = scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(score, setting)| (score, tracker, setting))
+    };
+    let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
+    likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut motions: Vec<CrankAngles<'a>> = Vec::new();
-    for (tracker, setting, _) in &likeliest {
+    for (score, tracker, setting) in &likeliest {
+        if *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
+            break;
+        }
         for theta in tracker.tracks(setting) {
             let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
             let alike = |other: &CrankAngles<'_>| {

@@ -18,20 +18,11 @@ pub(super) struct Setting {
 
 /// Hypothesis: a path up to the current sample.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hypothesis {
+struct Hypothesis {
     state: Gaussian<3>,
-    pub score: f64,
-    /// First crank angle, rad.
-    begin: f64,
+    score: f64,
     /// Index of the last link in the list of all links.
     last: usize,
-}
-
-impl Hypothesis {
-    /// Returns the absolute rotation from the first angle to the last, rad.
-    pub fn turned(&self) -> f64 {
-        (self.state.mean[0] - self.begin).abs()
-    }
 }
 
 /// Crank angle of a path, rad, with the index of the preceding link.
@@ -88,9 +79,10 @@ impl Tracker<'_, '_> {
         ends.iter().map(path).collect()
     }
 
-    /// Returns the hypotheses after a number of samples, the likeliest first.
-    pub fn followed(&self, setting: &Setting, samples: usize) -> Vec<Hypothesis> {
-        self.run(setting, samples, &mut Vec::with_capacity(2 * samples))
+    /// Returns ln of the likelihood of the likeliest hypothesis after a number of samples.
+    pub fn score(&self, setting: &Setting, samples: usize) -> f64 {
+        let ends = self.run(setting, samples, &mut Vec::with_capacity(2 * samples));
+        ends.first().map_or(f64::NEG_INFINITY, |end| end.score)
     }
 
     fn run(&self, setting: &Setting, samples: usize, links: &mut Vec<Link>) -> Vec<Hypothesis> {
@@ -148,7 +140,6 @@ impl Tracker<'_, '_> {
                 covariance: diagonal([sight.variance, speed * speed, speed.powi(4)]),
             },
             score: sight.score,
-            begin: sight.theta,
             last: links.len() - 1,
         }
     }
