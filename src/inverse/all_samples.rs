@@ -5,7 +5,7 @@ use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linearised::Motion;
-use super::maximum::vertex;
+use super::maximum::{better, vertex};
 use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
 use super::state_space::with_dimension;
@@ -29,39 +29,31 @@ impl Problem<'_> {
             scales,
         };
         let [lowest, highest] = scales.corners().map(f64::ln);
-        let mut tried: Vec<(f64, Noise)> = Vec::new();
-        let mut logs = [-1.0, 0.0, 1.0].map(|off| first.corner.ln() + off);
+        let (mut middle, mut step) = (first.corner.ln(), 1.0);
         for _ in 0..CORNER_ROUNDS {
-            let logs_inside = logs.map(|log| log.clamp(lowest, highest));
-            let noises = logs_inside.map(|log| Noise {
+            let logs = [-step, 0.0, step].map(|off| (middle + off).clamp(lowest, highest));
+            let noises = logs.map(|log| Noise {
                 corner: log.exp(),
                 likelihood: f64::NEG_INFINITY,
                 ..*first
             });
             let evidences = self.evidences(motion, path, &linear, &noises);
-            let judged = noises.into_iter().zip(&evidences);
-            let judged = judged.map(|(noise, evidence)| linear.judged(noise, evidence, 1));
-            tried.extend(logs_inside.into_iter().zip(judged));
-            tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-            tried.dedup_by(|a, b| a.0 == b.0);
-            let likelihood = |k: &usize| tried[*k].1.likelihood;
-            let order = |a: &usize, b: &usize| likelihood(a).total_cmp(&likelihood(b));
-            let best = (0..tried.len()).max_by(order).unwrap_or(0);
-            let (log, noise) = tried[best];
-            if log == lowest || log == highest {
-                return noise;
+            let [a, b, c] = [0, 1, 2].map(|k| linear.judged(noises[k], &evidences[k], 1));
+            let best = better(better(b, a), c);
+            if best.corner == lowest.exp() || best.corner == highest.exp() {
+                return best;
             }
-            let side = match best {
-                0 => -1.0,
-                _ if best + 1 == tried.len() => 1.0,
-                _ => {
-                    let point = |k: usize| (tried[k].0, tried[k].1.likelihood);
-                    let top = vertex(point(best - 1), point(best), point(best + 1));
-                    let corner = top.place.exp();
-                    return Noise { corner, ..noise };
-                }
+            if best.corner == b.corner && step == 1.0 {
+                let point = |noise: Noise| (noise.corner.ln(), noise.likelihood);
+                let corner = vertex(point(a), point(b), point(c)).place.exp();
+                return Noise { corner, ..b };
+            }
+            step = if best.corner == b.corner {
+                1.0
+            } else {
+                2.0 * step
             };
-            logs = [1.0, 2.0, 4.0].map(|off| log + side * off);
+            middle = best.corner.ln();
         }
         *first
     }
