@@ -16,12 +16,6 @@ use crate::scene::Scene;
 /// Maximum number of Gauss-Newton iterations.
 const ITERATIONS: usize = 60;
 
-/// Initial step length over the scale of a value, in directions that the record hardly determines (Levenberg damping).
-const WIDTH: f64 = 0.3;
-
-/// Growth factor of the step length `WIDTH` after each full step (Marquardt).
-const WIDENED: f64 = 3.0;
-
 /// Maximum number of halvings of a step.
 const STEP_HALVINGS: usize = 20;
 
@@ -44,9 +38,7 @@ pub(super) struct Search<'a> {
 /// Gauss-Newton step with the Fisher information at its start.
 struct Step {
     information: Information,
-    /// Undamped change of the values, to the minimum of the linear model.
-    whole: Vec<f64>,
-    /// Damped change of the values, tried in full and then halved.
+    /// Change of the values to the minimum of the linear model, tried in full and then halved.
     change: Vec<f64>,
 }
 
@@ -122,7 +114,6 @@ impl<'a> Search<'a> {
         let mut steps: Vec<f64> = self.trials.free.iter().map(FreeValue::first_step).collect();
         let mut sigma = self.trials.scales.floor;
         let mut last = None;
-        let mut width = WIDTH;
         let mut iterations = 0;
         loop {
             iterations += 1;
@@ -136,7 +127,7 @@ impl<'a> Search<'a> {
             last = Some(noise);
             sigma = noise.sigma;
             let base = trials.innovations(&model, &noise);
-            let step = self.step(&values, &steps, &base, &noise, width)?;
+            let step = self.step(&values, &steps, &base, &noise)?;
             for (k, h) in steps.iter_mut().enumerate() {
                 let size = values[k].abs().max(trials.free[k].scale);
                 *h = (STEP * sigma * step.information.error_alone(k)).min(1e-2 * size);
@@ -147,16 +138,12 @@ impl<'a> Search<'a> {
                 Err(_) if !with_torque => (values.clone(), 0.0),
                 Err(error) => return Err(error),
             };
-            width *= if part == 1.0 { WIDENED } else { 1.0 };
-            let moved = (0..values.len())
-                .map(|k| (taken[k] - values[k]).abs() / (sigma * step.information.error(k)))
-                .fold(0.0, f64::max);
             let full = (0..values.len())
-                .map(|k| step.whole[k].abs() / (sigma * step.information.error(k)))
+                .map(|k| step.change[k].abs() / (sigma * step.information.error(k)))
                 .fold(0.0, f64::max);
             values = taken;
             let (turned, innovations) = self.smooth(&values, &noise)?;
-            let settled = full.max(moved).max(turned) < VALUES_AT_REST;
+            let settled = full.max(turned) < VALUES_AT_REST;
             if settled || part == 0.0 && !with_torque || iterations == ITERATIONS {
                 return Ok(Optimum {
                     values,
@@ -178,7 +165,6 @@ impl<'a> Search<'a> {
         steps: &[f64],
         base: &Innovations,
         noise: &Noise,
-        width: f64,
     ) -> Result<Step, Error> {
         let trials = &self.trials;
         let column = |k: usize| trials.derivatives(values, k, steps[k], &self.path, base, noise);
@@ -192,10 +178,8 @@ impl<'a> Search<'a> {
                 -rest.map(|((e, s), j)| j * e / s.sqrt()).sum::<f64>()
             })
             .collect();
-        let widths: Vec<f64> = trials.free.iter().map(|one| width * one.scale).collect();
         Ok(Step {
-            whole: information.solved(&gradient),
-            change: information.damped(&gradient, noise.sigma, &widths),
+            change: information.solved(&gradient),
             information,
         })
     }
@@ -236,7 +220,7 @@ impl<'a> Search<'a> {
         let mut words = Vec::new();
         for (k, free) in self.trials.free.iter().enumerate() {
             let mut at = values.to_vec();
-            at[k] += step.whole[k];
+            at[k] += step.change[k];
             if (self.trials.scene_at)(&at).is_err() {
                 let se = sigma * step.information.error(k);
                 let (key, unit) = (&free.key, &free.unit);

@@ -17,7 +17,6 @@ const ALIKE: f64 = 0.1;
 pub(super) struct Information {
     /// Norms of the columns of J.
     norms: Vec<f64>,
-    scaled: DMatrix<f64>,
     eigen: SymmetricEigen<f64, nalgebra::Dyn>,
     /// (JᵀJ)⁻¹
     covariance: DMatrix<f64>,
@@ -59,14 +58,13 @@ impl Information {
         let scaled = DMatrix::from_fn(n, n, |i, j| {
             dot(&columns[i], &columns[j]) / (norms[i] * norms[j])
         });
-        let eigen = SymmetricEigen::new(scaled.clone());
+        let eigen = SymmetricEigen::new(scaled);
         let inverse = DMatrix::from_diagonal(&eigen.eigenvalues.map(f64::recip));
         let inverse = &eigen.eigenvectors * inverse * eigen.eigenvectors.transpose();
         let found = Information {
             covariance: DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] / (norms[i] * norms[j])),
             norms,
             eigen,
-            scaled,
         };
         if found.eigen.eigenvalues.min() < LEAST_EIGENVALUE {
             return Err(found.alike(values, free));
@@ -155,23 +153,6 @@ impl Information {
             return 1.0;
         }
         self.covariance[(i, j)] / (self.error(i) * self.error(j))
-    }
-
-    /// Returns the damped step (JᵀJ + σ² diag(1/w²))⁻¹ g, of length about w where the record says little (Levenberg).
-    pub fn damped(&self, g: &[f64], sigma: f64, widths: &[f64]) -> Vec<f64> {
-        let norms = &self.norms;
-        let mut matrix = self.scaled.clone();
-        for k in 0..g.len() {
-            matrix[(k, k)] += (sigma / (norms[k] * widths[k])).powi(2);
-        }
-        let right = DVector::from_fn(g.len(), |k, _| g[k] / norms[k]);
-        match matrix.cholesky() {
-            Some(factor) => {
-                let found = factor.solve(&right);
-                (0..g.len()).map(|k| found[k] / norms[k]).collect()
-            }
-            None => self.solved(g),
-        }
     }
 
     /// Returns (JᵀJ)⁻¹ g.
