@@ -96,9 +96,23 @@ impl Fitted {
             options.stop.as_ref(),
         );
         Ok(match simple {
-            Some(polynomial) if smoothed.summary.outliers == 0 => polynomial,
+            Some(polynomial)
+                if smoothed.summary.outliers == 0
+                    && polynomial.information() <= smoothed.information() =>
+            {
+                polynomial
+            }
             _ => smoothed,
         })
+    }
+
+    /// Returns Akaike's criterion AICc for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297), σ a parameter; of
+    /// a smoother by its effective parameters (Hurvich, Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
+    fn information(&self) -> f64 {
+        let n = self.residuals.len() as f64;
+        let parameters = self.summary.parameters + 1.0;
+        let spread = self.summary.rms.max(self.floor);
+        2.0 * n * spread.ln() + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
     }
 
     fn smoothed(

@@ -5,7 +5,7 @@ use crate::numeric::stop::Stop;
 /// Method of motion estimation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FitKind {
-    /// Polynomial within one turn where it leaves only noise and no sample is far off, else the smoother.
+    /// Polynomial within one turn where it leaves only noise and has the lower AICc, else the smoother.
     Auto,
     /// A polynomial of the crank angle over time.
     Polynomial,
