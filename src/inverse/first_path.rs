@@ -10,15 +10,6 @@ use super::problem::Problem;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 
-/// Returns a straight line along measured crank angles; the linear model accounts for the distance of the samples.
-pub(super) fn straight(problem: &Problem<'_>) -> Path {
-    let (times, record) = (&problem.grid.times, &problem.record);
-    let (theta, last) = (&record.values, record.values.len() - 1);
-    let speed = (theta[last] - theta[0]) / (record.times[last] - record.times[0]);
-    let state = |t: &f64| [theta[0] + speed * (t - times[0]), speed, 0.0, 0.0, 0.0];
-    Path::whole(times.iter().map(state).collect())
-}
-
 /// Returns a path along crank angles, rad, with their slopes by differences.
 pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
     let (times, record) = (&problem.grid.times, &problem.record);

@@ -97,14 +97,13 @@ use self::fitted::Fitted;
 use self::guide::Guide;
 use self::inverse_dynamics::InverseDynamics;
 use self::measurement_model::{Scale, Sensor};
-use self::quantised::Codes;
 use self::rows::Rows;
 use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::stop::Stop;
 use crate::numeric::student;
-use crate::scene::{Measured, Measurement, MovedScene, Scene};
+use crate::scene::{Measurement, MovedScene, Scene};
 
 /// Slider force and crank torque along a measured motion.
 #[derive(Debug)]
@@ -189,13 +188,7 @@ fn recovered(
     };
     let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let noted = angles.warnings.clone();
-    let codes = match measurement.measured() {
-        Measured::Theta if !measurement.has_sensors_beside() => {
-            Codes::of(&angles.theta, measurement.resolution())
-        }
-        _ => None,
-    };
-    let zero = codes.and_then(|codes| codes.zero_error());
+    let zero = samples::codes(measurement, &angles).and_then(|codes| codes.zero_error());
     let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;

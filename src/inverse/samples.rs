@@ -1,7 +1,7 @@
 //! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
 use super::branch_tracking::CrankAngles;
-use super::grid::{Grid, Path};
+use super::grid::Grid;
 use super::measurement_model::{Scale, Sensor};
 use super::prior::KINEMATIC;
 use super::problem::Problem;
@@ -82,6 +82,12 @@ pub(super) fn problem<'a>(
     }
 }
 
+/// Returns the quantisation of crank angles that were measured alone.
+pub(super) fn codes(measurement: &Measurement, angles: &CrankAngles<'_>) -> Option<Codes> {
+    let alone = measurement.measured() == Measured::Theta && !measurement.has_sensors_beside();
+    alone.then(|| Codes::of(&angles.theta, measurement.resolution()))?
+}
+
 /// Returns the samples of a measurement with their outlier weights, and the motion smoothed without mechanics.
 pub(super) fn kinematic<'a>(
     measurement: &'a Measurement,
@@ -90,13 +96,7 @@ pub(super) fn kinematic<'a>(
     stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
     let samples = || record(measurement, angles);
-    let codes = match angles.sensor.measured {
-        Measured::Theta if !measurement.has_sensors_beside() => {
-            Codes::of(&angles.theta, measurement.resolution())
-        }
-        _ => None,
-    };
-    let Some(codes) = codes else {
+    let Some(codes) = codes(measurement, angles) else {
         let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0, stop);
         let kinematic = problem.by_all_sensors(kinematic);
         return (problem, kinematic);
@@ -142,12 +142,12 @@ fn without_outliers<'a>(
         false => angles.theta.clone(),
     };
     let mut problem = problem(record, &theta, equation, stop);
-    let first = first_path(&problem, angles);
+    let first = first_path::coarse(&problem, &theta);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
     if problem.grid.block * kinematic.noise.corner > BLOCK_PHASE {
         problem.grid = Grid::new(&problem.record.times, &theta);
-        let first = first_path(&problem, angles);
+        let first = first_path::coarse(&problem, &theta);
         kinematic = problem.kinematic(first, sigma);
     }
     let mut few = true;
@@ -169,11 +169,4 @@ fn without_outliers<'a>(
         kinematic = problem.kinematic(path, kinematic.noise.sigma);
     }
     (problem, kinematic)
-}
-
-pub(super) fn first_path(problem: &Problem<'_>, angles: &CrankAngles<'_>) -> Path {
-    match problem.record.is_linear() {
-        true => first_path::straight(problem),
-        false => first_path::coarse(problem, &angles.theta),
-    }
 }

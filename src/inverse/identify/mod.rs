@@ -22,10 +22,11 @@ use self::gauss_newton::Search;
 use self::misfit::MISFIT_HELP;
 use self::optimum::Found;
 use super::branch_choice::crank_angles;
+use super::first_path::coarse;
 use super::grid::Grid;
 use super::measurement_model::{Scale, Sensor};
 use super::residual_tests::Whiteness;
-use super::samples::{first_path, kinematic};
+use super::samples::kinematic;
 use super::warnings::alone;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -87,14 +88,14 @@ pub fn identify(
     }
     problem.record.beside.clear();
     problem.record.sensor.scale = Scale::TRUE;
+    let theta = match problem.record.is_linear() {
+        true => problem.record.values.clone(),
+        false => angles.theta.clone(),
+    };
     if problem.grid.block == 0.0 {
-        let along = match problem.record.is_linear() {
-            true => &problem.record.values,
-            false => &angles.theta,
-        };
-        problem.grid = Grid::finer(&problem.record.times, along, LONGEST);
+        problem.grid = Grid::finer(&problem.record.times, &theta, LONGEST);
     }
-    let first = first_path(&problem, &angles);
+    let first = coarse(&problem, &theta);
     let mut smooth = problem.kinematic(first, smooth.noise.sigma);
     let (likeliest, _) = problem.likeliest(smooth.clone());
     if likeliest.noise.correlated.is_some() {
