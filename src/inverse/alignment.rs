@@ -9,6 +9,7 @@ use super::measurement_model::{Scale, Sensor};
 use crate::mechanism::Limits;
 use crate::numeric::median::median;
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
+use crate::numeric::root::bracketed;
 use crate::scene::{Measured, Measurement};
 
 /// Slider travel about a turning point that is fitted, in crank lengths: about 0.8 rad of the crank on both sides.
@@ -107,20 +108,7 @@ fn vertex(measurement: &Measurement, range: std::ops::Range<usize>) -> Option<[f
         floor: measurement.resolution(),
     };
     let fit = PolynomialFit::new(&equations, None).ok()?;
-    let (mut low, mut high) = (t[0], t[t.len() - 1]);
     let slope = |t: f64| fit.state(t).value[1];
-    if slope(low) * slope(high) > 0.0 {
-        return None;
-    }
-    let rising = slope(low) > 0.0;
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if (slope(middle) > 0.0) == rising {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let state = fit.state(low);
+    let state = fit.state(bracketed(slope, t[0], t[t.len() - 1])?);
     Some([state.value[0], state.covariance[0].sqrt()])
 }

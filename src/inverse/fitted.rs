@@ -13,6 +13,7 @@ use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
+use crate::numeric::median::range;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement};
@@ -279,7 +280,6 @@ impl Fitted {
 
 /// True if crank angles, rad, lie within one turn: a polynomial may serve.
 fn is_within_a_turn(theta: &[f64]) -> bool {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let ends = theta.iter().fold(ends, |(a, b), v| (a.min(*v), b.max(*v)));
-    ends.1 - ends.0 <= std::f64::consts::TAU
+    let (least, most) = range(theta);
+    most - least <= std::f64::consts::TAU
 }

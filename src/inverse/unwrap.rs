@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::branch_tracking::CrankAngles;
 use super::measurement_model::Sensor;
 use crate::error::Error;
-use crate::numeric::median::median;
+use crate::numeric::median::{median, range};
 use crate::scene::Measurement;
 
 /// Largest range, in turns, of angles reduced to one turn: noise and the scale of a sensor exceed one.
@@ -20,11 +20,7 @@ pub(super) fn unwrap<'a>(
     measurement: &Measurement,
 ) -> Result<CrankAngles<'a>, Error> {
     let values = measurement.values();
-    let (least, most) = values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
-            (a.min(*v), b.max(*v))
-        });
+    let (least, most) = range(values);
     let jumps = values.windows(2).any(|w| (w[1] - w[0]).abs() > PI);
     let mut warnings = Vec::new();
     let mut theta = values.to_vec();
