@@ -9,7 +9,7 @@ pub struct FreeValue {
     pub unit: String,
     /// Start value of the search.
     pub start: f64,
-    /// Size of a significant change, in `unit`: sets damping, and the first difference step where the start is 0.
+    /// Size of a significant change, in `unit`: bounds the difference steps, and sets the first one where the start is 0.
     pub scale: f64,
     /// Whether the value is the zero error of the sensor, rad or m: the index mark of an angle, the zero of x.
     pub is_sensor_zero: bool,
