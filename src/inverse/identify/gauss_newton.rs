@@ -46,7 +46,8 @@ impl<'a> Search<'a> {
     /// Creates the search from a motion that was smoothed without mechanics.
     pub fn new(
         scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-        free: &'a [FreeValue],
+        all: &'a [FreeValue],
+        count: usize,
         problem: &'a Problem<'a>,
         smooth: &Smoothed,
     ) -> Search<'a> {
@@ -55,12 +56,13 @@ impl<'a> Search<'a> {
         let path = Path::whole(states.collect());
         let motion = problem.motion(MISSING);
         let scales = Scales {
-            identified: Some(free.len()),
+            identified: Some(count),
             ..problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion)
         };
         let trials = Trials {
             scene_at,
-            free,
+            all,
+            count,
             problem,
             scales,
             noise: match smooth.scales.known {
@@ -75,7 +77,7 @@ impl<'a> Search<'a> {
     /// Maximises the likelihood without a missing torque first, and with one from the values found: beside a torque
     /// that follows every misfit of a first guess the values are not determined.
     pub fn run(mut self) -> Result<Found, Error> {
-        let start: Vec<f64> = self.trials.free.iter().map(|one| one.start).collect();
+        let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
         let first = self.path.clone();
         let alone = self.climbed(start.clone(), false).ok();
         let from = match alone.as_ref().filter(|found| found.settled) {
@@ -97,7 +99,7 @@ impl<'a> Search<'a> {
         let squares: f64 = best.path.states.iter().map(|s| s[2] * s[2]).sum();
         let told = best
             .information
-            .is_told(&best.values, best.noise.sigma, trials.free);
+            .is_told(&best.values, best.noise.sigma, trials.free());
         if let (Err(_), Some(misfit)) = (&told, &misfit) {
             return Err(misfit.refused());
         }
@@ -111,7 +113,12 @@ impl<'a> Search<'a> {
 
     /// Iterates until values and path converge, with a missing torque beside the equation or without.
     fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
-        let mut steps: Vec<f64> = self.trials.free.iter().map(FreeValue::first_step).collect();
+        let mut steps: Vec<f64> = self
+            .trials
+            .free()
+            .iter()
+            .map(FreeValue::first_step)
+            .collect();
         let mut sigma = self.trials.scales.floor;
         let mut last = None;
         let mut iterations = 0;
@@ -129,7 +136,7 @@ impl<'a> Search<'a> {
             let base = trials.innovations(&model, &noise);
             let step = self.step(&values, &steps, &base, &noise)?;
             for (k, h) in steps.iter_mut().enumerate() {
-                let size = values[k].abs().max(trials.free[k].scale);
+                let size = values[k].abs().max(trials.free()[k].scale);
                 *h = (STEP * sigma * step.information.error_alone(k)).min(1e-2 * size);
             }
             let (taken, part) = match self.taken(&values, &step, &base, &noise) {
@@ -170,7 +177,7 @@ impl<'a> Search<'a> {
         let column = |k: usize| trials.derivatives(values, k, steps[k], &self.path, base, noise);
         let columns = parallel::list(values.len(), column);
         let columns = columns.into_iter().collect::<Result<Vec<_>, Error>>()?;
-        let information = Information::new(&columns, values, trials.free)?;
+        let information = Information::new(&columns, values, trials.free())?;
         let gradient: Vec<f64> = columns
             .iter()
             .map(|column| {
@@ -218,7 +225,7 @@ impl<'a> Search<'a> {
     /// Returns the error of a step that fails at every fraction, and names the values that no scene may have.
     fn beyond(&self, values: &[f64], step: &Step, sigma: f64, error: &Error) -> Error {
         let mut words = Vec::new();
-        for (k, free) in self.trials.free.iter().enumerate() {
+        for (k, free) in self.trials.free().iter().enumerate() {
             let mut at = values.to_vec();
             at[k] += step.change[k];
             if (self.trials.scene_at)(&at).is_err() {

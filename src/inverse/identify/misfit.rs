@@ -1,13 +1,13 @@
-//! Misfit of the equation to a record that it does not describe.
+//! Misfit of the equation to a record that it does not describe, and score tests (Lagrange multiplier tests, Rao 1948)
+//! of the keys that are not free.
+
+use nalgebra::{DMatrix, DVector};
 
 use super::gauss_newton::SIGNIFICANT_RISE;
 use super::optimum::Optimum;
 use super::trial::Trials;
 use crate::error::Error;
 use crate::inverse::residual_tests::{Runs, Whiteness};
-
-/// Remedy for a misfit.
-pub(super) const MISFIT_HELP: &str = "check that the scene has all loads of the rig, and that its other values are right, or let another key be free";
 
 /// Misfit of the equation with the free keys and without a torque beside it.
 #[derive(Clone, Debug)]
@@ -17,7 +17,12 @@ pub(super) struct Misfit {
     runs: Runs,
     /// Whether the samples are significantly likelier with a torque beside the equation.
     pub misses_torque: bool,
+    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` expected then.
+    helpers: Vec<(String, f64)>,
 }
+
+/// Relative norm below which the part of a derivative orthogonal to those of other keys is rounding.
+const SCORE_ROUNDING: f64 = 1e-5;
 
 impl Misfit {
     /// Returns the misfit at an optimum; none if no torque is significant and the residuals are white (not for codes).
@@ -29,16 +34,49 @@ impl Misfit {
         let noise = trials.without_torque(&model);
         let with_torque = trials.likeliest(&model);
         let is_white = |errors: &[f64]| !Whiteness::of(errors.iter().copied()).is_violated();
-        let errors = trials.innovations(&model, &noise).standardised();
+        let base = trials.innovations(&model, &noise);
+        let errors = base.standardised();
         let is_code = trials.noise.is_infinite();
         let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT_RISE;
         if is_likely && (is_code || is_white(&errors)) {
             return Ok(None);
         }
+        let mut values = at.values.clone();
+        values.extend(trials.all[trials.count..].iter().map(|one| one.start));
+        let column = |k: usize| {
+            let step = trials.all[k].first_step();
+            let found = trials.derivatives(&values, k, step, &at.path, &base, &noise);
+            found.ok().map(DVector::from_vec)
+        };
+        let free = (0..trials.count).filter_map(column);
+        let free: Vec<_> = free.filter(|of| of.norm().is_finite()).collect();
+        let basis = DMatrix::from_fn(errors.len(), free.len(), |i, j| free[j][i]);
+        let basis = basis.qr().q();
+        let ratio = noise.sigma / with_torque.sigma.min(trials.noise);
+        let rest = beside(&basis, DVector::from_column_slice(&errors));
+        let score = |k: usize| {
+            let direction = beside(&basis, column(k)?)?;
+            let explained = direction.dot(rest.as_ref()?).powi(2);
+            let gain = -0.5 * errors.len() as f64 * (1.0 - explained).ln();
+            let left = (ratio * (1.0 - explained).sqrt()).max(1.0);
+            Some((trials.all[k].key.clone(), left, gain))
+        };
+        let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
+        helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
+        // Keys nearly as good as the best, and significantly better than none.
+        let least = helpers
+            .first()
+            .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
+        helpers.retain(|one| one.2 > SIGNIFICANT_RISE.max(least));
+        let helpers = helpers
+            .into_iter()
+            .map(|(key, left, _)| (key, left))
+            .collect();
         Ok(Some(Misfit {
-            ratio: noise.sigma / with_torque.sigma.min(trials.noise),
+            ratio,
             runs: Runs::of(&errors),
             misses_torque: !is_likely,
+            helpers,
         }))
     }
 
@@ -53,8 +91,30 @@ impl Misfit {
         )
     }
 
+    /// Describes remedies in words.
+    pub fn help(&self) -> String {
+        let load =
+            "check that the scene has all loads of the rig, and that its other values are right";
+        if self.helpers.is_empty() {
+            return load.to_owned();
+        }
+        let named = self.helpers.iter();
+        let named = named.map(|(key, left)| format!("`{key}` ({left:.2} times)"));
+        format!(
+            "residuals nearer to the noise are expected with one more key free: {}; or {load}",
+            named.collect::<Vec<_>>().join(", ")
+        )
+    }
+
     /// Returns the misfit as a refusal.
     pub fn refused(&self) -> Error {
-        Error::refused(self.words(), MISFIT_HELP)
+        Error::refused(self.words(), self.help())
     }
+}
+
+/// Returns the unit vector along the part of a vector orthogonal to an orthonormal basis; none if that is rounding.
+fn beside(basis: &DMatrix<f64>, vector: DVector<f64>) -> Option<DVector<f64>> {
+    let rest = &vector - basis * basis.tr_mul(&vector);
+    let left = rest.norm();
+    (left.is_finite() && left > SCORE_ROUNDING * vector.norm()).then(|| rest / left)
 }

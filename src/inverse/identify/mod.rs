@@ -19,7 +19,6 @@ pub use of_draft::{FreeKey, identify_keys};
 pub use values::{FreeValue, IdentifiedValue};
 
 use self::gauss_newton::Search;
-use self::misfit::MISFIT_HELP;
 use self::optimum::Found;
 use super::branch_choice::crank_angles;
 use super::first_path::coarse;
@@ -70,6 +69,18 @@ pub fn identify(
     free: &[FreeValue],
     measurement: &Measurement,
 ) -> Result<Identification, Error> {
+    identify_among(scene_at, free, free.len(), measurement)
+}
+
+/// Identifies the first `count` of the values; where the equation does not describe the record, score tests suggest
+/// which of the others to free.
+fn identify_among(
+    scene_at: &(dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
+    all: &[FreeValue],
+    count: usize,
+    measurement: &Measurement,
+) -> Result<Identification, Error> {
+    let free = &all[..count];
     check(free)?;
     let scene_at = &|values: &[f64]| Ok(measurement.known_in(&scene_at(values)?)?);
     let start: Vec<f64> = free.iter().map(|one| one.start).collect();
@@ -101,7 +112,7 @@ pub fn identify(
     if likeliest.noise.correlated.is_some() {
         smooth.noise = likeliest.noise;
     }
-    let search = Search::new(scene_at, free, &problem, &smooth);
+    let search = Search::new(scene_at, all, count, &problem, &smooth);
     // A crank read backwards is a possible reason why the equation does not describe the record.
     let found = search.run();
     let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
@@ -175,7 +186,7 @@ fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> 
             ),
             false => "the errors of the values do not hold".to_owned(),
         };
-        list.push(format!("{}; {errors}; {}", misfit.words(), MISFIT_HELP));
+        list.push(format!("{}; {errors}; {}", misfit.words(), misfit.help()));
     }
     let zero = free.iter().any(|one| one.is_sensor_zero);
     if zero && measurement.measured() == Measured::Gamma {

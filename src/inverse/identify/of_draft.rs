@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{FreeValue, Identification, identify};
+use super::{FreeValue, Identification, identify_among};
 use crate::error::Error;
 use crate::numeric::stop::Stop;
 use crate::scene::{Assigned, Draft, Measured, Measurement, NumberKey, Scene};
@@ -17,6 +17,31 @@ pub enum FreeKey {
 }
 
 const SENSOR_ZERO: &str = "sensor.zero";
+
+/// Keys examined by score tests: of the scene, and of each table in its lists of torques and forces.
+const TESTED: [&str; 12] = [
+    "geometry.crank",
+    "geometry.rod",
+    "geometry.offset",
+    "crank.mass",
+    "crank.cg",
+    "crank.inertia",
+    "rod.mass",
+    "rod.cg",
+    "rod.inertia",
+    "slider.mass",
+    "gravity.acceleration",
+    "gravity.direction",
+];
+const TESTED_OF_LOADS: [&str; 7] = [
+    "value",
+    "coefficient",
+    "stall",
+    "no_load_speed",
+    "stiffness",
+    "rest",
+    "bore",
+];
 
 impl FromStr for FreeKey {
     type Err = <NumberKey as FromStr>::Err;
@@ -74,14 +99,27 @@ pub fn identify_keys(
 ) -> Result<Identification, Error> {
     let scene = draft.scene()?;
     let crank = scene.geometry.crank;
+    let loads = [
+        ("torque", scene.torques.len()),
+        ("force", scene.forces.len()),
+    ];
     let value = |key: &FreeKey| key.value(draft, crank, measurement.measured());
-    let values = free.iter().map(value).collect::<Result<Vec<_>, Error>>()?;
+    let mut all = free.iter().map(value).collect::<Result<Vec<_>, Error>>()?;
+    let mut keys = free.to_vec();
+    for key in tested(loads) {
+        if let Ok(value) = value(&key)
+            && all.iter().all(|other| other.key != value.key)
+        {
+            keys.push(key);
+            all.push(value);
+        }
+    }
     let is_stopped = || stop.is_some_and(Stop::is_requested);
     let scene_at = |values: &[f64]| {
         if is_stopped() {
             return Err(Error::Interrupted);
         }
-        let numbers = free.iter().zip(values);
+        let numbers = keys.iter().zip(values);
         let numbers = numbers.filter_map(|(key, value)| match key {
             FreeKey::Key(key) => Some(Assigned {
                 key: *key,
@@ -93,8 +131,22 @@ pub fn identify_keys(
             .with_numbers(&numbers.collect::<Vec<_>>())
             .map(complete)
     };
-    match identify(&scene_at, &values, measurement) {
+    match identify_among(&scene_at, &all, free.len(), measurement) {
         _ if is_stopped() => Err(Error::Interrupted),
         found => found.map_err(|error| error.with_notes(measurement.notes())),
     }
+}
+
+/// Lists the keys for score tests of a scene with these numbers of torques and forces.
+fn tested(loads: [(&str, usize); 2]) -> Vec<FreeKey> {
+    let mut list = vec![FreeKey::SensorZero];
+    list.extend(TESTED.iter().filter_map(|key| key.parse::<FreeKey>().ok()));
+    for (load, count) in loads {
+        for number in 1..=count {
+            let keys = TESTED_OF_LOADS.iter();
+            let keys = keys.filter_map(|key| format!("{load}[{number}].{key}").parse().ok());
+            list.extend(keys.map(FreeKey::Key));
+        }
+    }
+    list
 }

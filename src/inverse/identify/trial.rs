@@ -19,7 +19,10 @@ pub(super) const MISSING: Prior = Prior::new(Unknown::Torque, 1);
 /// Scene as a function of its free values, and the record.
 pub(super) struct Trials<'a> {
     pub scene_at: &'a (dyn Fn(&[f64]) -> Result<Scene, Error> + Sync),
-    pub free: &'a [FreeValue],
+    /// Free values, followed by the candidates of score tests.
+    pub all: &'a [FreeValue],
+    /// Number of free values, the first of `all`.
+    pub count: usize,
     pub problem: &'a Problem<'a>,
     pub scales: Scales,
     /// Standard deviation of a sample about the motion without mechanics, rad or m; infinite for codes (known noise).
@@ -56,12 +59,17 @@ impl<const N: usize> Companion<N> for Innovations {
     }
 }
 
-impl Trials<'_> {
+impl<'a> Trials<'a> {
+    /// Returns the free values.
+    pub fn free(&self) -> &'a [FreeValue] {
+        &self.all[..self.count]
+    }
+
     /// Applies a function to the record with the mechanism of these values.
     pub fn with<T>(&self, values: &[f64], f: impl FnOnce(&Problem<'_>) -> T) -> Result<T, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
-        let of_sensor = self.free.iter().zip(values);
+        let of_sensor = self.all.iter().zip(values);
         let zero: f64 = of_sensor
             .filter(|(free, _)| free.is_sensor_zero)
             .map(|(_, value)| *value)
