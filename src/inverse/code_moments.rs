@@ -155,7 +155,7 @@ impl Problem<'_> {
             }
             smoothed.estimates =
                 self.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise);
-            smoothed.torque = path.torque.clone();
+            smoothed.repeating = path.repeating.clone();
             if is_last {
                 break;
             }

@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use super::grid::Path;
-use super::harmonics::StateTorque;
 use super::linearised::State;
 use super::prior::{Prior, Unknown};
 use super::problem::Problem;
@@ -51,7 +50,7 @@ impl Problem<'_> {
         };
         Path {
             states: ranges.iter().flat_map(along).collect(),
-            torque: StateTorque::default(),
+            repeating: None,
             ranges,
         }
     }

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::harmonics::StateTorque;
+use super::harmonics::Repeating;
 use super::linearised::State;
+use super::prior::Prior;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]
@@ -23,8 +24,8 @@ pub(super) struct Path {
     pub ranges: Vec<Range<usize>>,
     /// State at each of these nodes.
     pub states: Vec<State>,
-    /// Torque that follows the state, as far as it is known.
-    pub torque: StateTorque,
+    /// Torque that repeats, as far as it is known.
+    pub repeating: Option<Repeating>,
 }
 
 /// A stretch of a path.
@@ -41,7 +42,7 @@ impl Path {
         Path {
             ranges: std::iter::once(0..states.len()).collect(),
             states,
-            torque: StateTorque::default(),
+            repeating: None,
         }
     }
 
@@ -67,9 +68,16 @@ impl Path {
         let pieces = ranges.iter().map(|range| self.piece(range).states);
         Path {
             states: pieces.flatten().copied().collect(),
-            torque: self.torque.clone(),
+            repeating: self.repeating.clone(),
             ranges,
         }
+    }
+
+    /// The derivatives of the torque that follows the state by θ and ω: of what repeats, and of g ω.
+    pub fn slopes(&self, prior: Prior, state: &State) -> [f64; 2] {
+        let repeating = self.repeating.as_ref();
+        let [by_theta, by_omega] = repeating.map_or([0.0; 2], |torque| torque.slopes(state));
+        [by_theta, by_omega + prior.by_speed(state)]
     }
 
     /// Root mean square of the speed, rad/s.

@@ -1,26 +1,9 @@
-//! Torque that is a function of the state: g ω, and harmonics of the crank angle.
+//! Harmonics of the crank angle, whose amplitudes may follow the speed.
 
 use std::iter;
 
 use super::linearised::State;
 use super::prior::Prior;
-
-/// Torque that follows the state, as known from a smoothed motion.
-#[derive(Clone, Debug, Default)]
-pub(super) struct StateTorque {
-    /// Mean of g, N m s; 0 without.
-    pub by_speed: f64,
-    pub repeating: Option<Repeating>,
-}
-
-impl StateTorque {
-    /// Returns the derivatives by θ and ω at a state.
-    pub fn slopes(&self, state: &State) -> [f64; 2] {
-        let repeating = self.repeating.as_ref();
-        let [by_theta, by_omega] = repeating.map_or([0.0; 2], |torque| torque.slopes(state));
-        [by_theta, by_omega + self.by_speed]
-    }
-}
 
 /// A torque that repeats, N m.
 #[derive(Clone, Debug)]
@@ -32,7 +15,8 @@ pub(super) struct Repeating {
 }
 
 impl Repeating {
-    fn slopes(&self, [theta, omega, ..]: &State) -> [f64; 2] {
+    /// Returns the derivatives by θ and ω at a state.
+    pub fn slopes(&self, [theta, omega, ..]: &State) -> [f64; 2] {
         let cycle = f64::from(self.prior.cycle);
         let pairs = cosines_and_sines(theta / cycle, self.prior.harmonics);
         let pairs = pairs.chunks_exact(2);

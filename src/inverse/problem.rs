@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path, hermite};
-use super::harmonics::{Increments, Repeating, StateTorque};
+use super::harmonics::{Increments, Repeating};
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates, State};
@@ -87,8 +87,8 @@ impl<'a> Problem<'a> {
         let piece = path.piece(&range);
         let states = piece.states;
         let pairs = times.iter().zip(states);
-        let rates =
-            pairs.map(|(t, state)| motion.rates_following(path.torque.slopes(state), *t, state));
+        let rates = pairs
+            .map(|(t, state)| motion.rates_following(path.slopes(motion.prior, state), *t, state));
         let rates: Vec<Rates> = rates.collect();
         let steps = (0..states.len() - 1).map(|k| {
             let ends = [&states[k], &states[k + 1]];
@@ -192,15 +192,11 @@ impl<'a> Problem<'a> {
         let coefficients = parallel::map(jobs.into_iter(), job);
         // What repeats is found along the whole path, in one piece.
         let coefficients = coefficients.into_iter().flatten().next();
-        let by_speed = found.iter().map(|one| motion.prior.by_speed(&one.state));
-        path.torque = StateTorque {
-            by_speed: by_speed.sum::<f64>() / found.len() as f64,
-            repeating: coefficients.map(|coefficients| Repeating {
-                prior: motion.prior,
-                coefficients,
-                speed: path.speed(),
-            }),
-        };
+        path.repeating = coefficients.map(|coefficients| Repeating {
+            prior: motion.prior,
+            coefficients,
+            speed: path.speed(),
+        });
         found
     }
 
@@ -232,11 +228,11 @@ impl<'a> Problem<'a> {
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = piece.states[at];
                 // The model has the deviation of u less what follows θ and ω.
-                let slopes = path.torque.slopes(&state);
+                let slopes = path.slopes(motion.prior, &state);
                 state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
                 let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
                 pairs.for_each(|(value, change)| *value += change);
-                let slopes = path.torque.slopes(&state);
+                let slopes = path.slopes(motion.prior, &state);
                 let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
                 let p = &deviation.covariance;

@@ -4,7 +4,7 @@
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::harmonics::StateTorque;
+use super::harmonics::Repeating;
 use super::likelihood::{Linear, Stretch};
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
@@ -19,8 +19,8 @@ pub(super) struct Smoothed {
     pub noise: Noise,
     pub scales: Scales,
     pub estimates: Vec<Estimate>,
-    /// Torque that follows the state.
-    pub torque: StateTorque,
+    /// Torque that repeats.
+    pub repeating: Option<Repeating>,
     /// Whether the iterations came to rest.
     pub converged: bool,
 }
@@ -39,7 +39,7 @@ impl Smoothed {
     pub fn path(&self) -> Path {
         let states = self.estimates.iter().map(|e| e.state);
         Path {
-            torque: self.torque.clone(),
+            repeating: self.repeating.clone(),
             ..Path::whole(states.collect())
         }
     }
@@ -144,7 +144,7 @@ impl Problem<'_> {
             noise,
             scales,
             estimates: Vec::new(),
-            torque: StateTorque::default(),
+            repeating: None,
             converged: false,
         };
         let mut is_at_rest = false;
@@ -185,7 +185,7 @@ impl Problem<'_> {
                     prior,
                     noise,
                     estimates,
-                    torque: path.torque.clone(),
+                    repeating: path.repeating.clone(),
                     converged: is_at_rest,
                     ..result
                 };
