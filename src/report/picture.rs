@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb::Database};
+use resvg::usvg::{Options, Tree, WriteOptions, fontdb::Database};
 
 use super::Output;
 use super::figure::PIXELS_PER_INCH;
@@ -46,7 +46,7 @@ impl Picture {
                     dpi: PIXELS_PER_INCH as f32,
                 };
                 let options = svg2pdf::ConversionOptions::default();
-                svg2pdf::to_pdf(&tree(svg)?, options, page).map_err(failed)?
+                svg2pdf::to_pdf(&outlines(svg)?, options, page).map_err(failed)?
             }
             _ => return self.output.text(svg),
         };
@@ -65,6 +65,12 @@ fn tree(svg: &str) -> Result<Tree, Error> {
         ..Options::default()
     };
     Tree::from_str(svg, &options).map_err(failed)
+}
+
+/// Returns the tree of a figure with its text as outlines: a PDF needs no fonts then.
+fn outlines(svg: &str) -> Result<Tree, Error> {
+    let svg = tree(svg)?.to_string(&WriteOptions::default());
+    Tree::from_str(&svg, &Options::default()).map_err(failed)
 }
 
 /// Renders a figure at `scale` pixels per pixel of the figure.
@@ -87,5 +93,24 @@ pub(super) fn failed(reason: impl ToString) -> Error {
     Error::Write {
         target: "figure".to_owned(),
         source: std::io::Error::other(reason.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{WriteOptions, outlines};
+
+    #[test]
+    fn text_becomes_outlines() {
+        let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" width="60" height="20"><text y="15" font-family="sans-serif">θ [°]</text></svg>"#;
+        let kept = WriteOptions {
+            preserve_text: true,
+            ..WriteOptions::default()
+        };
+        let drawn = outlines(svg).expect("a figure").to_string(&kept);
+        assert!(
+            drawn.contains("<path") && !drawn.contains("<text"),
+            "{drawn}"
+        );
     }
 }
