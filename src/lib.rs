@@ -52,6 +52,35 @@
 //!
 //! All values are f64 in SI units and radians; [`mechanism::Linkage`] states the sign conventions.
 
+/// Declares an enum whose values have names, those in files, options and outputs: with `NAMES`, `ALL`, `name`, `named`.
+macro_rules! named {
+    ($(#[$about:meta])* pub enum $Enum:ident { $($(#[$meaning:meta])* $Value:ident = $name:literal,)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $Enum {
+            $($(#[$meaning])* $Value,)*
+        }
+
+        impl $Enum {
+            /// Names of all values, in order.
+            pub const NAMES: &[&str] = &[$($name),*];
+
+            /// All values, in order.
+            pub const ALL: [$Enum; $Enum::NAMES.len()] = [$($Enum::$Value),*];
+
+            /// Returns the name in files, options and outputs.
+            pub const fn name(self) -> &'static str {
+                $Enum::NAMES[self as usize]
+            }
+
+            /// Returns the value with this name.
+            pub fn named(name: &str) -> Option<$Enum> {
+                $Enum::ALL.into_iter().find(|one| one.name() == name)
+            }
+        }
+    };
+}
+
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;

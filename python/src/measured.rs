@@ -132,8 +132,7 @@ pub fn inverse<'py>(
     reactions: bool,
     beside_forces: bool,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, String, Recovered)> {
-    let fit = FitKind::ALL.into_iter().find(|kind| kind.name() == fit);
-    let fit = fit.ok_or_else(|| {
+    let fit = FitKind::named(fit).ok_or_else(|| {
         refused(
             "there is no such fit",
             "the fit is \"auto\", \"polynomial\" or \"smoother\"",

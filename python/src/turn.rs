@@ -44,7 +44,7 @@ pub fn kinematics<'py>(
 ) -> PyResult<(Bound<'py, PyDict>, String, Turn)> {
     let every = spacing(every)?;
     let change = change.iter().map(|(name, text)| {
-        let length = Length::ALL.into_iter().find(|length| length.name() == name);
+        let length = Length::named(name);
         let length = length.ok_or_else(|| {
             refused(
                 format!("`{name}` is no length"),

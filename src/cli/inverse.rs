@@ -52,8 +52,7 @@ pub(super) struct Arguments {
 }
 
 fn kind(text: &str) -> Result<FitKind, String> {
-    let found = FitKind::ALL.into_iter().find(|kind| kind.name() == text);
-    found.ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
+    FitKind::named(text).ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
 }
 
 fn size(text: &str) -> Result<FitSize, String> {

@@ -92,16 +92,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
 }
 
 fn diagram(text: &str) -> Result<Diagram, String> {
-    let known = Diagram::ALL.into_iter().find(|known| known.name() == text);
-    known.ok_or_else(|| format!("known are {}", Diagram::ALL.map(Diagram::name).join(", ")))
+    Diagram::named(text).ok_or_else(|| format!("known are {}", Diagram::NAMES.join(", ")))
 }
 
 /// Parses a length and its new value, m.
 fn change(text: &str) -> Result<(Length, f64), String> {
     let help = "write it like \"crank=150 mm\"; the keys are crank, rod and offset";
     let (key, value) = text.split_once('=').ok_or(help)?;
-    let mut lengths = Length::ALL.into_iter();
-    let length = lengths.find(|length| length.name() == key.trim());
-    let value = any_length(value.trim())?;
+    let (length, value) = (Length::named(key.trim()), any_length(value.trim())?);
     Ok((length.ok_or(help)?, value))
 }

@@ -25,8 +25,7 @@ pub(super) struct Arguments {
 }
 
 fn paper(name: &str) -> Result<Paper, String> {
-    let names = || Paper::ALL.map(Paper::name).join(", ");
-    Paper::named(name).ok_or_else(|| format!("the papers are {}", names()))
+    Paper::named(name).ok_or_else(|| format!("the papers are {}", Paper::NAMES.join(", ")))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {

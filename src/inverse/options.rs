@@ -2,28 +2,15 @@
 
 use crate::numeric::stop::Stop;
 
-/// Method of motion estimation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FitKind {
-    /// Polynomial within one turn where it leaves only noise and has the lower AICc, else the smoother.
-    Auto,
-    /// A polynomial of the crank angle over time.
-    Polynomial,
-    /// The iterated extended Kalman smoother.
-    Smoother,
-}
-
-impl FitKind {
-    /// All methods.
-    pub const ALL: [FitKind; 3] = [FitKind::Auto, FitKind::Polynomial, FitKind::Smoother];
-
-    /// Returns the name in options and outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            FitKind::Auto => "auto",
-            FitKind::Polynomial => "polynomial",
-            FitKind::Smoother => "smoother",
-        }
+named! {
+    /// Method of motion estimation.
+    pub enum FitKind {
+        /// Polynomial within one turn where it leaves only noise and has the lower AICc, else the smoother.
+        Auto = "auto",
+        /// A polynomial of the crank angle over time.
+        Polynomial = "polynomial",
+        /// The iterated extended Kalman smoother.
+        Smoother = "smoother",
     }
 }
 

@@ -8,17 +8,18 @@ use super::linkage::SAME_LENGTHS;
 use crate::numeric::angle::in_turn;
 use crate::numeric::exact::sum3;
 
-/// Class of the mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Class {
-    /// l − r > |e|: the crank turns fully.
-    RotatingCrank,
-    /// r − l > |e|: the crank rocks, the rod turns fully.
-    RotatingRod,
-    /// |l − r| < |e| < l + r: both rock.
-    DoubleRocker,
-    /// On a border between two classes, to a few units in the last place of the lengths.
-    ChangePoint,
+named! {
+    /// Class of the mechanism.
+    pub enum Class {
+        /// l − r > |e|: the crank turns fully.
+        RotatingCrank = "rotating-crank",
+        /// r − l > |e|: the crank rocks, the rod turns fully.
+        RotatingRod = "rotating-rod",
+        /// |l − r| < |e| < l + r: both rock.
+        DoubleRocker = "double-rocker",
+        /// On a border between two classes, to a few units in the last place of the lengths.
+        ChangePoint = "change-point",
+    }
 }
 
 impl Class {
@@ -37,16 +38,6 @@ impl Class {
             Class::RotatingRod
         } else {
             Class::DoubleRocker
-        }
-    }
-
-    /// Returns the name in outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Class::RotatingCrank => "rotating-crank",
-            Class::RotatingRod => "rotating-rod",
-            Class::DoubleRocker => "double-rocker",
-            Class::ChangePoint => "change-point",
         }
     }
 }

@@ -5,30 +5,19 @@
 
 use super::{Linkage, Pose};
 
-/// A length of the mechanism.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Length {
-    /// Crank length r.
-    Crank,
-    /// Rod length l.
-    Rod,
-    /// Offset e.
-    Offset,
+named! {
+    /// A length of the mechanism, named and in order as in the scene file.
+    pub enum Length {
+        /// Crank length r.
+        Crank = "crank",
+        /// Rod length l.
+        Rod = "rod",
+        /// Offset e.
+        Offset = "offset",
+    }
 }
 
 impl Length {
-    /// All lengths, in the order of the scene file.
-    pub const ALL: [Length; 3] = [Length::Crank, Length::Rod, Length::Offset];
-
-    /// Returns the key in the scene file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Length::Crank => "crank",
-            Length::Rod => "rod",
-            Length::Offset => "offset",
-        }
-    }
-
     /// Returns the derivatives of (r, l, e) with respect to this length.
     fn unit(self) -> [f64; 3] {
         match self {

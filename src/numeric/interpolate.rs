@@ -7,13 +7,16 @@ use super::angle::TAU_REST;
 use super::enclosure::{Enclosed, Interval, Rectangle};
 use super::exact::two_product;
 
-/// Method of interpolation between two rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Straight lines.
-    Linear,
-    /// Cubic Hermite pieces that keep the monotony of the data.
-    Pchip,
+named! {
+    /// Method of interpolation between two rows.
+    #[derive(Default)]
+    pub enum Interpolation {
+        /// Cubic Hermite pieces that keep the monotony of the data.
+        #[default]
+        Pchip = "pchip",
+        /// Straight lines.
+        Linear = "linear",
+    }
 }
 
 /// Interpolating curve through given points.

@@ -25,55 +25,35 @@ use crate::mechanism::{Class, Curve, Linkage, Loads};
 use crate::numeric::angle::Angle;
 use crate::scene::{MotionKind, Scene, Variable};
 
-/// Engine that computes a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Engine {
-    /// Prescribed crank speed: the equation gives the driving torque, without integration.
-    ClosedForm,
-    /// Energy integral, for loads that depend on the position alone.
-    Energy,
-    /// Crank angle as the independent variable, for loads that may also depend on speed and time.
-    Angle,
-    /// Integration in time.
-    Time,
-    /// Integration in time of flight and contact in a joint with clearance.
-    Contact,
-}
-
-impl Engine {
-    /// Returns the name in outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Engine::ClosedForm => "closed-form",
-            Engine::Energy => "energy",
-            Engine::Angle => "angle",
-            Engine::Time => "time",
-            Engine::Contact => "contact",
-        }
+named! {
+    /// Engine that computes a motion.
+    #[derive(Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Engine {
+        /// Prescribed crank speed: the equation gives the driving torque, without integration.
+        ClosedForm = "closed-form",
+        /// Energy integral, for loads that depend on the position alone.
+        Energy = "energy",
+        /// Crank angle as the independent variable, for loads that may also depend on speed and time.
+        Angle = "angle",
+        /// Integration in time.
+        Time = "time",
+        /// Integration in time of flight and contact in a joint with clearance.
+        Contact = "contact",
     }
 }
 
-/// One-step method of the time engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stepper {
-    /// Gauss collocation with 12 nodes (order 24), solved by Picard iteration.
-    Picard,
-    /// Dormand and Prince, order 8(5,3), of ode_solvers.
-    Dop853,
-    /// Dormand and Prince, order 5(4), of ode_solvers.
-    Dopri5,
-}
-
-impl Stepper {
-    /// Returns the name in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Stepper::Picard => "Gauss collocation of order 24, by Picard sweeps",
-            Stepper::Dop853 => "Dop853 of ode_solvers",
-            Stepper::Dopri5 => "Dopri5 of ode_solvers",
-        }
+named! {
+    /// One-step method of the time engine, named in words.
+    #[derive(Serialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Stepper {
+        /// Gauss collocation with 12 nodes (order 24), solved by Picard iteration.
+        Picard = "Gauss collocation of order 24, by Picard sweeps",
+        /// Dormand and Prince, order 8(5,3), of ode_solvers.
+        Dop853 = "Dop853 of ode_solvers",
+        /// Dormand and Prince, order 5(4), of ode_solvers.
+        Dopri5 = "Dopri5 of ode_solvers",
     }
 }
 

@@ -34,7 +34,9 @@ pub(super) fn tight_runs(
     let mut scene = scene.clone();
     let tightest = 1e-13;
     scene.run.tolerance = tightest;
-    let methods = Method::each().filter(|method| *method != Method::Auto);
+    let methods = Method::ALL
+        .into_iter()
+        .filter(|method| *method != Method::Auto);
     let runs = methods.filter_map(|method| {
         let run = run(&scene, method, true, options).ok()?;
         let error = run.error_estimate.filter(|_| run.stopped.is_none())?;

@@ -200,7 +200,10 @@ pub fn precision_against(
     let mut cells = Vec::new();
     // A loose joint has one engine, run as `Method::Auto`.
     let loose = plan.engine == Engine::Contact;
-    for method in Method::each().filter(|method| (*method == Method::Auto) == loose) {
+    for method in Method::ALL
+        .into_iter()
+        .filter(|method| (*method == Method::Auto) == loose)
+    {
         if let Err(refused) = Plan::new(&scene, method) {
             if (method == Method::ClosedForm) == (plan.engine == Engine::ClosedForm) {
                 left_out.push(first_line(&refused));

@@ -9,42 +9,23 @@ use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
 use crate::scene::{Load, Scene};
 use crate::simulate::Reactions;
 
-/// Diagram of forces over a cycle at constant speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Diagram {
-    /// Driving torque, its mean, and the areas between them.
-    TurningMoment,
-    /// Pressure over swept volume.
-    PressureVolume,
-    /// Loads on crank pin and crank bearing in the crank frame, on crank bearing and wrist pin in the fixed frame.
-    Polar,
-    /// Amplitudes of shaking force and driving torque by order.
-    Orders,
-    /// Shaking force, without and with the counterweight.
-    Balance,
+named! {
+    /// Diagram of forces over a cycle at constant speed.
+    pub enum Diagram {
+        /// Driving torque, its mean, and the areas between them.
+        TurningMoment = "turning-moment",
+        /// Pressure over swept volume.
+        PressureVolume = "pressure-volume",
+        /// Loads on crank pin and crank bearing in the crank frame, on crank bearing and wrist pin in the fixed frame.
+        Polar = "polar",
+        /// Amplitudes of shaking force and driving torque by order.
+        Orders = "orders",
+        /// Shaking force, without and with the counterweight.
+        Balance = "balance",
+    }
 }
 
 impl Diagram {
-    /// All diagrams.
-    pub const ALL: [Diagram; 5] = [
-        Diagram::TurningMoment,
-        Diagram::PressureVolume,
-        Diagram::Polar,
-        Diagram::Orders,
-        Diagram::Balance,
-    ];
-
-    /// Returns the name of the diagram on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Diagram::TurningMoment => "turning-moment",
-            Diagram::PressureVolume => "pressure-volume",
-            Diagram::Polar => "polar",
-            Diagram::Orders => "orders",
-            Diagram::Balance => "balance",
-        }
-    }
-
     /// Returns the diagram as SVG; none if the scene lacks the load or cycle it shows.
     ///
     /// # Errors

@@ -2,25 +2,15 @@
 
 use serde::{Serialize, Serializer};
 
-/// Verdict on a printed number or formula.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The computed value agrees with the printed one.
-    Reproduces,
-    /// The printed value reproduces only under the stated condition.
-    OnlyIf,
-    /// The printed value does not reproduce, and no condition is known under which it would.
-    Cannot,
-}
-
-impl Verdict {
-    /// Returns the verdict in words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Verdict::Reproduces => "reproduces",
-            Verdict::OnlyIf => "reproduces only if",
-            Verdict::Cannot => "cannot be reproduced",
-        }
+named! {
+    /// Verdict on a printed number or formula.
+    pub enum Verdict {
+        /// The computed value agrees with the printed one.
+        Reproduces = "reproduces",
+        /// The printed value reproduces only under the stated condition.
+        OnlyIf = "reproduces only if",
+        /// The printed value does not reproduce, and no condition is known under which it would.
+        Cannot = "cannot be reproduced",
     }
 }
 

@@ -15,35 +15,22 @@ pub use drawing::{Drawing, Plot, Series, Style};
 pub use entry::{Entry, Verdict};
 use formulas::PaperFormulas;
 
-/// Paper on the slider-crank.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Paper {
-    /// Obaseki and Alfred 2020, Modeling and investigating the effect of offset distance on slider-crank
-    /// mechanism.
-    ObasekiAlfred,
-    /// Gupta, Offset slider-crank mechanism.
-    Gupta,
-    /// Ng, A slider-crank experiment to determine the action of static forces.
-    Ng,
-    /// Duarte, Valencia and Obregon 2018, Application of Lagrange equations in the analysis of slider-crank
-    /// mechanisms.
-    Duarte,
+named! {
+    /// Paper on the slider-crank.
+    pub enum Paper {
+        /// Obaseki and Alfred 2020, Modeling and investigating the effect of offset distance on slider-crank mechanism.
+        ObasekiAlfred = "obaseki-alfred",
+        /// Gupta, Offset slider-crank mechanism.
+        Gupta = "gupta",
+        /// Ng, A slider-crank experiment to determine the action of static forces.
+        Ng = "ng",
+        /// Duarte, Valencia and Obregon 2018, Application of Lagrange equations in the analysis of slider-crank
+        /// mechanisms.
+        Duarte = "duarte",
+    }
 }
 
 impl Paper {
-    /// All papers.
-    pub const ALL: [Paper; 4] = [Paper::ObasekiAlfred, Paper::Gupta, Paper::Ng, Paper::Duarte];
-
-    /// Returns the name of the paper in arguments and file names.
-    pub fn name(self) -> &'static str {
-        match self {
-            Paper::ObasekiAlfred => "obaseki-alfred",
-            Paper::Gupta => "gupta",
-            Paper::Ng => "ng",
-            Paper::Duarte => "duarte",
-        }
-    }
-
     /// Returns the authors.
     pub fn authors(self) -> &'static str {
         match self {
@@ -52,11 +39,6 @@ impl Paper {
             Paper::Ng => "Ng",
             Paper::Duarte => "Duarte et al.",
         }
-    }
-
-    /// Returns the paper of a name.
-    pub fn named(name: &str) -> Option<Paper> {
-        Paper::ALL.into_iter().find(|paper| paper.name() == name)
     }
 }
 

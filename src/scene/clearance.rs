@@ -64,48 +64,33 @@ impl Clearance {
     }
 }
 
-/// A revolute joint of the connecting rod.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Joint {
-    /// Joint A of crank and rod.
-    CrankPin,
-    /// Joint P of rod and slider.
-    WristPin,
+named! {
+    /// A revolute joint of the connecting rod.
+    pub enum Joint {
+        /// Joint A of crank and rod.
+        CrankPin = "crank-pin",
+        /// Joint P of rod and slider.
+        WristPin = "wrist-pin",
+    }
 }
 
-/// Law of the normal contact force F = K δ^1.5 (1 + D δ̇/δ̇₀), with the penetration δ and its rate δ̇₀ at the beginning
-/// of the contact. The laws differ in how D follows from the coefficient of restitution e.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ContactLaw {
-    /// Lankarani and Nikravesh, J. Mech. Design 112 (1990) 369: D = 3(1 − e²)/4, for e near 1.
-    #[default]
-    LankaraniNikravesh,
-    /// Hunt and Crossley, J. Appl. Mech. 42 (1975) 440: D = 3(1 − e)/2, for e near 1.
-    HuntCrossley,
-    /// Flores, Machado, Silva and Martins, Multibody Syst. Dyn. 25 (2011) 357: D = 8(1 − e)/(5e).
-    Flores,
-    /// Gonthier, McPhee, Lange and Piedbœuf, Multibody Syst. Dyn. 11 (2004) 209: D = (1 − e²)/e.
-    Gonthier,
-    /// Hertz: D = 0, no energy loss at any restitution.
-    Hertz,
-    /// Massless link: journal and bearing always in contact, their centres at the distance of the radial clearance.
-    MasslessLink,
-}
-
-impl ContactLaw {
-    /// Every law with its name in scene files.
-    pub const ALL: [(&'static str, ContactLaw); 6] = [
-        ("lankarani-nikravesh", ContactLaw::LankaraniNikravesh),
-        ("hunt-crossley", ContactLaw::HuntCrossley),
-        ("flores", ContactLaw::Flores),
-        ("gonthier", ContactLaw::Gonthier),
-        ("hertz", ContactLaw::Hertz),
-        ("massless-link", ContactLaw::MasslessLink),
-    ];
-
-    /// Returns the name in scene files.
-    pub fn name(self) -> &'static str {
-        let own = Self::ALL.iter().find(|(_, law)| *law == self);
-        own.map_or("", |(name, _)| name)
+named! {
+    /// Law of the normal contact force F = K δ^1.5 (1 + D δ̇/δ̇₀), with the penetration δ and its rate δ̇₀ at the
+    /// beginning of the contact. The laws differ in how D follows from the coefficient of restitution e.
+    #[derive(Default)]
+    pub enum ContactLaw {
+        /// Lankarani and Nikravesh, J. Mech. Design 112 (1990) 369: D = 3(1 − e²)/4, for e near 1.
+        #[default]
+        LankaraniNikravesh = "lankarani-nikravesh",
+        /// Hunt and Crossley, J. Appl. Mech. 42 (1975) 440: D = 3(1 − e)/2, for e near 1.
+        HuntCrossley = "hunt-crossley",
+        /// Flores, Machado, Silva and Martins, Multibody Syst. Dyn. 25 (2011) 357: D = 8(1 − e)/(5e).
+        Flores = "flores",
+        /// Gonthier, McPhee, Lange and Piedbœuf, Multibody Syst. Dyn. 11 (2004) 209: D = (1 − e²)/e.
+        Gonthier = "gonthier",
+        /// Hertz: D = 0, no energy loss at any restitution.
+        Hertz = "hertz",
+        /// Massless link: journal and bearing always in contact, their centres at the distance of the radial clearance.
+        MasslessLink = "massless-link",
     }
 }

@@ -15,14 +15,16 @@ pub struct Geometry {
     pub branch: Branch,
 }
 
-/// Assembly branch: the sign s in x = r cos θ + s l cos φ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Branch {
-    /// Right branch, s = +1.
-    #[default]
-    Right,
-    /// Left branch, s = −1.
-    Left,
+named! {
+    /// Assembly branch: the sign s in x = r cos θ + s l cos φ.
+    #[derive(Default)]
+    pub enum Branch {
+        /// Right branch, s = +1.
+        #[default]
+        Right = "right",
+        /// Left branch, s = −1.
+        Left = "left",
+    }
 }
 
 impl Branch {
@@ -77,28 +79,32 @@ impl Rod {
     }
 }
 
-/// Reference point of the rod's moment of inertia.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum InertiaAbout {
-    /// The centre of gravity.
-    #[default]
-    Cg,
-    /// The crank pin A.
-    CrankPin,
+named! {
+    /// Reference point of the rod's moment of inertia.
+    #[derive(Default)]
+    pub enum InertiaAbout {
+        /// The centre of gravity.
+        #[default]
+        Cg = "cg",
+        /// The crank pin A.
+        CrankPin = "crank-pin",
+    }
 }
 
-/// Model of the mass of the connecting rod.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RodModel {
-    /// A rigid body.
-    #[default]
-    Rigid,
-    /// Two point masses at the pins that keep the centre of gravity (Obaseki & Alfred (31)-(36)).
-    TwoMass,
-    /// Spin energy only, and the potential as printed (Duarte et al. (7), (8)).
-    SpinOnly,
-    /// No mass.
-    Massless,
+named! {
+    /// Model of the mass of the connecting rod.
+    #[derive(Default)]
+    pub enum RodModel {
+        /// A rigid body.
+        #[default]
+        Rigid = "rigid",
+        /// Two point masses at the pins that keep the centre of gravity (Obaseki & Alfred (31)-(36)).
+        TwoMass = "two-mass",
+        /// Spin energy only, and the potential as printed (Duarte et al. (7), (8)).
+        SpinOnly = "spin-only",
+        /// No mass.
+        Massless = "massless",
+    }
 }
 
 /// Mass of the slider.
@@ -159,14 +165,16 @@ pub struct Motion {
     pub speed: f64,
 }
 
-/// Kind of crank motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MotionKind {
-    /// Motion by the equation of motion.
-    #[default]
-    Free,
-    /// Constant speed, prescribed by the scene.
-    ConstantSpeed,
+named! {
+    /// Kind of crank motion.
+    #[derive(Default)]
+    pub enum MotionKind {
+        /// Motion by the equation of motion.
+        #[default]
+        Free = "free",
+        /// Constant speed, prescribed by the scene.
+        ConstantSpeed = "constant-speed",
+    }
 }
 
 /// Extent, output and accuracy of a run.

@@ -4,38 +4,26 @@ use std::fmt;
 
 use super::unit::Quantity;
 
-/// Variable on which a load can depend.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Variable {
-    /// Time, s
-    T,
-    /// Crank angle, rad, unwrapped
-    Theta,
-    /// Crank speed, rad/s
-    Omega,
-    /// Slider position, m
-    X,
-    /// Slider velocity, m/s
-    V,
+named! {
+    /// Variable on which a load can depend, in the order of [`Instant`].
+    pub enum Variable {
+        /// Time, s
+        T = "t",
+        /// Crank angle, rad, unwrapped
+        Theta = "theta",
+        /// Crank speed, rad/s
+        Omega = "omega",
+        /// Slider position, m
+        X = "x",
+        /// Slider velocity, m/s
+        V = "v",
+    }
 }
 
 impl Variable {
-    /// All variables, in the order of [`Instant`].
-    pub const ALL: [Variable; 5] = [Self::T, Self::Theta, Self::Omega, Self::X, Self::V];
-
-    /// Returns the name in expressions and scene files.
-    pub fn name(self) -> &'static str {
-        ["t", "theta", "omega", "x", "v"][self as usize]
-    }
-
     pub(super) fn quantity(self) -> Quantity {
         use Quantity::{Angle, AngularSpeed, Length, Time, Velocity};
         [Time, Angle, AngularSpeed, Length, Velocity][self as usize]
-    }
-
-    /// Returns the variable with this name.
-    pub fn named(name: &str) -> Option<Variable> {
-        Self::ALL.into_iter().find(|v| v.name() == name)
     }
 }
 

@@ -7,28 +7,17 @@ use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
 
-/// Extent to which a design could be computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// All results were computed.
-    Done,
-    /// The motion ended before the end of the run.
-    Stopped,
-    /// The scene is valid, but diagrams, steady state or motion cannot be computed.
-    Refused,
-    /// The values give no valid scene.
-    Impossible,
-}
-
-impl Outcome {
-    /// Returns the name used in CSV and JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Outcome::Done => "done",
-            Outcome::Stopped => "stopped",
-            Outcome::Refused => "refused",
-            Outcome::Impossible => "impossible",
-        }
+named! {
+    /// Extent to which a design could be computed.
+    pub enum Outcome {
+        /// All results were computed.
+        Done = "done",
+        /// The motion ended before the end of the run.
+        Stopped = "stopped",
+        /// The scene is valid, but diagrams, steady state or motion cannot be computed.
+        Refused = "refused",
+        /// The values give no valid scene.
+        Impossible = "impossible",
     }
 }
 

@@ -83,10 +83,7 @@ fn geometry(values: &Values, default: Geometry) -> Geometry {
         crank: number("crank", default.crank),
         rod: number("rod", default.rod),
         offset: number("offset", default.offset),
-        branch: match values.text("branch") {
-            Some("left") => Branch::Left,
-            _ => Branch::Right,
-        },
+        branch: values.choice("branch", Branch::named).unwrap_or_default(),
     }
 }
 
@@ -106,21 +103,18 @@ fn friction(values: &Values) -> Option<Friction> {
 }
 
 fn clearance(values: &Values) -> Option<Clearance> {
-    let joint = match values.text("joint")? {
-        "wrist-pin" => Joint::WristPin,
-        _ => Joint::CrankPin,
-    };
+    let joint = values.choice("joint", Joint::named)?;
     let default = Clearance::new(joint, values.number("radial")?);
     let number = |key: &str, default: f64| values.number(key).unwrap_or(default);
-    let word = values.text("contact_law");
-    let law = ContactLaw::ALL.iter().find(|(name, _)| word == Some(*name));
     Some(Clearance {
         bearing_radius: values.number("bearing_radius"),
         young_modulus: values.number("young_modulus"),
         poisson_ratio: values.number("poisson_ratio"),
         restitution: values.number("restitution"),
         friction: values.number("friction"),
-        law: law.map_or(default.law, |(_, law)| *law),
+        law: values
+            .choice("contact_law", ContactLaw::named)
+            .unwrap_or_default(),
         friction_threshold: number("friction_threshold", default.friction_threshold),
         least_approach_speed: number("least_approach_speed", default.least_approach_speed),
         eccentricity: values.number("eccentricity"),
@@ -130,13 +124,10 @@ fn clearance(values: &Values) -> Option<Clearance> {
 }
 
 fn motion(check: &mut Check, values: &Values) -> Motion {
-    let kind = values.text("kind").unwrap_or("free");
-    check_keys(check, values, kind);
+    let kind = values.choice("kind", MotionKind::named).unwrap_or_default();
+    check_keys(check, values, kind.name());
     Motion {
-        kind: match kind {
-            "constant-speed" => MotionKind::ConstantSpeed,
-            _ => MotionKind::Free,
-        },
+        kind,
         angle: values.number("angle").unwrap_or(0.0),
         speed: values.number("speed").unwrap_or(0.0),
     }

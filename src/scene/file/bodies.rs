@@ -121,12 +121,7 @@ pub(super) fn crank(check: &mut Check, values: &Values) -> Crank {
 }
 
 pub(super) fn rod(check: &mut Check, values: &Values, length: f64) -> Rod {
-    let model = match values.text("model") {
-        Some("two-mass") => RodModel::TwoMass,
-        Some("spin-only") => RodModel::SpinOnly,
-        Some("massless") => RodModel::Massless,
-        _ => RodModel::Rigid,
-    };
+    let model = values.choice("model", RodModel::named).unwrap_or_default();
     let body = solid(check, values);
     if model != RodModel::Massless {
         let why = ": the rod has a centre of gravity or a moment of inertia";
@@ -137,9 +132,11 @@ pub(super) fn rod(check: &mut Check, values: &Values, length: f64) -> Rod {
     let middle = if body.boxed { length / 2.0 } else { 0.0 };
     let cg = values.number("cg").unwrap_or(middle);
     let cg_lateral = values.number("cg_lateral").unwrap_or(0.0);
-    let (inertia_about, squared) = match values.text("inertia_about") {
-        Some("crank-pin") => (InertiaAbout::CrankPin, cg * cg + cg_lateral * cg_lateral),
-        _ => (InertiaAbout::Cg, 0.0),
+    let about = values.choice("inertia_about", InertiaAbout::named);
+    let inertia_about = about.unwrap_or_default();
+    let squared = match inertia_about {
+        InertiaAbout::CrankPin => cg * cg + cg_lateral * cg_lateral,
+        InertiaAbout::Cg => 0.0,
     };
     let inertia = body.inertia(check, values, squared);
     if matches!(model, RodModel::Rigid | RodModel::SpinOnly) {

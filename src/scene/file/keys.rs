@@ -1,6 +1,7 @@
 //! Tables and keys that a scene file may have: the list that the reader reads and `schema` prints.
 
 use crate::scene::unit::Quantity::{self, *};
+use crate::scene::{Branch, ContactLaw, InertiaAbout, Interpolation, Joint, MotionKind, RodModel};
 use Kind::{Choice, Formula, Kinds, Of, Text, TimeOrAngle};
 
 /// Kind of values that a key may have.
@@ -146,12 +147,11 @@ const FORCES: &[KindKeys] = &[
 
 /// Kinds of `[motion]`.
 const MOTIONS: &[KindKeys] = &[
-    kind("free", &["angle", "speed"], 0),
-    kind("constant-speed", &["speed", "angle"], 1),
+    kind(MotionKind::Free.name(), &["angle", "speed"], 0),
+    kind(MotionKind::ConstantSpeed.name(), &["speed", "angle"], 1),
 ];
 
 const VARIABLES: &[&str] = &["theta", "t", "omega", "x", "v"];
-const INTERPOLATIONS: &[&str] = &["pchip", "linear"];
 
 macro_rules! repeated {
     (one) => {
@@ -200,7 +200,7 @@ pub const SECTIONS: &[Section] = sections! {
         crank: Of(Length), "crank length r";
         rod: Of(Length), "connecting rod length l";
         offset: Of(Length), "offset e: the slider moves along y = -e; default 0";
-        branch: Choice(&["right", "left"]), "side of the crank pin on which the slider is assembled; default right";
+        branch: Choice(Branch::NAMES), "side of the crank pin on which the slider is assembled; default right";
     }
     one crank() "mass properties of the crank; absent: massless" {
         mass: Of(Mass), "mass";
@@ -209,12 +209,12 @@ pub const SECTIONS: &[Section] = sections! {
         inertia: Of(Inertia), "moment of inertia about O";
     } + BOX
     one rod() "mass properties of the connecting rod; absent: massless" {
-        model: Choice(&["rigid", "two-mass", "spin-only", "massless"]), "how its mass is modelled; default rigid";
+        model: Choice(RodModel::NAMES), "how its mass is modelled; default rigid";
         mass: Of(Mass), "mass";
         cg: Of(Length), "centre of gravity from the crank pin along the rod; default the middle of a box";
         cg_lateral: Of(Length), "centre of gravity to the left of A->P; default 0";
         inertia: Of(Inertia), "moment of inertia about the point named by inertia_about";
-        inertia_about: Choice(&["cg", "crank-pin"]), "reference point of the inertia; default cg";
+        inertia_about: Choice(InertiaAbout::NAMES), "reference point of the inertia; default cg";
     } + BOX
     one slider() "mass of the slider; absent: massless" {
         mass: Of(Mass), "mass";
@@ -233,7 +233,7 @@ pub const SECTIONS: &[Section] = sections! {
         file: Text, "table: CSV file with two columns, units in the header";
         of: Choice(VARIABLES), "table: the variable of the first column";
         period: TimeOrAngle, "table over theta or t: the angle or time after which it repeats";
-        interpolation: Choice(INTERPOLATIONS), "table: default pchip";
+        interpolation: Choice(Interpolation::NAMES), "table: default pchip";
     }
     each force("kind") "a force on the slider, along +x; all add up" {
         kind: Kinds(FORCES), "kind of load";
@@ -245,7 +245,7 @@ pub const SECTIONS: &[Section] = sections! {
         file: Text, "table, gas: CSV file with two columns, units in the header";
         of: Choice(VARIABLES), "table: the variable of the first column";
         period: TimeOrAngle, "table over theta or t, gas: the angle or time after which it repeats";
-        interpolation: Choice(INTERPOLATIONS), "table, gas: default pchip";
+        interpolation: Choice(Interpolation::NAMES), "table, gas: default pchip";
         bore: Of(Length), "gas: cylinder bore";
         ambient: Of(Pressure), "gas: pressure on the other side; default 1 atm";
     }
@@ -254,15 +254,14 @@ pub const SECTIONS: &[Section] = sections! {
         static_coefficient: Of(Number), "static coefficient; default the kinetic one";
     }
     one clearance("joint", "radial") "clearance at one revolute joint; absent: ideal joints" {
-        joint: Choice(&["crank-pin", "wrist-pin"]), "the joint";
+        joint: Choice(Joint::NAMES), "the joint";
         radial: Of(Length), "radial clearance";
         bearing_radius: Of(Length), "radius of the bearing";
         young_modulus: Of(Pressure), "Young's modulus of journal and bearing";
         poisson_ratio: Of(Number), "Poisson's ratio of journal and bearing";
         restitution: Of(Number), "coefficient of restitution, 0 to 1";
         friction: Of(Number), "coefficient of friction in the contact; default 0";
-        contact_law: Choice(&["lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "hertz", "massless-link"]),
-            "law of the normal force; default lankarani-nikravesh";
+        contact_law: Choice(ContactLaw::NAMES), "law of the normal force; default lankarani-nikravesh";
         friction_threshold: Of(Velocity), "sliding speed up to which friction grows linearly; default 0.01 m/s";
         least_approach_speed: Of(Velocity),
             "contacts that begin slower are damped as if they began with this speed; default 0.001 m/s";

@@ -31,7 +31,7 @@ pub(super) fn load(check: &mut Check, values: &Values) -> Option<Load> {
         "expression" => expression(check, values),
         "dry" => Some(Load::Dry(Box::new(magnitude(check, values, quantity)?))),
         "table" => {
-            let of = Variable::named(values.text("of")?)?;
+            let of = values.choice("of", Variable::named)?;
             table(check, values, of, quantity).map(Load::Table)
         }
         _ => gas(check, values),
@@ -78,7 +78,7 @@ fn magnitude(check: &mut Check, values: &Values, quantity: Quantity) -> Option<L
                 let what = "`of` is missing: what the magnitude is a table of";
                 [what.to_owned(), "add of = \"theta\"".to_owned()]
             });
-            let of = Variable::named(values.text("of")?)?;
+            let of = values.choice("of", Variable::named)?;
             table(check, values, of, quantity).map(Load::Table)
         }
         (true, false) => {
@@ -143,10 +143,7 @@ fn gas(check: &mut Check, values: &Values) -> Option<Load> {
 }
 
 fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -> Option<Table> {
-    let interpolation = match values.text("interpolation") {
-        Some("linear") => Interpolation::Linear,
-        _ => Interpolation::Pchip,
-    };
+    let interpolation = values.choice("interpolation", Interpolation::named);
     let period = match values.every("period") {
         Some(every) => Some(period(check, &values.field("period"), every, of)?),
         None => None,
@@ -154,9 +151,15 @@ fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -
     let scene = check.places.0.as_ref().map(|source| source.file.as_path());
     let folder = scene.and_then(Path::parent).unwrap_or(Path::new(""));
     let file = folder.join(values.text("file")?);
-    Table::read(&file, of, quantity, interpolation, period)
-        .map_err(|error| check.add(values.field(&error.field), error.what, error.help))
-        .ok()
+    Table::read(
+        &file,
+        of,
+        quantity,
+        interpolation.unwrap_or_default(),
+        period,
+    )
+    .map_err(|error| check.add(values.field(&error.field), error.what, error.help))
+    .ok()
 }
 
 /// Returns the period in the SI unit of the table's variable, if it fits the variable.

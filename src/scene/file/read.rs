@@ -66,6 +66,11 @@ impl Values {
         }
     }
 
+    /// Returns the value whose name is the word of a choice.
+    pub fn choice<T>(&self, key: &str, named: fn(&str) -> Option<T>) -> Option<T> {
+        self.text(key).and_then(named)
+    }
+
     /// Returns a number without quotes, where a quantity or a formula may stand.
     pub fn bare(&self, key: &str) -> Option<&str> {
         match self.entries.get(key) {

@@ -2,30 +2,19 @@
 
 use crate::scene::unit::Quantity;
 
-/// Quantity measured over time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measured {
-    /// Crank angle θ, rad.
-    Theta,
-    /// Angle at the crank pin between crank and rod, Duarte et al. (10), rad from 0 to π.
-    Gamma,
-    /// Slider position x, m.
-    X,
+named! {
+    /// Quantity measured over time; the first of several in one file is the motion, the others stand beside it.
+    pub enum Measured {
+        /// Crank angle θ, rad.
+        Theta = "theta",
+        /// Angle at the crank pin between crank and rod, Duarte et al. (10), rad from 0 to π.
+        Gamma = "gamma",
+        /// Slider position x, m.
+        X = "x",
+    }
 }
 
 impl Measured {
-    /// All quantities; the first of several in one file is the motion, the others stand beside it.
-    pub const ALL: [Measured; 3] = [Measured::Theta, Measured::Gamma, Measured::X];
-
-    /// Returns the name in headers.
-    pub fn name(self) -> &'static str {
-        match self {
-            Measured::Theta => "theta",
-            Measured::Gamma => "gamma",
-            Measured::X => "x",
-        }
-    }
-
     /// Returns the SI unit.
     pub fn unit(self) -> &'static str {
         self.quantity().si()
@@ -72,8 +61,7 @@ impl std::str::FromStr for Measured {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Measured, String> {
-        let found = Measured::ALL.into_iter().find(|kind| kind.name() == text);
-        found.ok_or_else(|| format!("`{text}` is none of theta, gamma and x"))
+        Measured::named(text).ok_or_else(|| format!("`{text}` is none of theta, gamma and x"))
     }
 }
 

@@ -155,10 +155,7 @@ impl<const N: usize> Loose<'_, N> {
         let whole = seen.total.statistics(0.0, last.t);
         let linked = self.linked();
         ClearanceSummary {
-            joint: match clearance.joint {
-                Joint::CrankPin => "crank-pin",
-                Joint::WristPin => "wrist-pin",
-            },
+            joint: clearance.joint.name(),
             contact_law: clearance.law.name(),
             radial_m: clearance.radial,
             stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force().stiffness),
