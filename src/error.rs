@@ -1,6 +1,7 @@
 //! Errors of the library, with value and place; printed in one place, by `main`.
 
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::scene::Problems;
 
@@ -17,7 +18,7 @@ pub enum Error {
         /// The file.
         file: PathBuf,
         /// The system's reason.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// A result cannot be written.
     #[error("`{target}` cannot be written: {source}")]
@@ -25,11 +26,14 @@ pub enum Error {
         /// File name or stream.
         target: String,
         /// The system's reason.
-        source: std::io::Error,
+        source: io::Error,
     },
     /// Stop by request.
     #[error("interrupted")]
     Interrupted,
+    /// The results of a command are kept, but incomplete or not as wanted.
+    #[error("{0}")]
+    Incomplete(String),
     /// The scene cannot be computed in the requested way.
     #[error("{what}\nhelp: {help}")]
     Refused {
@@ -41,6 +45,23 @@ pub enum Error {
 }
 
 impl Error {
+    /// Returns a function that gives the system's reason the file that cannot be read.
+    pub(crate) fn read(file: &Path) -> impl Fn(io::Error) -> Error {
+        move |source| Error::Read {
+            file: file.to_owned(),
+            source,
+        }
+    }
+
+    /// Returns a function that gives the system's reason the file or stream that cannot be written.
+    #[cfg(feature = "cli")]
+    pub(crate) fn write(target: impl ToString) -> impl Fn(io::Error) -> Error {
+        move |source| Error::Write {
+            target: target.to_string(),
+            source,
+        }
+    }
+
     /// Creates a refusal with its reason and an alternative.
     pub fn refused(what: impl Into<String>, help: impl Into<String>) -> Error {
         Error::Refused {
@@ -66,13 +87,13 @@ impl Error {
     /// Returns the exit status of the program: 2 for what the user must change, 1 for the rest.
     pub fn exit_status(&self) -> u8 {
         match self {
-            Error::Write { .. } | Error::Interrupted => 1,
+            Error::Write { .. } | Error::Interrupted | Error::Incomplete(_) => 1,
             _ => 2,
         }
     }
 
     /// Whether the reader of the output closed the pipe, which is no error.
     pub fn is_broken_pipe(&self) -> bool {
-        matches!(self, Error::Write { source, .. } if source.kind() == std::io::ErrorKind::BrokenPipe)
+        matches!(self, Error::Write { source, .. } if source.kind() == io::ErrorKind::BrokenPipe)
     }
 }

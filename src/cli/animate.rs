@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, check_extension};
+use super::streams::{Streams, check_extension};
 use super::values::angle;
 use super::watch::print;
 use crate::error::Error;
@@ -38,7 +38,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "write seconds from 0.1 to 600".to_owned())
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     check_extension(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
     let read = arguments.scene.as_ref();
     let scene = Streams::new(&[read], Some(&arguments.out), &[], false)?.scene(read)?;
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     }
 }
 
-fn animate(arguments: &Arguments, scene: &Scene) -> Result<Outcome, Error> {
+fn animate(arguments: &Arguments, scene: &Scene) -> Result<(), Error> {
     if arguments.at.is_some() {
         return Err(Error::refused(
             "a motion has no one angle",
@@ -82,13 +82,13 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<Outcome, Error> {
     print(&format!(
         "frames  {count}\nmotion  {end} s\nlasts   {lasts} s\n"
     ))?;
-    Ok(match run.summary.stopped {
-        Some(stopped) => Outcome::Incomplete(stopped.to_string()),
-        None => Outcome::Done,
-    })
+    match run.summary.stopped {
+        Some(stopped) => Err(Error::Incomplete(stopped.to_string())),
+        None => Ok(()),
+    }
 }
 
-fn draw(arguments: &Arguments, scene: &Scene, as_dxf: bool) -> Result<Outcome, Error> {
+fn draw(arguments: &Arguments, scene: &Scene, as_dxf: bool) -> Result<(), Error> {
     let theta = arguments.at.unwrap_or(scene.motion.angle);
     let row = crate::kinematics::kinematics(scene)?.row(theta);
     let degrees = theta.to_degrees();
@@ -103,6 +103,5 @@ fn draw(arguments: &Arguments, scene: &Scene, as_dxf: bool) -> Result<Outcome, E
         true => Output::create(&arguments.out)?.text(&sketch.dxf(pose))?,
         false => Picture::create(&arguments.out)?.draw(&sketch.svg(pose))?,
     }
-    print(&format!("theta  {degrees} deg\nx      {} m\n", row.x))?;
-    Ok(Outcome::Done)
+    print(&format!("theta  {degrees} deg\nx      {} m\n", row.x))
 }

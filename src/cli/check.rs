@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::streams::{Outcome, scene};
+use super::streams::scene;
 use super::watch::{print, say};
 use crate::error::Error;
 use crate::plan;
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     reading: ReadingArguments,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let reading = arguments.reading.reading();
     let is_csv = |file: &&PathBuf| {
         file.extension()
@@ -33,10 +33,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             && let Some(table) = load_table(file)?
         {
             let (gives, of, rows) = (table.gives, table.of.name(), table.rows);
-            print(&format!(
+            return print(&format!(
                 "{shown}: nothing is wrong with a table of {gives} over {of} with {rows} rows\n"
-            ))?;
-            return Ok(Outcome::Done);
+            ));
         }
         let motion = Measurement::load(file, &reading)?;
         let (samples, column) = (motion.len(), motion.measured().name());
@@ -46,7 +45,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         for note in motion.notes() {
             say(&format!("note: {note}"));
         }
-        return Ok(Outcome::Done);
+        return Ok(());
     }
     if reading != Reading::default() {
         return Err(Error::refused(
@@ -63,6 +62,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     let title = scene.title.map(|title| format!(" ({title})"));
     let title = title.unwrap_or_default();
-    print(&format!("{name}{title}: nothing is wrong\n"))?;
-    Ok(Outcome::Done)
+    print(&format!("{name}{title}: nothing is wrong\n"))
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::outputs::Outputs;
-use super::streams::{Outcome, command_line};
+use super::streams::command_line;
 use crate::error::Error;
 use crate::report::{Comparison, Motion, Origin};
 use crate::scene::Scene;
@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     reactions: bool,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let read: Vec<Option<&PathBuf>> = arguments.motions.iter().map(Some).collect();
     let streams = arguments.outputs.streams(&read, &[])?;
     let options = Options {
@@ -49,8 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         command: command_line(),
     };
     let targets = arguments.outputs.open()?;
-    targets.write(&result, &result, &origin, &streams)?;
-    Ok(Outcome::Done)
+    targets.write(&result, &result, &origin, &streams)
 }
 
 /// Whether a file is data rather than a scene, by its extension.

@@ -3,7 +3,6 @@
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::streams::Outcome;
 use super::watch::print;
 use crate::error::Error;
 
@@ -16,28 +15,23 @@ pub(super) struct Arguments {
 }
 
 /// Writes the completions for a shell, or the man page.
-pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<(), Error> {
     let Ok(shell) = arguments.reader.parse::<Shell>() else {
-        print(&man(program)?)?;
-        return Ok(Outcome::Done);
+        return print(&man(program)?);
     };
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut program, "slider-crank", &mut text);
-    print(&String::from_utf8_lossy(&text))?;
-    Ok(Outcome::Done)
+    print(&String::from_utf8_lossy(&text))
 }
 
 /// Returns the man page of the program, followed by that of each command.
 fn man(mut command: Command) -> Result<String, Error> {
-    let failed = |source| Error::Write {
-        target: "man page".to_owned(),
-        source,
-    };
+    let failed = Error::write("man page");
     command.build();
     let mut text = Vec::new();
     for one in std::iter::once(&command).chain(command.get_subcommands()) {
         let page = clap_mangen::Man::new(one.clone());
-        page.render(&mut text).map_err(failed)?;
+        page.render(&mut text).map_err(&failed)?;
     }
     Ok(String::from_utf8_lossy(&text).into_owned())
 }

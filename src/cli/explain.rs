@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, scene};
+use super::streams::{Streams, scene};
 use super::values::angle;
 use crate::error::Error;
 use crate::plan::Method;
@@ -26,10 +26,9 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let scene = scene(arguments.scene.as_ref())?;
     let result = crate::explain::explain(&scene, arguments.method, arguments.at)?;
     let streams = Streams::new(&[], None, &[], arguments.json)?;
-    streams.show(&result, || report::explanation(&result))?;
-    Ok(Outcome::Done)
+    streams.show(&result, || report::explanation(&result))
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::streams::{Outcome, Streams, check_inputs, create};
+use super::streams::{Streams, check_inputs, create};
 use crate::error::Error;
 use crate::inverse::identify::{FreeKey, identify_keys};
 use crate::report;
@@ -32,7 +32,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let (scene, data) = (Some(&arguments.scene), Some(&arguments.data));
     let streams = Streams::new(&[scene, data], arguments.out.as_ref(), &[], arguments.json)?;
     check_inputs(scene, data)?;
@@ -45,6 +45,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(output) = out {
         report::identification_csv(&result, output)?;
     }
-    streams.show(&result, || report::identification(&result))?;
-    Ok(Outcome::Done)
+    streams.show(&result, || report::identification(&result))
 }

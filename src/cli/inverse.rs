@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::outputs::Outputs;
 use super::reading::ReadingArguments;
-use super::streams::{Outcome, check_inputs, create, origin};
+use super::streams::{check_inputs, create, origin};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report::{self, InverseReport};
@@ -103,7 +103,7 @@ fn measurement(arguments: &Arguments) -> Result<Measurement, Error> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let (file, data) = (arguments.scene.as_ref(), arguments.data.as_ref());
     let others = [arguments.residuals.as_ref(), arguments.mean_cycle.as_ref()];
     let streams = arguments.outputs.streams(&[file, data], &others)?;
@@ -146,6 +146,5 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         scene: &scene,
         printed: printed.as_ref(),
     };
-    targets.write(&report, &result.summary, &origin(file), &streams)?;
-    Ok(Outcome::Done)
+    targets.write(&report, &result.summary, &origin(file), &streams)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::outputs::Outputs;
-use super::streams::{Outcome, origin};
+use super::streams::origin;
 use super::values::{angle, any_length, check_rows_of_turn, length, positive_angle};
 use super::watch::say;
 use crate::error::Error;
@@ -61,7 +61,7 @@ pub(super) struct Arguments {
     diagram: Option<Diagram>,
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let read = arguments.scene.as_ref();
     let streams = arguments.outputs.streams(&[read], &[])?;
     check_rows_of_turn(arguments.every)?;
@@ -87,8 +87,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         diagram: arguments.diagram,
     };
     let targets = arguments.outputs.open()?;
-    targets.write(&report, &result, &origin(read), &streams)?;
-    Ok(Outcome::Done)
+    targets.write(&report, &result, &origin(read), &streams)
 }
 
 fn diagram(text: &str) -> Result<Diagram, String> {

@@ -29,7 +29,6 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::error::Error;
 use crate::{report, scene};
-use streams::Outcome;
 use watch::{print, say, say_styled};
 
 /// Dynamics of the offset slider-crank from its Lagrange equation.
@@ -106,11 +105,7 @@ pub fn main() -> ExitCode {
     };
     watch::clear();
     match result {
-        Ok(Outcome::Done) => ExitCode::SUCCESS,
-        Ok(Outcome::Incomplete(message)) => {
-            say(&format!("error: {message}"));
-            ExitCode::from(1)
-        }
+        Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
             match &error {
@@ -123,9 +118,8 @@ pub fn main() -> ExitCode {
 }
 
 /// Prints the JSON Schema of scene files.
-fn print_schema() -> Result<Outcome, Error> {
-    print(&report::json(&scene::schema())?)?;
-    Ok(Outcome::Done)
+fn print_schema() -> Result<(), Error> {
+    print(&report::json(&scene::schema())?)
 }
 
 fn colour() -> bool {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args};
 
-use super::streams::{Outcome, Streams, create, fill};
+use super::streams::{Streams, create, fill};
 use crate::error::Error;
 use crate::optimise::{Constraint, Problem, optimise};
 use crate::plan::Method;
@@ -54,7 +54,7 @@ pub(super) struct Arguments {
     max_evaluations: u64,
 }
 
-pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let [read, out, best] = [&arguments.scene, &arguments.out, &arguments.best].map(Option::as_ref);
     let streams = Streams::new(&[read], out, &[best], arguments.json)?;
     let draft = streams.draft(read)?;
@@ -88,12 +88,12 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         Ok(draft.text_with(values)?)
     })?;
     streams.show(&found, || report::optimum(&found))?;
-    Ok(if found.interrupted {
-        Outcome::Incomplete("interrupted: this is the best design so far".to_owned())
+    let why = if found.interrupted {
+        "interrupted: this is the best design so far"
     } else if !found.meets_subjects {
-        let why = "no design was found that keeps all limits: this one misses them least";
-        Outcome::Incomplete(why.to_owned())
+        "no design was found that keeps all limits: this one misses them least"
     } else {
-        Outcome::Done
-    })
+        return Ok(());
+    };
+    Err(Error::Incomplete(why.to_owned()))
 }

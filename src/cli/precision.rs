@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::outputs::Plot;
-use super::streams::{Outcome, check_files, create, draw, fill, is_standard, origin, page, scene};
+use super::streams::{check_files, create, draw, fill, is_standard, origin, page, scene};
 use super::watch::{print, say};
 use crate::error::Error;
 use crate::precision::{Precision, PrecisionOptions};
@@ -91,7 +91,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let text_on_stdout = arguments.text_on_stdout()?;
     let files = scene_files(&arguments.scenes)?;
     let scenes = scenes(&files)?;
@@ -113,13 +113,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         print(&report::json(&serde_json::json!({ "scenes": results }))?)?;
     }
     let failed = results.iter().filter(|result| !result.has_results());
-    Ok(match failed.count() {
-        0 => Outcome::Done,
-        failed => Outcome::Incomplete(format!(
+    match failed.count() {
+        0 => Ok(()),
+        failed => Err(Error::Incomplete(format!(
             "{failed} of {} scenes cannot be computed to their end; their rows are empty",
             scenes.len()
-        )),
-    })
+        ))),
+    }
 }
 
 /// Compares the methods on each scene, and shows each comparison once computed.
@@ -173,10 +173,7 @@ fn scene_files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
 fn files_of(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = std::fs::read_dir(folder)
         .and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
-    let mut files: Vec<PathBuf> = entries.map_err(|source| Error::Read {
-        file: folder.to_owned(),
-        source,
-    })?;
+    let mut files: Vec<PathBuf> = entries.map_err(Error::read(folder))?;
     files.retain(|path| path.is_file() && path.extension().is_some_and(|end| end == "toml"));
     if files.is_empty() {
         return Err(Error::refused(

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams};
+use super::streams::Streams;
 use super::watch::say;
 use crate::error::Error;
 use crate::report::{self, Output, ReproductionSummary};
@@ -28,7 +28,7 @@ fn paper(name: &str) -> Result<Paper, String> {
     Paper::named(name).ok_or_else(|| format!("the papers are {}", Paper::NAMES.join(", ")))
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let all = || Paper::ALL.to_vec();
     let papers = arguments.paper.map_or_else(all, |paper| vec![paper]);
     let result = reproduce(&papers)?;
@@ -39,17 +39,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let streams = Streams::new(&[], None, &[], arguments.json)?;
     let summary = ReproductionSummary::new(&result);
     streams.show(&summary, || report::reproduction(&result))?;
-    Ok(match result.surprises().count() {
-        0 => Outcome::Done,
-        unexpected => Outcome::Incomplete(format!("{unexpected} verdicts are not the known ones")),
-    })
+    match result.surprises().count() {
+        0 => Ok(()),
+        count => Err(Error::Incomplete(format!(
+            "{count} verdicts are not the known ones"
+        ))),
+    }
 }
 
 fn write_files(folder: &Path, result: &Reproduction) -> Result<usize, Error> {
-    std::fs::create_dir_all(folder).map_err(|source| Error::Write {
-        target: folder.display().to_string(),
-        source,
-    })?;
+    std::fs::create_dir_all(folder).map_err(Error::write(folder.display()))?;
     let write = |name: String, text: String| Output::create(&folder.join(name))?.text(&text);
     write("numbers.csv".to_owned(), report::reproduction_csv(result))?;
     for drawing in &result.drawings {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::outputs::Outputs;
-use super::streams::{Outcome, origin};
+use super::streams::origin;
 use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{PlotRows, Preview, RowWriter, RunReport};
@@ -116,7 +116,7 @@ impl RowSink for Rows<'_> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let read = arguments.scene.as_ref();
     let streams = arguments.outputs.streams(&[read], &[])?;
     let mut scene = streams.scene(read)?;
@@ -163,7 +163,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     }
     let result = match result {
         Err(Error::Interrupted) if rows.t.is_finite() => {
-            return Ok(Outcome::Incomplete(format!(
+            return Err(Error::Incomplete(format!(
                 "interrupted: the rows end at t = {} s, and there is no summary",
                 rows.t
             )));
@@ -180,8 +180,8 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         preview: &preview,
     };
     targets.write(&report, &summary, &origin, &streams)?;
-    Ok(match summary.stopped {
-        Some(stopped) => Outcome::Incomplete(stopped.to_string()),
-        None => Outcome::Done,
-    })
+    match summary.stopped {
+        Some(stopped) => Err(Error::Incomplete(stopped.to_string())),
+        None => Ok(()),
+    }
 }

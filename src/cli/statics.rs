@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::outputs::Outputs;
-use super::streams::{Outcome, Streams, origin};
+use super::streams::{Streams, origin};
 use super::values::{angle, check_rows_of_turn, length, positive_angle, quantity};
 use crate::error::Error;
 use crate::report::{self, StaticsReport};
@@ -91,12 +91,11 @@ impl Arguments {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     if let Some(file) = &arguments.calibration {
         let result = calibrate(file, &arguments.reading)?;
         let streams = Streams::new(&[], None, &[], arguments.outputs.json)?;
-        streams.show(&result, || report::calibration(&result))?;
-        return Ok(Outcome::Done);
+        return streams.show(&result, || report::calibration(&result));
     }
     let read = arguments.scene.as_ref();
     let streams = arguments.outputs.streams(&[read], &[])?;
@@ -110,6 +109,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         details: arguments.details,
     };
     let targets = arguments.outputs.open()?;
-    targets.write(&report, &result, &origin(read), &streams)?;
-    Ok(Outcome::Done)
+    targets.write(&report, &result, &origin(read), &streams)
 }

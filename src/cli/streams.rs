@@ -10,13 +10,6 @@ use crate::error::Error;
 use crate::report::{self, Origin, Output, Picture};
 use crate::scene::{DUARTE, Draft, Scene};
 
-/// Outcome of a command.
-pub(super) enum Outcome {
-    Done,
-    /// Results are kept, but incomplete or not as wanted; the message says where or why.
-    Incomplete(String),
-}
-
 /// Files and streams of a command, checked before any computation.
 pub(super) struct Streams {
     rows_on_stdout: bool,

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, fill, origin, page};
+use super::streams::{Streams, fill, origin, page};
 use super::watch;
 use crate::error::Error;
 use crate::plan::Method;
@@ -111,7 +111,7 @@ fn shard(text: &str) -> Result<[usize; 2], String> {
     }
 }
 
-pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     if !arguments.merge.is_empty() {
         return merge(arguments);
     }
@@ -160,7 +160,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
         writer.take(&designs)
     });
     if let (Err(Error::Interrupted), Some(file)) = (&computed, out) {
-        return Ok(Outcome::Incomplete(format!(
+        return Err(Error::Incomplete(format!(
             "interrupted before design {}: the same command goes on from `{}.part`",
             next + 1,
             file.display()
@@ -175,18 +175,17 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<Outcome, Error> 
     streams.show(&summary, || report::sweep_text(&summary))?;
     if summary.done() == 0 && summary.part[0] <= summary.part[1] {
         let why = "no design could be computed; the notes of each row say why";
-        return Ok(Outcome::Incomplete(why.to_owned()));
+        return Err(Error::Incomplete(why.to_owned()));
     }
-    Ok(Outcome::Done)
+    Ok(())
 }
 
-fn merge(arguments: &Arguments) -> Result<Outcome, Error> {
+fn merge(arguments: &Arguments) -> Result<(), Error> {
     let parts: Vec<Option<&PathBuf>> = arguments.merge.iter().map(Some).collect();
     let out = arguments.out.as_ref();
     let streams = Streams::new(&parts, out, &[], arguments.json)?;
     let out = out.map(PathBuf::as_path);
     let goals = arguments.goals();
     let summary = report::merge(&arguments.merge, out, &goals, arguments.percentiles)?;
-    streams.show(&summary, || report::sweep_text(&summary))?;
-    Ok(Outcome::Done)
+    streams.show(&summary, || report::sweep_text(&summary))
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::streams::{Outcome, Streams, create, fill};
+use super::streams::{Streams, create, fill};
 use super::values::length;
 use crate::error::Error;
 use crate::kinematics::{Choice, synthesis};
@@ -52,11 +52,10 @@ impl Arguments {
     }
 }
 
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let out = arguments.out.as_ref();
     let streams = Streams::new(&[], out, &[], arguments.json)?;
     let found = synthesis(arguments.stroke, arguments.time_ratio, arguments.choice())?;
     fill(create(out)?, || Ok(report::synthesis_scene(&found)))?;
-    streams.show(&found, || report::synthesis(&found))?;
-    Ok(Outcome::Done)
+    streams.show(&found, || report::synthesis(&found))
 }

@@ -5,22 +5,13 @@ use std::str::FromStr;
 use crate::scene::unit;
 use crate::sweep::Figure;
 
-/// Sense of an inequality constraint.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sense {
-    /// Figure >= limit.
-    AtLeast,
-    /// Figure <= limit.
-    AtMost,
-}
-
-impl Sense {
-    /// Returns the sign as text, `>=` or `<=`.
-    pub fn sign(self) -> &'static str {
-        match self {
-            Sense::AtLeast => ">=",
-            Sense::AtMost => "<=",
-        }
+named! {
+    /// Sense of an inequality constraint, named by its sign.
+    pub enum Sense {
+        /// Figure >= limit.
+        AtLeast = ">=",
+        /// Figure <= limit.
+        AtMost = "<=",
     }
 }
 

@@ -261,7 +261,7 @@ fn constraints(evaluator: &Evaluator, design: &Design) -> Vec<EvaluatedConstrain
         let value = constraint.figure.number(design);
         EvaluatedConstraint {
             figure: constraint.figure.to_string(),
-            sense: constraint.sense.sign(),
+            sense: constraint.sense.name(),
             limit: constraint.limit,
             value,
             is_met: value.is_some_and(|value| constraint.margin(value) >= 0.0),

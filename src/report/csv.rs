@@ -144,10 +144,8 @@ pub(super) fn texts(line: &str) -> Result<Vec<String>, Error> {
     let mut reader = ::csv::ReaderBuilder::new();
     let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
     let record = reader.records().next().transpose();
-    let record = record.map_err(|error| Error::Write {
-        target: "CSV".to_owned(),
-        source: std::io::Error::other(error),
-    })?;
+    let record = record.map_err(std::io::Error::other);
+    let record = record.map_err(Error::write("CSV"))?;
     let record = record.unwrap_or_default();
     Ok(record.iter().map(str::to_owned).collect())
 }

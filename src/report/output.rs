@@ -92,10 +92,7 @@ impl Output {
             return Ok(Output::standard());
         }
         let target = path.display().to_string();
-        let (stream, path) = opened(path).map_err(|source| Error::Write {
-            target: target.clone(),
-            source,
-        })?;
+        let (stream, path) = opened(path).map_err(Error::write(&target))?;
         Ok(Output::new(target, stream, path))
     }
 
@@ -116,10 +113,7 @@ impl Output {
     /// Writes bytes to the buffer.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let written = self.writer.write_all(bytes);
-        written.map_err(|source| Error::Write {
-            target: self.target.clone(),
-            source,
-        })
+        written.map_err(Error::write(&self.target))
     }
 
     /// Writes a text and completes the output.
@@ -137,7 +131,7 @@ impl Output {
             stream.flush()?;
             path.map_or(Ok(()), |path| named(stream, &path))
         });
-        finished.map_err(|source| Error::Write { target, source })
+        finished.map_err(Error::write(target))
     }
 }
 

@@ -90,10 +90,7 @@ pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, Error> {
 
 /// Returns the error of a figure that could not be written.
 pub(super) fn failed(reason: impl ToString) -> Error {
-    Error::Write {
-        target: "figure".to_owned(),
-        source: std::io::Error::other(reason.to_string()),
-    }
+    Error::write("figure")(std::io::Error::other(reason.to_string()))
 }
 
 #[cfg(test)]

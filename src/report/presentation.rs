@@ -49,10 +49,6 @@ pub trait Report {
 
 /// Returns a value as indented JSON, with a final line feed.
 pub fn json(value: &impl serde::Serialize) -> Result<String, Error> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|error| Error::Write {
-        target: "JSON".to_owned(),
-        source: error.into(),
-    })?;
-    text.push('\n');
-    Ok(text)
+    let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from);
+    Ok(text.map_err(Error::write("JSON"))? + "\n")
 }

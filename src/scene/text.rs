@@ -23,10 +23,7 @@ pub(super) fn bytes(file: &Path) -> Result<Vec<u8>, Error> {
     } else {
         std::fs::read(file)
     };
-    read.map_err(|source| Error::Read {
-        file: file.to_owned(),
-        source,
-    })
+    read.map_err(Error::read(file))
 }
 
 /// Decodes UTF-8 text; the error names the first byte that is no text.

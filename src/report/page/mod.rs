@@ -146,8 +146,5 @@ pub(super) fn html(
 }
 
 fn failed(source: Box<dyn std::error::Error + Send + Sync>) -> Error {
-    Error::Write {
-        target: "page".to_owned(),
-        source: std::io::Error::other(source),
-    }
+    Error::write("page")(std::io::Error::other(source))
 }

@@ -46,7 +46,7 @@ pub fn merge(
     let mut next = 1;
     for PartFile { path, lines, .. } in parts {
         for line in lines {
-            let line = line.map_err(|source| unread(path, source))?;
+            let line = line.map_err(Error::read(path))?;
             let (found, shown) = (design(path, &line)?, path.display());
             if found != next {
                 let what = match found < next {
@@ -67,9 +67,9 @@ pub fn merge(
 impl PartFile<'_> {
     /// Opens a file and reads its header, if present; none without designs.
     fn open<'a>(path: &'a Path, header: &mut String) -> Result<Option<PartFile<'a>>, Error> {
-        let failed = |source| unread(path, source);
-        let mut lines = BufReader::new(File::open(path).map_err(failed)?).lines();
-        let mut next = || lines.next().transpose().map_err(failed);
+        let failed = Error::read(path);
+        let mut lines = BufReader::new(File::open(path).map_err(&failed)?).lines();
+        let mut next = || lines.next().transpose().map_err(&failed);
         let mut line = next()?;
         if let Some(names) = line.take_if(|line| line.starts_with("design,")) {
             *header = names;
@@ -79,13 +79,6 @@ impl PartFile<'_> {
         let first = design(path, &line)?;
         let lines = Box::new(std::iter::once(Ok(line)).chain(lines));
         Ok(Some(PartFile { path, lines, first }))
-    }
-}
-
-fn unread(path: &Path, source: io::Error) -> Error {
-    Error::Read {
-        file: path.to_owned(),
-        source,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Resumable file: rows are appended to a file beside the target, which survives an interruption.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::file_lock;
@@ -36,7 +36,7 @@ impl ResumableFile {
         let mut part = target.as_os_str().to_owned();
         part.push(".part");
         let part = PathBuf::from(part);
-        let file = file_lock::open(&part).map_err(|source| error(&part, source))?;
+        let file = file_lock::open(&part).map_err(Error::write(part.display()))?;
         let Some(file) = file else {
             return Err(Error::refused(
                 format!("another sweep is writing `{}`", part.display()),
@@ -59,25 +59,25 @@ impl ResumableFile {
         head: &[u8],
         mut row: impl FnMut(&str) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let failed = |source| error(&self.part, source);
+        let failed = Error::write(self.part.display().to_string());
         let mut reader = BufReader::new(&self.file);
         let (mut found, most) = (Vec::new(), head.len() as u64);
         let mut begun = reader.by_ref().take(most);
-        begun.read_to_end(&mut found).map_err(failed)?;
+        begun.read_to_end(&mut found).map_err(&failed)?;
         if !head.starts_with(&found) {
             return Err(self.of_another());
         }
         // An incomplete head means an interruption before the first row.
         let mut whole = if found.len() < head.len() { 0 } else { most };
         let mut text = String::new();
-        while whole > 0 && reader.read_line(&mut text).map_err(failed)? > 0 && text.ends_with('\n')
+        while whole > 0 && reader.read_line(&mut text).map_err(&failed)? > 0 && text.ends_with('\n')
         {
             row(&text)?;
             whole += text.len() as u64;
             text.clear();
         }
-        self.file.set_len(whole).map_err(failed)?;
-        self.file.seek(SeekFrom::End(0)).map_err(failed)?;
+        self.file.set_len(whole).map_err(&failed)?;
+        self.file.seek(SeekFrom::End(0)).map_err(&failed)?;
         match whole {
             0 => self.append(head),
             _ => Ok(()),
@@ -87,17 +87,19 @@ impl ResumableFile {
     /// Appends complete rows.
     pub fn append(&mut self, rows: &[u8]) -> Result<(), Error> {
         let written = self.file.write_all(rows);
-        written.map_err(|source| error(&self.part, source))
+        written.map_err(Error::write(self.part.display()))
     }
 
     /// Copies the rows, without the first line, to the target, and deletes the file.
     pub fn finish(mut self) -> Result<(), Error> {
-        let failed = |source| error(&self.part, source);
+        let failed = Error::write(self.part.display());
         let mut output = Output::create(&self.target)?;
-        self.file.seek(SeekFrom::Start(self.mark)).map_err(failed)?;
+        self.file
+            .seek(SeekFrom::Start(self.mark))
+            .map_err(&failed)?;
         let mut buffer = vec![0; 1 << 16];
         loop {
-            match self.file.read(&mut buffer).map_err(failed)? {
+            match self.file.read(&mut buffer).map_err(&failed)? {
                 0 => break,
                 length => output.write(&buffer[..length])?,
             }
@@ -106,7 +108,7 @@ impl ResumableFile {
         // Systems other than Unix cannot delete an open file.
         #[cfg(not(unix))]
         drop(self.file);
-        std::fs::remove_file(&self.part).map_err(|source| error(&self.part, source))
+        std::fs::remove_file(&self.part).map_err(failed)
     }
 
     /// Returns the refusal of a file that belongs to another sweep.
@@ -116,12 +118,5 @@ impl ResumableFile {
             format!("`{part}` holds rows of another sweep that was cut off"),
             format!("delete `{part}` to begin anew, or write to another file"),
         )
-    }
-}
-
-fn error(part: &Path, source: io::Error) -> Error {
-    Error::Write {
-        target: part.display().to_string(),
-        source,
     }
 }
