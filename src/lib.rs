@@ -52,7 +52,7 @@
 //!
 //! All values are f64 in SI units and radians; [`mechanism::Linkage`] states the sign conventions.
 
-/// Declares an enum whose values have names, those in files, options and outputs: with `NAMES`, `ALL`, `name`, `named`.
+/// Declares an enum whose values have names, in files, options and outputs: `NAMES`, `ALL`, `name`, `named` and `Display`.
 macro_rules! named {
     ($(#[$about:meta])* pub enum $Enum:ident { $($(#[$meaning:meta])* $Value:ident = $name:literal,)* }) => {
         $(#[$about])*
@@ -76,6 +76,12 @@ macro_rules! named {
             /// Returns the value with this name.
             pub fn named(name: &str) -> Option<$Enum> {
                 $Enum::ALL.into_iter().find(|one| one.name() == name)
+            }
+        }
+
+        impl std::fmt::Display for $Enum {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.name())
             }
         }
     };

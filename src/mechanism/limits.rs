@@ -1,7 +1,6 @@
 //! Limits of a linkage from its lengths, in closed form: class, dead centres, stroke, time ratio, reachable angles.
 
 use std::f64::consts::{PI, TAU};
-use std::fmt;
 
 use super::Linkage;
 use super::linkage::SAME_LENGTHS;
@@ -39,12 +38,6 @@ impl Class {
         } else {
             Class::DoubleRocker
         }
-    }
-}
-
-impl fmt::Display for Class {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 

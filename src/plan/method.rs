@@ -1,6 +1,5 @@
 //! Method of integration that the user requests.
 
-use std::fmt;
 use std::str::FromStr;
 
 named! {
@@ -34,11 +33,5 @@ impl FromStr for Method {
 
     fn from_str(text: &str) -> Result<Method, String> {
         Method::named(text).ok_or_else(|| format!("use one of {}", Method::NAMES.join(", ")))
-    }
-}
-
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
