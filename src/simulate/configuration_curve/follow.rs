@@ -38,15 +38,15 @@ fn event(index: EventIndex) -> Option<&'static str> {
 }
 
 impl<'a, 'o> CurveRun<'a, 'o> {
-    /// Prepares a run from a state of the coordinate. `turning`: crank angle at the start of the turns, and the largest
+    /// Runs a piece from a state of the coordinate. `turning`: crank angle at the start of the turns, and the largest
     /// rotation from there (rad); none without a turn limit.
-    pub fn new(
+    pub fn run(
         equation: &'a CurveEquation,
         settings: Settings<'a>,
         start: Start,
         turning: Option<(Angle, f64)>,
         observer: &'o mut dyn Observer,
-    ) -> CurveRun<'a, 'o> {
+    ) -> TimePiece {
         let Start { t, angle, speed } = start;
         let node = Node {
             t,
@@ -54,7 +54,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             omega: speed,
             ..Node::default()
         };
-        CurveRun {
+        let mut run = CurveRun {
             equation,
             settings,
             quantities: Quantities {
@@ -72,23 +72,18 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 steps: 0,
                 evaluations: 0,
                 end: End::Done,
-                impossible: None,
+                singular_state: None,
             },
-        }
-    }
-
-    /// Runs to the end of the piece.
-    pub fn run(mut self) -> TimePiece {
-        let speed = self.now.speed;
-        let end = if speed == 0.0 && self.may_stick() {
-            self.leave_rest(None)
-        } else {
-            self.signs = self.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
-            self.check_jam()
         };
-        self.piece.end = end.unwrap_or_else(|| self.pieces());
-        self.piece.evaluations = self.spent();
-        self.piece
+        let end = if speed == 0.0 && run.may_stick() {
+            run.leave_rest(None)
+        } else {
+            run.signs = run.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
+            run.check_jam()
+        };
+        run.piece.end = end.unwrap_or_else(|| run.pieces());
+        run.piece.evaluations = run.spent();
+        run.piece
     }
 
     /// Returns the number of evaluations, with those of the event functions.
@@ -206,7 +201,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             stopped || vanished
         });
         self.piece.steps += steps;
-        self.piece.impossible = motion
+        self.piece.singular_state = motion
             .singular_state()
             .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {

@@ -18,9 +18,9 @@ use crate::engine::time::{Finish, Start};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
-/// Equation on the configuration curve through the start, and the state of the coordinate at the start.
+/// Initial value problem on the configuration curve through the start: equation, and state of the coordinate there.
 #[derive(Clone)]
-pub(super) struct OnCurve {
+pub(super) struct CurveProblem {
     pub equation: Arc<CurveEquation>,
     pub start: Start,
 }
@@ -40,9 +40,9 @@ pub(super) fn warning(task: &RunSetup<'_>) -> Option<Warning> {
     }
 }
 
-impl OnCurve {
+impl CurveProblem {
     /// Places a run on the curve through its start; none where no curve passes through it.
-    pub fn through_start(task: &RunSetup<'_>) -> Option<OnCurve> {
+    pub fn through_start(task: &RunSetup<'_>) -> Option<CurveProblem> {
         let (curve, angle) = Curve::through(task.equation().linkage(), task.start())?;
         let speed = match task.speed {
             0.0 => 0.0,
@@ -54,7 +54,7 @@ impl OnCurve {
             speed,
         };
         let equation = Arc::new(CurveEquation::new(task.scene, curve));
-        Some(OnCurve { equation, start })
+        Some(CurveProblem { equation, start })
     }
 
     /// Computes the energy balance up to the end of the last step, from work (J) and the largest crank speed (rad/s).
@@ -115,7 +115,7 @@ pub(super) struct TimePiece {
     pub evaluations: u64,
     pub end: End,
     /// Time, crank angle and speed of the last evaluation without a finite result.
-    pub impossible: Option<Start>,
+    pub singular_state: Option<Start>,
 }
 
 /// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is

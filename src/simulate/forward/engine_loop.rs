@@ -1,15 +1,16 @@
-//! Loop of a free motion: the engines of the plan take turns until the goal is met.
+//! Loop of a free motion: the engines of the plan take turns until the goal is met, and hand their pieces to an observer.
 
+use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
-use super::super::configuration_curve::{End, OnCurve};
+use super::super::configuration_curve::{CurveProblem, End, Observer};
 use super::super::run_setup::RunSetup;
-use super::arrived::{Arrived, PieceEnd, Sink};
 use super::stop_reason;
-use crate::engine::angle::Resolution;
+use crate::engine::angle::{AngleRun, Resolution};
 use crate::engine::energy::NotApplicable;
-use crate::engine::time::{Finish, Settings};
+use crate::engine::step::Step;
+use crate::engine::time::{Finish, Settings, Start};
 use crate::engine::{Counted, WorkLimit};
 use crate::error::Error;
 use crate::plan::{Engine, Method};
@@ -17,94 +18,172 @@ use crate::scene::Extent;
 
 /// Settings of one pass: set-up, first engine, extent and resolution.
 #[derive(Clone)]
-pub(super) struct Course<'a> {
+pub(super) struct PassSettings<'a> {
     pub task: &'a RunSetup<'a>,
     pub model: &'a AngleModel<'a>,
-    pub first: Engine,
+    pub first_engine: Engine,
     /// Whether this is the second pass, with which the first is compared.
     pub is_second: bool,
     pub extent: Extent,
     pub resolution: Resolution<'a>,
-    pub settings: Settings<'a>,
+    pub time_settings: Settings<'a>,
     /// Crank rotation in one direction, rad, after which the angle engine resumes.
-    pub wait: f64,
+    pub resume_rotation: f64,
     /// Configuration curve through the start, once a piece follows it.
-    pub curve: OnceCell<OnCurve>,
+    pub curve: OnceCell<CurveProblem>,
 }
 
+/// Receiver of the pieces of a pass.
+pub(super) trait PassObserver: Observer {
+    /// Takes note that an engine takes over at a time, s.
+    fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
+
+    /// Takes a piece over the angle.
+    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error>;
+
+    /// Keeps the motion of a piece over the angle that is one of several.
+    fn keep(&mut self, _piece: AnglePiece) {}
+
+    /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate.
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>);
+
+    /// Ends a piece in time; returns the shortened last step if the run ends inside it.
+    fn end_in_time(
+        &mut self,
+        _motion: &Counted<'_>,
+        _last: &Step,
+        _settings: &Settings<'_>,
+    ) -> Option<Step> {
+        None
+    }
+}
+
+/// Piece over the crank angle, placed in the time of the run.
+pub(super) struct AnglePiece {
+    pub run: AngleRun,
+    pub engine: Engine,
+    pub from: Start,
+    pub to: Start,
+}
+
+/// Reason for the end of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PieceEnd {
+    /// The run reached its goal or cannot go on.
+    Ended,
+    /// The crank is clear of rest again.
+    ClearOfRest,
+    /// The engine cannot begin or go on.
+    NotApplicable(NotApplicable),
+}
+
+/// State and totals of a pass, up to now and at its end.
+#[derive(Default)]
+pub(super) struct PassResult {
+    pub state: Start,
+    /// Last step, if the last piece was in time.
+    pub last_step: Option<Step>,
+    /// Motion along the configuration curve, if the last piece followed it.
+    pub curve: Option<CurveProblem>,
+    /// Last piece, if over the angle, until the next piece begins; after the pass, the piece if it is the only one.
+    pub angle_piece: Option<AnglePiece>,
+    /// Work of friction and of the loads without potential, J.
+    pub work: f64,
+    /// Largest kinetic energy at the ends of panels and steps, J.
+    pub largest_kinetic: f64,
+    pub evaluations: u64,
+    pub steps: u64,
+    pub pieces_over_angle: u64,
+    pub pieces_in_time: u64,
+    pub end: End,
+    /// Time, crank angle and speed of the last evaluation without a finite result.
+    pub singular_state: Option<Start>,
+}
+
+impl PassResult {
+    /// Whether one engine computed the run in one piece.
+    pub fn is_one_piece(&self) -> bool {
+        self.pieces_over_angle + self.pieces_in_time == 1
+    }
+}
+
+/// Pass under way.
 pub(super) struct Pass<'a, 'o> {
-    pub course: &'a Course<'a>,
+    pub settings: &'a PassSettings<'a>,
     pub motion: &'a Counted<'a>,
-    pub sink: &'o mut dyn Sink,
-    pub arrived: Arrived,
+    pub observer: &'o mut dyn PassObserver,
+    pub result: PassResult,
     /// Positions of the angle model evaluated before this pass.
-    positions: u64,
+    positions_before: u64,
     /// Number of evaluations of loads over the angle and along the configuration curve.
-    pub beside: u64,
-    pub wait: f64,
+    pub other_evaluations: u64,
+    /// Crank rotation in one direction, rad, after which the angle engine resumes next time.
+    pub resume_rotation: f64,
 }
 
-impl Course<'_> {
+impl PassSettings<'_> {
     /// Runs to the end. All evaluations of `motion` during the pass count for the work limit.
-    pub fn run(&self, motion: &Counted<'_>, sink: &mut dyn Sink) -> Result<Arrived, Error> {
+    pub fn run(
+        &self,
+        motion: &Counted<'_>,
+        observer: &mut dyn PassObserver,
+    ) -> Result<PassResult, Error> {
         let mut pass = Pass {
-            course: self,
+            settings: self,
             motion,
-            sink,
-            arrived: Arrived {
-                now: self.task.first_state(),
-                ..Arrived::default()
+            observer,
+            result: PassResult {
+                state: self.task.first_state(),
+                ..PassResult::default()
             },
-            positions: self.model.evaluations(),
-            beside: 0,
-            wait: self.wait,
+            positions_before: self.model.evaluations(),
+            other_evaluations: 0,
+            resume_rotation: self.resume_rotation,
         };
         pass.pieces()?;
-        if !pass.arrived.is_one_piece() {
+        if !pass.result.is_one_piece() {
             pass.keep();
         }
-        let spent = pass.spent();
-        let mut arrived = pass.arrived;
-        arrived.evaluations = spent;
-        Ok(arrived)
+        pass.result.evaluations = pass.spent();
+        Ok(pass.result)
     }
 }
 
 impl<'a> Pass<'a, '_> {
     /// Returns the number of evaluations beside those of `motion`.
-    pub fn spent_beside(&self) -> u64 {
-        self.course.model.evaluations() - self.positions + self.beside
+    pub fn spent_beside_motion(&self) -> u64 {
+        self.settings.model.evaluations() - self.positions_before + self.other_evaluations
     }
 
     fn spent(&self) -> u64 {
-        self.spent_beside() + self.motion.evaluations()
+        self.spent_beside_motion() + self.motion.evaluations()
     }
 
     /// Returns the rest of the work limit.
     pub fn left(&self) -> WorkLimit<'a> {
-        self.course.settings.limit.after(self.spent())
+        self.settings.time_settings.limit.after(self.spent())
     }
 
     fn pieces(&mut self) -> Result<(), Error> {
-        let task = self.course.task;
-        let mut engine = self.course.first;
+        let task = self.settings.task;
+        let mut engine = self.settings.first_engine;
         let mut reason = task.plan.reason.clone();
         // Rotation, rad, before the angle engine resumes; infinite unless that engine stopped at low speed.
-        let mut wait = f64::INFINITY;
+        let mut rotation = f64::INFINITY;
         loop {
             let why = match engine {
-                Engine::Energy => self.by_energy(reason)?,
-                Engine::Angle => self.by_angle(reason)?,
-                _ => self.in_time(wait, reason)?,
+                Engine::Energy => self.run_energy_engine(reason)?,
+                Engine::Angle => self.run_angle_engine(reason)?,
+                _ => self.run_time_engine(rotation, reason)?,
             };
             let Some(next) = self.next(engine, why)? else {
                 return Ok(());
             };
-            wait = match why {
+            rotation = match why {
                 PieceEnd::NotApplicable(NotApplicable::TooSlow)
                     if task.plan.has(Engine::Angle) && task.turns_fully() =>
                 {
-                    self.wait
+                    self.resume_rotation
                 }
                 _ => f64::INFINITY,
             };
@@ -123,22 +202,22 @@ impl<'a> Pass<'a, '_> {
         use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
         let why = match why {
             PieceEnd::Ended => return Ok(None),
-            PieceEnd::Clear => return Ok(Some(Engine::Angle)),
+            PieceEnd::ClearOfRest => return Ok(Some(Engine::Angle)),
             PieceEnd::NotApplicable(why) => why,
         };
-        let plan = &self.course.task.plan;
+        let plan = &self.settings.task.plan;
         if !self.has_begun() {
-            if self.course.task.options.method != Method::Auto && !self.course.is_second {
-                return Err(stop_reason::refusal(self.course.task, why));
+            if self.settings.task.options.method != Method::Auto && !self.settings.is_second {
+                return Err(stop_reason::refusal(self.settings.task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.positions = self.course.model.evaluations();
+            self.positions_before = self.settings.model.evaluations();
         }
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
             (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
             (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
-                self.arrived.end = End::Integrator(match why {
+                self.result.end = End::Integrator(match why {
                     WorkLimit => Finish::WorkLimit,
                     _ => Finish::TooManyTurns,
                 });
@@ -149,6 +228,6 @@ impl<'a> Pass<'a, '_> {
     }
 
     pub fn has_begun(&self) -> bool {
-        self.arrived.over_angle + self.arrived.in_time > 0
+        self.result.pieces_over_angle + self.result.pieces_in_time > 0
     }
 }

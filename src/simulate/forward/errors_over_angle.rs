@@ -5,7 +5,7 @@ use super::super::outcome::Estimate;
 use super::super::result::ErrorEstimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::MARGIN;
-use super::arrived::Arrived;
+use super::engine_loop::PassResult;
 use crate::engine::angle::AngleRun;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
@@ -43,12 +43,12 @@ pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> 
 pub(super) fn by_energy(
     task: &RunSetup<'_>,
     run: &AngleRun,
-    arrived: &Arrived,
+    result: &PassResult,
     wants_rows: bool,
 ) -> Estimate {
     let (orbit, end) = (&run.orbit, run.end);
-    let mut error = rounding_error(task, orbit, arrived.now);
-    error.omega_rad_per_s += truncation_error(task, orbit, arrived.now, arrived.work);
+    let mut error = rounding_error(task, orbit, result.state);
+    error.omega_rad_per_s += truncation_error(task, orbit, result.state, result.work);
     Estimate {
         error,
         on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),

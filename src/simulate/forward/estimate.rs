@@ -8,19 +8,19 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::super::configuration_curve::{End, Observer, OnCurve};
+use super::super::configuration_curve::{CurveProblem, End, Observer};
 use super::super::crank_motion::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{Rounding, Spread};
+use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::Phase;
-use super::arrived::{AnglePiece, Arrived, Sink};
-use super::engine_loop::Course;
+use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings};
 use super::errors_over_angle::{TURN_ROUNDING, by_energy, late_by, row_error, worst_row};
-use super::over_angle::finer;
+use super::over_angle::second_run_resolution;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings, Start};
@@ -35,49 +35,49 @@ const STATED_DEVIATIONS: f64 = 2.0;
 
 /// Estimates the global error of a run; none where no second run reaches the end.
 pub(super) fn estimate(
-    course: &Course<'_>,
-    arrived: &Arrived,
+    pass: &PassSettings<'_>,
+    result: &PassResult,
     record: &Record,
     wants_rows: bool,
 ) -> Option<Estimate> {
-    match &arrived.angle_piece {
+    match &result.angle_piece {
         Some(piece) if piece.engine == Engine::Energy => {
-            Some(by_energy(course.task, &piece.run, arrived, wants_rows))
+            Some(by_energy(pass.task, &piece.run, result, wants_rows))
         }
-        _ => by_second_run(course, arrived, record, wants_rows),
+        _ => by_second_run(pass, result, record, wants_rows),
     }
 }
 
 /// Estimates the error by a second run, by collocation or, where that does not arrive, by the method of the run.
 fn by_second_run(
-    course: &Course<'_>,
-    arrived: &Arrived,
+    pass: &PassSettings<'_>,
+    result: &PassResult,
     record: &Record,
     wants_rows: bool,
 ) -> Option<Estimate> {
     let begun = Instant::now();
-    let guide = arrived
+    let guide = result
         .angle_piece
         .as_ref()
-        .filter(|_| arrived.is_one_piece());
-    let guide = guide.map(|piece| Guide::new(&piece.run.orbit, course.resolution.tail));
-    let first = match arrived.over_angle {
+        .filter(|_| result.is_one_piece());
+    let guide = guide.map(|piece| Guide::new(&piece.run.orbit, pass.resolution.tail));
+    let first_engine = match result.pieces_over_angle {
         0 => Engine::Time,
         _ => Engine::Angle,
     };
     let mut evaluations = 0;
-    let second = |settings| {
-        let finer = Course {
-            first,
+    let second = |time_settings| {
+        let finer = PassSettings {
+            first_engine,
             is_second: true,
-            extent: Extent::Duration(arrived.now.t),
-            resolution: finer(guide),
-            settings,
+            extent: Extent::Duration(result.state.t),
+            resolution: second_run_resolution(guide),
+            time_settings,
             // Another part of a turn than in the first run.
-            wait: 1.4 * TAU,
-            ..course.clone()
+            resume_rotation: 1.4 * TAU,
+            ..pass.clone()
         };
-        let forward = CrankMotion(course.task.equation());
+        let forward = CrankMotion(pass.task.equation());
         let motion = Counted::new(&forward);
         let mut seen = SecondRun::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
@@ -85,16 +85,16 @@ fn by_second_run(
         let arrives = matches!(best.end, End::Done);
         arrives.then_some((best, seen.rounding.spread, seen.compared))
     };
-    let (best, spread, compared) = second_settings(course, arrived, record)
+    let (best, spread, compared) = second_settings(pass, result, record)
         .into_iter()
         .find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    let error = distance(course, arrived, &best, spread);
-    let rows = match (&arrived.angle_piece, &best.angle_piece) {
-        _ if !arrived.is_one_piece() => None,
+    let error = distance(pass.task, result, &best, spread);
+    let rows = match (&result.angle_piece, &best.angle_piece) {
+        _ if !result.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
             let orbits = [one, other].map(|piece| &piece.run.orbit);
             worst_row(one.run.end, error, |t| row_error(orbits, t, error))
@@ -111,33 +111,33 @@ fn by_second_run(
 
 /// Returns the settings of the second run, by collocation and by the method of the run.
 fn second_settings<'a>(
-    course: &Course<'a>,
-    arrived: &Arrived,
+    pass: &PassSettings<'a>,
+    result: &PassResult,
     record: &'a Record,
 ) -> [Settings<'a>; 2] {
-    let limit = course.settings.limit;
+    let limit = pass.time_settings.limit;
     // Evaluations for one of the first run, and in addition those of the first steps, or of tables over the angle.
     let per_evaluation = 20;
-    let in_addition = match arrived.over_angle {
+    let in_addition = match result.pieces_over_angle {
         0 => 20_000,
         _ => 200_000,
     };
-    let share = arrived
+    let share = result
         .evaluations
         .saturating_mul(per_evaluation)
         .saturating_add(in_addition);
     let again = Settings {
-        t_end: arrived.now.t,
+        t_end: result.state.t,
         limit: WorkLimit {
             evaluations: share.min(limit.evaluations),
             ..limit
         },
-        tolerance: same_method_tolerance(course.settings.tolerance),
-        ..course.settings
+        tolerance: same_method_tolerance(pass.time_settings.tolerance),
+        ..pass.time_settings
     };
     let collocation = Settings {
         method: Method::Picard,
-        tolerance: collocation_tolerance(course.settings.tolerance),
+        tolerance: collocation_tolerance(pass.time_settings.tolerance),
         guide: &record.checkpoints.first,
         ..again
     };
@@ -146,39 +146,38 @@ fn second_settings<'a>(
 
 /// Returns the distance of two runs at the end, plus the roundoff.
 fn distance(
-    course: &Course<'_>,
-    arrived: &Arrived,
-    best: &Arrived,
+    task: &RunSetup<'_>,
+    result: &PassResult,
+    best: &PassResult,
     spread: Spread,
 ) -> ErrorEstimate {
-    let Start { t, angle, speed } = arrived.now;
+    let Start { t, angle, speed } = result.state;
     let [angle_noise, speed_noise] =
-        of_crank(course, arrived, spread).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
+        of_crank(result, spread).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
     // Of the angle engine, relative to the time.
     let time_rounding = 2.5 * f64::EPSILON;
-    let floor = match arrived.over_angle {
+    let floor = match result.pieces_over_angle {
         0 => ErrorEstimate {
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(course.task, arrived.now, time_rounding * t, TURN_ROUNDING),
+        _ => late_by(task, result.state, time_rounding * t, TURN_ROUNDING),
     };
     ErrorEstimate {
-        theta_rad: MARGIN * angle.minus(best.now.angle).abs() + floor.theta_rad + angle_noise,
-        omega_rad_per_s: MARGIN * (speed - best.now.speed).abs()
+        theta_rad: MARGIN * angle.minus(best.state.angle).abs() + floor.theta_rad + angle_noise,
+        omega_rad_per_s: MARGIN * (speed - best.state.speed).abs()
             + floor.omega_rad_per_s
             + speed_noise,
     }
 }
 
 /// Converts the spread of a coordinate at the end to that of crank angle and crank speed.
-fn of_crank(course: &Course<'_>, arrived: &Arrived, spread: Spread) -> [f64; 2] {
+fn of_crank(result: &PassResult, spread: Spread) -> [f64; 2] {
     let (angle, speed) = (spread.angle(), spread.speed());
-    let on = course.curve.get().filter(|_| arrived.on_curve);
-    let (Some(Step { end, .. }), Some(on)) = (arrived.last, on) else {
+    let (Some(Step { end, .. }), Some(curve)) = (result.last_step, &result.curve) else {
         return [angle, speed];
     };
-    let place = on.equation.curve().pose(end.theta);
+    let place = curve.equation.curve().pose(end.theta);
     let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
     let dtheta = place.dtheta.abs();
     [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
@@ -190,26 +189,26 @@ struct SecondRun<'m, 'a> {
     motion: &'m Counted<'m>,
     rounding: Rounding,
     /// Configuration curve of the last piece in time, if it follows one.
-    on: Option<Arc<CurveEquation>>,
+    curve: Option<Arc<CurveEquation>>,
     compared: Comparison<'a>,
 }
 
 impl<'m, 'a> SecondRun<'m, 'a> {
     fn new(
-        course: &'m Course<'_>,
+        pass: &'m PassSettings<'_>,
         motion: &'m Counted<'m>,
         record: &'a Record,
     ) -> SecondRun<'m, 'a> {
-        let Start { t, angle, speed } = course.task.first_state();
+        let Start { t, angle, speed } = pass.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         // Panels over the angle state their roundoff themselves.
-        let moves = moves && course.first == Engine::Time;
+        let moves = moves && pass.first_engine == Engine::Time;
         SecondRun {
-            equation: course.task.equation(),
+            equation: pass.task.equation(),
             motion,
-            rounding: Rounding::new(course.settings.method, moves),
-            on: None,
+            rounding: Rounding::new(pass.time_settings.method, moves),
+            curve: None,
             compared: Comparison::with(&record.checkpoints),
         }
     }
@@ -246,7 +245,7 @@ impl<'m, 'a> SecondRun<'m, 'a> {
     }
 }
 
-impl Sink for SecondRun<'_, '_> {
+impl PassObserver for SecondRun<'_, '_> {
     fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
@@ -267,9 +266,9 @@ impl Sink for SecondRun<'_, '_> {
         Ok(())
     }
 
-    fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {
-        self.on = on.map(|on| on.equation.clone());
-        if on.is_none() && from.t > 0.0 {
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>) {
+        self.curve = curve.map(|curve| curve.equation.clone());
+        if curve.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }
     }
@@ -280,10 +279,10 @@ impl Observer for SecondRun<'_, '_> {
         let SecondRun {
             rounding, compared, ..
         } = self;
-        match self.on.as_deref().zip(phase) {
-            Some((on, phase)) => {
-                compared.pass(step, |q| on.curve().pose(q).dtheta);
-                rounding.step_on_curve(on, step, phase);
+        match self.curve.as_deref().zip(phase) {
+            Some((equation, phase)) => {
+                compared.pass(step, |q| equation.curve().pose(q).dtheta);
+                rounding.step_on_curve(equation, step, phase);
             }
             None => {
                 rounding.step(self.equation, self.motion, step);

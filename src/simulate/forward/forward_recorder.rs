@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{Observer, OnCurve, crank_state, newton_time};
+use super::super::configuration_curve::{CurveProblem, Observer, crank_state, newton_time};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
 use super::super::marks::SAME_CORNER;
 use super::super::passages::{OrbitPiece, is_dead_centre};
@@ -14,7 +14,7 @@ use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::super::stick_slip::Phase;
 use super::super::stop::Why;
-use super::arrived::{AnglePiece, Arrived, Sink};
+use super::engine_loop::{AnglePiece, PassObserver, PassResult};
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -25,7 +25,7 @@ use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
-/// Sink and observer that records a free motion: rows, dead centres, turning points and speeds.
+/// Observer that records a free motion: rows, dead centres, turning points and speeds.
 pub(super) struct ForwardRecorder<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
@@ -40,7 +40,7 @@ pub(super) struct ForwardRecorder<'a> {
     passed: Option<Start>,
     crossings: Vec<(f64, Crossing)>,
     /// Configuration curve of the last piece in time, if it follows one.
-    on: Option<Arc<CurveEquation>>,
+    curve: Option<Arc<CurveEquation>>,
     /// Last phase of the slider in its guide.
     phase: Phase,
 }
@@ -69,28 +69,26 @@ impl<'a> ForwardRecorder<'a> {
             ends_at: None,
             passed: None,
             crossings: Vec::new(),
-            on: None,
+            curve: None,
             phase: Phase::Sticking,
         }
     }
 
     /// Returns the reason for the end, if the crank is caught in a swing.
     pub fn caught(&self) -> Option<Why> {
-        let curve = self.on.as_ref().map(|on| on.curve());
+        let curve = self.curve.as_ref().map(|equation| equation.curve());
         let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
         self.swing?.why(crank)
     }
 
     /// Returns the record, with the row of the end.
-    pub fn finish(self, arrived: &Arrived) -> Result<Record, Error> {
-        let Start { t, angle, speed } = arrived.now;
-        let ForwardRecorder {
-            task, on, phase, ..
-        } = self;
+    pub fn finish(self, result: &PassResult) -> Result<Record, Error> {
+        let Start { t, angle, speed } = result.state;
+        let ForwardRecorder { task, phase, .. } = self;
         self.recorder.finish(|| {
-            Some(match (arrived.last, on.filter(|_| arrived.on_curve)) {
-                (Some(last), Some(on)) => {
-                    let along = AlongCurve::new(&on, phase, &task.maker);
+            Some(match (result.last_step, &result.curve) {
+                (Some(last), Some(curve)) => {
+                    let along = AlongCurve::new(&curve.equation, phase, &task.maker);
                     along.row(t, last.angle(last.end.theta), last.end.omega)
                 }
                 _ => task.maker.row(t, angle, speed, None),
@@ -114,9 +112,9 @@ impl<'a> ForwardRecorder<'a> {
     }
 
     /// Records a step along the configuration curve; true ends the run.
-    fn step_on_curve(&mut self, mut step: Step, on: &CurveEquation, phase: Phase) -> bool {
+    fn step_on_curve(&mut self, mut step: Step, equation: &CurveEquation, phase: Phase) -> bool {
         self.phase = phase;
-        let along = AlongCurve::new(on, phase, &self.task.maker);
+        let along = AlongCurve::new(equation, phase, &self.task.maker);
         if phase != Phase::Sticking {
             let speed = self.recorder.speed();
             let crank = |step: &Step, t: f64| along.crank_speed(step, t);
@@ -219,8 +217,8 @@ impl<'a> ForwardRecorder<'a> {
 
 impl Observer for ForwardRecorder<'_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
-        match self.on.clone().zip(phase) {
-            Some((on, phase)) => self.step_on_curve(*step, &on, phase),
+        match self.curve.clone().zip(phase) {
+            Some((equation, phase)) => self.step_on_curve(*step, &equation, phase),
             None => self.step_of_crank(*step),
         }
     }
@@ -232,13 +230,13 @@ impl Observer for ForwardRecorder<'_> {
             swing.turns_at(angle);
         }
         let at = Start { t, angle, speed };
-        let crank = |on: &Arc<CurveEquation>| crank_state(on.curve(), at);
-        let at = self.on.as_ref().map_or(at, crank);
+        let crank = |equation: &Arc<CurveEquation>| crank_state(equation.curve(), at);
+        let at = self.curve.as_ref().map_or(at, crank);
         self.recorder.event(Event::new(kind, at));
     }
 }
 
-impl Sink for ForwardRecorder<'_> {
+impl PassObserver for ForwardRecorder<'_> {
     fn begins(&mut self, engine: Engine, from: f64, why: Cow<'static, str>) {
         self.recorder.begins(engine, from, why);
     }
@@ -258,11 +256,11 @@ impl Sink for ForwardRecorder<'_> {
             .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
-    fn begin_in_time(&mut self, from: Start, on: Option<&OnCurve>) {
-        self.on = on.map(|on| on.equation.clone());
-        let again = on.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>) {
+        self.curve = curve.map(|curve| curve.equation.clone());
+        let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
         self.passed = again.then_some(from);
-        if on.is_some() && !self.task.turns_fully() {
+        if curve.is_some() && !self.task.turns_fully() {
             self.swing = Swing::new(self.task, from.angle);
         }
     }

@@ -5,12 +5,11 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::super::configuration_curve::{self, CurveRun, End, Observer, OnCurve, TimePiece};
+use super::super::configuration_curve::{self, CurveProblem, CurveRun, End, Observer, TimePiece};
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::Phase;
 use super::super::stop;
-use super::arrived::{PieceEnd, Sink};
-use super::engine_loop::{Course, Pass};
+use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd};
 use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::angle::Dynamics;
@@ -22,43 +21,61 @@ use crate::plan::Engine;
 use crate::scene::Extent;
 
 impl Pass<'_, '_> {
-    /// Runs a piece in time, to the end or until the crank has turned by `wait` (rad) in one direction.
-    pub fn in_time(&mut self, wait: f64, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+    /// Runs a piece in time, to the end or until the crank has turned by `rotation` (rad) in one direction.
+    pub fn run_time_engine(
+        &mut self,
+        rotation: f64,
+        reason: Cow<'static, str>,
+    ) -> Result<PieceEnd, Error> {
         self.keep();
-        let course = self.course;
-        let from = self.arrived.now;
-        self.sink.begins(Engine::Time, from.t, reason);
-        let on = match configuration_curve::is_followed(course.task) {
-            true => Some(course.on_curve()?),
+        let pass = self.settings;
+        let from = self.result.state;
+        self.observer.begins(Engine::Time, from.t, reason);
+        let curve = match configuration_curve::is_followed(pass.task) {
+            true => Some(pass.curve_through_start()?),
             false => None,
         };
         // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
-        let start = on.filter(|_| !self.has_begun()).map_or(from, |on| on.start);
+        let start = match curve {
+            Some(curve) if !self.has_begun() => curve.start,
+            _ => from,
+        };
         let settings = Settings {
-            limit: match on {
+            limit: match curve {
                 Some(_) => self.left(),
                 // The evaluations of `motion` before this piece count as well.
-                None => course.settings.limit.after(self.spent_beside()),
+                None => pass.time_settings.limit.after(self.spent_beside_motion()),
             },
-            ..course.settings
+            ..pass.time_settings
         };
-        self.sink.begin_in_time(start, on);
-        let mut until = Until::new(course, from, wait, &mut *self.sink);
-        let mut piece = match on {
-            Some(on) => {
-                let limit = course.extent.angle();
-                let turning = limit.map(|limit| (course.task.start(), limit));
-                CurveRun::new(&on.equation, settings, start, turning, &mut until).run()
+        self.observer.begin_in_time(start, curve);
+        let mut resume = ResumeCondition {
+            pass,
+            observer: &mut *self.observer,
+            rotation,
+            turning_point: from.angle,
+            kinetic_since_turning: 0.0,
+            largest_kinetic: 0.0,
+            is_met: false,
+        };
+        let mut piece = match curve {
+            Some(curve) => {
+                let limit = pass.extent.angle();
+                let turning = limit.map(|limit| (pass.task.start(), limit));
+                CurveRun::run(&curve.equation, settings, start, turning, &mut resume)
             }
-            None => of_crank(self.motion, from, &settings, &mut until),
+            None => of_crank(self.motion, from, &settings, &mut resume),
         };
-        let Until {
-            is_clear,
+        let ResumeCondition {
+            is_met,
             largest_kinetic,
             ..
-        } = until;
-        self.beside += piece.evaluations;
-        if let Some(last) = self.sink.end_in_time(self.motion, &piece.last, &settings) {
+        } = resume;
+        self.other_evaluations += piece.evaluations;
+        if let Some(last) = self
+            .observer
+            .end_in_time(self.motion, &piece.last, &settings)
+        {
             (piece.last, piece.work, piece.end) = (last, last.end.work, End::Done);
         }
         let end = &piece.last.end;
@@ -67,24 +84,24 @@ impl Pass<'_, '_> {
             angle: piece.last.angle(end.theta),
             speed: end.omega,
         };
-        let arrived = &mut self.arrived;
-        arrived.now = on.map_or(coordinate, |on| {
-            configuration_curve::crank_state(on.equation.curve(), coordinate)
+        let result = &mut self.result;
+        result.state = curve.map_or(coordinate, |curve| {
+            configuration_curve::crank_state(curve.equation.curve(), coordinate)
         });
-        arrived.steps += piece.steps;
-        arrived.in_time += 1;
-        arrived.work += piece.work;
-        arrived.largest_kinetic = arrived.largest_kinetic.max(largest_kinetic);
-        arrived.impossible = piece.impossible;
-        arrived.on_curve = on.is_some();
-        arrived.last = Some(piece.last);
-        if is_clear && matches!(piece.end, End::Stopped) {
-            arrived.end = End::Done;
-            arrived.now.angle = arrived.now.angle.reduced();
-            return Ok(PieceEnd::Clear);
+        result.steps += piece.steps;
+        result.pieces_in_time += 1;
+        result.work += piece.work;
+        result.largest_kinetic = result.largest_kinetic.max(largest_kinetic);
+        result.singular_state = piece.singular_state;
+        result.curve = curve.cloned();
+        result.last_step = Some(piece.last);
+        if is_met && matches!(piece.end, End::Stopped) {
+            result.end = End::Done;
+            result.state.angle = result.state.angle.reduced();
+            return Ok(PieceEnd::ClearOfRest);
         }
-        arrived.end = match (piece.end, course.extent) {
-            (End::Done, Extent::Revolutions(turns)) if arrived.now.t >= time::UNLIMITED_TIME => {
+        result.end = match (piece.end, pass.extent) {
+            (End::Done, Extent::Revolutions(turns)) if result.state.t >= time::UNLIMITED_TIME => {
                 End::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
@@ -98,11 +115,11 @@ fn of_crank(
     motion: &Counted<'_>,
     from: Start,
     settings: &Settings<'_>,
-    until: &mut Until<'_, '_>,
+    observer: &mut dyn Observer,
 ) -> TimePiece {
-    let (finish, last, steps) =
-        time::run(motion, from, settings, &mut |step| until.step(step, None));
-    let impossible = motion.singular_state();
+    let mut sink = |step: &Step| observer.step(step, None);
+    let (finish, last, steps) = time::run(motion, from, settings, &mut sink);
+    let singular_state = motion.singular_state();
     TimePiece {
         last,
         work: last.end.work,
@@ -113,42 +130,42 @@ fn of_crank(
             Finish::Stopped => End::Stopped,
             finish => End::Integrator(finish),
         },
-        impossible: impossible.map(|(t, angle, speed)| Start { t, angle, speed }),
+        singular_state: singular_state.map(|(t, angle, speed)| Start { t, angle, speed }),
     }
 }
 
-impl Course<'_> {
-    /// Returns the curve through the start.
-    fn on_curve(&self) -> Result<&OnCurve, Error> {
+impl PassSettings<'_> {
+    /// Returns the motion along the curve through the start.
+    fn curve_through_start(&self) -> Result<&CurveProblem, Error> {
         if let Some(curve) = self.curve.get() {
             return Ok(curve);
         }
-        let on = OnCurve::through_start(self.task);
-        let on = on.ok_or_else(|| stop_reason::no_start(self.task))?;
-        Ok(self.curve.get_or_init(|| on))
+        let curve = CurveProblem::through_start(self.task);
+        let curve = curve.ok_or_else(|| stop_reason::no_start(self.task))?;
+        Ok(self.curve.get_or_init(|| curve))
     }
 }
 
-/// Observer of a crank in time until it turns safely again.
-struct Until<'a, 'o> {
-    course: &'a Course<'a>,
-    observer: &'o mut dyn Sink,
-    wait: f64,
+/// Observer of a crank in time until it turns safely again and the angle engine may take over.
+struct ResumeCondition<'a, 'o> {
+    pass: &'a PassSettings<'a>,
+    observer: &'o mut dyn PassObserver,
+    /// Rotation in one direction that is waited for, rad.
+    rotation: f64,
     /// Crank angle at the last turning point.
-    turned: Angle,
+    turning_point: Angle,
     /// Largest kinetic energy since the last turning point, J.
-    since: f64,
+    kinetic_since_turning: f64,
     /// Largest kinetic energy at the ends of steps, J.
     largest_kinetic: f64,
-    /// Whether the angle engine may take over.
-    is_clear: bool,
+    is_met: bool,
 }
 
-impl Observer for Until<'_, '_> {
+impl Observer for ResumeCondition<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
         let ends = self.observer.step(step, phase);
-        self.is_clear = !ends && self.is_reached(step);
-        ends || self.is_clear
+        self.is_met = !ends && self.is_met_at_end(step);
+        ends || self.is_met
     }
 
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
@@ -156,49 +173,31 @@ impl Observer for Until<'_, '_> {
     }
 }
 
-impl<'a, 'o> Until<'a, 'o> {
-    /// Observes from a state until the crank has turned by `wait` (rad) in one direction.
-    fn new(
-        course: &'a Course<'a>,
-        from: Start,
-        wait: f64,
-        observer: &'o mut dyn Sink,
-    ) -> Until<'a, 'o> {
-        Until {
-            course,
-            observer,
-            wait,
-            turned: from.angle,
-            since: 0.0,
-            largest_kinetic: 0.0,
-            is_clear: false,
-        }
-    }
-
+impl ResumeCondition<'_, '_> {
     /// Whether the angle engine may take over at the end of a step.
-    fn is_reached(&mut self, step: &Step) -> bool {
-        if self.wait == f64::INFINITY {
+    fn is_met_at_end(&mut self, step: &Step) -> bool {
+        if self.rotation == f64::INFINITY {
             return false;
         }
         let end = &step.end;
         let angle = step.angle(end.theta);
-        let equation = self.course.task.equation();
+        let equation = self.pass.task.equation();
         let kinetic = equation.kinetic_energy(angle.rest, end.omega);
         self.largest_kinetic = self.largest_kinetic.max(kinetic);
         if step.start.omega * end.omega <= 0.0 {
-            (self.turned, self.since) = (angle, 0.0);
+            (self.turning_point, self.kinetic_since_turning) = (angle, 0.0);
         }
-        self.since = self.since.max(kinetic);
+        self.kinetic_since_turning = self.kinetic_since_turning.max(kinetic);
         // Part of the largest energy since then: a slower crank may be near to rest, where the angle does not serve.
         let fast = 0.25;
-        angle.minus(self.turned).abs() >= self.wait
-            && kinetic >= fast * self.since
+        angle.minus(self.turning_point).abs() >= self.rotation
+            && kinetic >= fast * self.kinetic_since_turning
             && self.is_apart(angle)
     }
 
     /// Whether an angle is apart from all corners, as they may be events.
     fn is_apart(&self, angle: Angle) -> bool {
-        let corners = self.course.model.corners_if_light().iter();
+        let corners = self.pass.model.corners_if_light().iter();
         corners
             .map(|corner| (angle.rest - corner).rem_euclid(TAU))
             .all(|ahead| ahead.min(TAU - ahead) > NEARBY_ANGLE)

@@ -8,8 +8,7 @@ use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
-use super::arrived::{AnglePiece, PieceEnd};
-use super::engine_loop::Pass;
+use super::engine_loop::{AnglePiece, Pass, PieceEnd};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
@@ -21,8 +20,8 @@ use crate::scene::Extent;
 
 impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
-    pub fn by_energy(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
-        let (task, model) = (self.course.task, self.course.model);
+    pub fn run_energy_engine(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+        let (task, model) = (self.settings.task, self.settings.model);
         // A tenth of the tolerance, but no more than the last digits, as the series cost little.
         let (share, most_tail) = (0.1, 1e-14);
         let tail = (share * task.scene.run.tolerance).clamp(LEAST_TAIL, most_tail);
@@ -31,7 +30,7 @@ impl Pass<'_, '_> {
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
         if let Some(why) = stopped {
-            self.arrived.end = End::Named(why.into());
+            self.result.end = End::Named(why.into());
         }
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
@@ -41,54 +40,58 @@ impl Pass<'_, '_> {
     }
 
     /// Runs a piece of the angle engine to the goal or to where the engine cannot go on.
-    pub fn by_angle(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
-        let course = self.course;
-        let from = self.arrived.now;
+    pub fn run_angle_engine(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+        let pass = self.settings;
+        let from = self.result.state;
         let run = self.run_over_angle().and_then(|run| match run.early_end {
             // Past its limits a crank that does not turn fully is followed from the start.
-            Some(end) if !course.task.turns_fully() => Err(end.why),
+            Some(end) if !pass.task.turns_fully() => Err(end.why),
             _ => Ok(run),
         });
         let run = match run {
             Ok(run) => run,
             Err(why) => {
-                self.wait *= 2.0;
+                self.resume_rotation *= 2.0;
                 return Ok(PieceEnd::NotApplicable(why));
             }
         };
         let Some(end) = run.early_end else {
             let (angle, speed) = run.orbit.state(run.end);
-            let t = match course.extent {
+            let t = match pass.extent {
                 Extent::Duration(duration) => duration,
                 Extent::Revolutions(_) => from.t + run.end,
             };
             self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
             return Ok(PieceEnd::Ended);
         };
-        let inertia = course.task.equation().terms(end.angle.rest).inertia.m;
+        let inertia = pass.task.equation().terms(end.angle.rest).inertia.m;
         let speed = from.speed.signum() * (2.0 * end.kinetic / inertia).sqrt();
         let (t, angle) = (from.t + run.end, end.angle.reduced());
-        let soon = angle.minus(from.angle).abs() < 2.0 * self.wait;
-        self.wait = if soon { 2.0 * self.wait } else { course.wait };
+        let soon = angle.minus(from.angle).abs() < 2.0 * self.resume_rotation;
+        self.resume_rotation = if soon {
+            2.0 * self.resume_rotation
+        } else {
+            pass.resume_rotation
+        };
         self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
         Ok(PieceEnd::NotApplicable(end.why))
     }
 
     fn run_over_angle(&self) -> Result<AngleRun, NotApplicable> {
-        let course = self.course;
-        let now = self.arrived.now;
-        let goal = match course.extent {
+        let pass = self.settings;
+        let now = self.result.state;
+        let goal = match pass.extent {
             Extent::Duration(duration) => Goal::Time(duration - now.t),
             Extent::Revolutions(turns) => {
-                let turned = now.angle.minus(course.task.start());
+                let turned = now.angle.minus(pass.task.start());
                 Goal::Turned(turns * TAU - now.speed.signum() * turned)
             }
         };
         let resolution = Resolution {
             limit: self.left(),
-            ..course.resolution
+            ..pass.resolution
         };
-        angle::run(course.model, now, goal, resolution)
+        angle::run(pass.model, now, goal, resolution)
     }
 
     /// Adds a piece over the angle to the pass.
@@ -100,44 +103,42 @@ impl Pass<'_, '_> {
         to: Start,
     ) -> Result<(), Error> {
         self.keep();
-        let arrived = &mut self.arrived;
-        let from = arrived.now;
-        self.beside += run.evaluations;
-        arrived.work += run.work;
-        arrived.steps += run.orbit.panels() as u64;
-        arrived.over_angle += 1;
+        let result = &mut self.result;
+        let from = result.state;
+        self.other_evaluations += run.evaluations;
+        result.work += run.work;
+        result.steps += run.orbit.panels() as u64;
+        result.pieces_over_angle += 1;
         let largest = run.orbit.largest_kinetic(run.end);
-        arrived.largest_kinetic = arrived.largest_kinetic.max(largest);
-        (arrived.last, arrived.on_curve) = (None, false);
-        arrived.now = to;
+        result.largest_kinetic = result.largest_kinetic.max(largest);
+        (result.last_step, result.curve) = (None, None);
+        result.state = to;
         let piece = AnglePiece {
             run,
             engine,
             from,
             to,
         };
-        self.sink.begins(engine, from.t, reason);
-        self.sink.over_angle(&piece)?;
-        arrived.angle_piece = Some(piece);
+        self.observer.begins(engine, from.t, reason);
+        self.observer.over_angle(&piece)?;
+        result.angle_piece = Some(piece);
         Ok(())
     }
 
-    /// Hands the motion of the last piece over the angle to the sink, as another piece follows.
+    /// Hands the motion of the last piece over the angle to the observer, as another piece follows.
     pub fn keep(&mut self) {
-        if let Some(piece) = self.arrived.angle_piece.take() {
-            self.sink.keep(piece);
+        if let Some(piece) = self.result.angle_piece.take() {
+            self.observer.keep(piece);
         }
     }
 }
 
 /// Returns the resolution for the tolerance of a run.
-pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
+pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     // Tail of the series as part of the tolerance; friction may cut a series inside a panel.
-    let share = 1e-2;
-    let share_cut_by_friction = 0.03 * share;
     let share = match &task.maker.guide {
-        Some(_) => share_cut_by_friction,
-        None => share,
+        Some(_) => 0.03 * 1e-2,
+        None => 1e-2,
     };
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
@@ -148,7 +149,7 @@ pub(super) fn plain<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 }
 
 /// Returns a finer resolution, with panels cut at other angles: two runs on the same panels would have the same error.
-pub(super) fn finer(guide: Option<Guide<'_>>) -> Resolution<'_> {
+pub(super) fn second_run_resolution(guide: Option<Guide<'_>>) -> Resolution<'_> {
     Resolution {
         tail: LEAST_TAIL,
         cuts_unevenly: true,

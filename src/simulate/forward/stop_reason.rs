@@ -4,8 +4,7 @@ use super::super::configuration_curve::End;
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
 use super::super::stop::{Why, why_not_applicable};
-use super::arrived::Arrived;
-use super::engine_loop::Course;
+use super::engine_loop::{PassResult, PassSettings};
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, Start};
 use crate::error::Error;
@@ -13,13 +12,13 @@ use crate::mechanism::{CurveEquation, Singularity};
 use crate::scene::Extent;
 
 /// Returns the reason for an end before the goal, if any.
-pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
-    let task = course.task;
-    let finish = match (&arrived.end, task.extent) {
+pub(super) fn reason(pass: &PassSettings<'_>, result: &PassResult) -> Option<Why> {
+    let task = pass.task;
+    let finish = match (&result.end, task.extent) {
         (End::Named(why), _) => return Some((**why).clone()),
         (End::Integrator(finish), _) => *finish,
         (End::AtRest, Extent::Revolutions(turns)) => {
-            let theta = arrived.now.angle.radians();
+            let theta = result.state.angle.radians();
             let held_by = task.turns_fully().then(|| torques(task, theta));
             return Some(Why::AtRest { turns, held_by });
         }
@@ -29,38 +28,38 @@ pub(super) fn reason(course: &Course<'_>, arrived: &Arrived) -> Option<Why> {
         Finish::WorkLimit => task.limited(),
         Finish::WorkLimitAhead => Why::WorkLimitAhead,
         Finish::TooManyTurns => Why::TooManyTurns,
-        _ => match course.curve.get().filter(|_| arrived.on_curve) {
-            Some(on) => singular_on_curve(task, &on.equation, arrived),
-            None => singular(task, arrived),
+        _ => match &result.curve {
+            Some(curve) => singular_on_curve(task, &curve.equation, result),
+            None => singular(task, result),
         },
     })
 }
 
 /// Returns the reason for steps in the crank angle that became too small.
-fn singular(task: &RunSetup<'_>, arrived: &Arrived) -> Why {
-    let at = arrived.impossible.unwrap_or(arrived.now);
+fn singular(task: &RunSetup<'_>, result: &PassResult) -> Why {
+    let at = result.singular_state.unwrap_or(result.state);
     match task.equation().singularity(at.t, at.angle, at.speed) {
         Some(Singularity::Blocked) => Why::AtLimit,
         Some(Singularity::Load) => no_value(task, at),
         Some(Singularity::NoInertia) => Why::NoInertia,
         Some(Singularity::TooLarge) => Why::TooLarge,
-        None if task.inertia_is_below(1e-9, arrived.now.angle.rest) => Why::NearlyNoInertia,
+        None if task.inertia_is_below(1e-9, result.state.angle.rest) => Why::NearlyNoInertia,
         None => Why::Singular,
     }
 }
 
 /// Returns the reason for steps along the configuration curve that became too small.
-fn singular_on_curve(task: &RunSetup<'_>, on: &CurveEquation, arrived: &Arrived) -> Why {
-    let impossible = arrived.impossible.filter(|at| {
+fn singular_on_curve(task: &RunSetup<'_>, curve: &CurveEquation, result: &PassResult) -> Why {
+    let singular_state = result.singular_state.filter(|at| {
         !task
             .equation()
             .load(at.t, at.angle.radians(), at.speed)
             .is_finite()
     });
-    let stands = arrived.last.map(|last| last.end.theta);
-    match (impossible, stands) {
+    let stands = result.last_step.map(|last| last.end.theta);
+    match (singular_state, stands) {
         (Some(at), _) => no_value(task, at),
-        (None, Some(q)) if on.vanishes_at(q) => Why::NoInertiaOnCurve,
+        (None, Some(q)) if curve.vanishes_at(q) => Why::NoInertiaOnCurve,
         _ => Why::Singular,
     }
 }
