@@ -4,28 +4,33 @@ use std::cell::RefCell;
 
 use cobyla::{RhoBeg, StopTols, minimize};
 
-use super::evaluator::{Candidate, Evaluator};
+use super::evaluator::{EvaluatedPoint, Evaluator};
 
 /// Result of one local search.
 #[derive(Clone, Debug)]
-pub(super) struct Searched {
+pub(super) struct LocalSearchResult {
     /// Start, in the unit box.
     pub from: Vec<f64>,
     /// Best design of the search.
-    pub end: Candidate,
+    pub end: EvaluatedPoint,
     /// Number of designs computed.
     pub designs: u64,
 }
 
 /// Last design of a search, cached because COBYLA asks for goal and limits one by one, and the best design.
-struct Incumbent {
-    last: Candidate,
-    best: Candidate,
+struct SearchHistory {
+    last: EvaluatedPoint,
+    best: EvaluatedPoint,
     designs: u64,
 }
 
 /// Runs COBYLA from a design, initial trust radius `step` in parts of the ranges; `worst` replaces a missing goal.
-pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f64) -> Searched {
+pub(super) fn search(
+    evaluator: &Evaluator,
+    from: EvaluatedPoint,
+    step: f64,
+    worst: f64,
+) -> LocalSearchResult {
     let start = from.at.clone();
     let keys = start.len();
     // COBYLA needs a few dozen designs per key where no valley is curved.
@@ -34,7 +39,7 @@ pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f
     // to meet limits.
     let last_step = 1e-10;
     let safety_margin = 10.0 * last_step;
-    let seen = RefCell::new(Incumbent {
+    let seen = RefCell::new(SearchHistory {
         last: from.clone(),
         best: from,
         designs: 0,
@@ -73,8 +78,8 @@ pub(super) fn search(evaluator: &Evaluator, from: Candidate, step: f64, worst: f
         RhoBeg::All(step),
         Some(tolerances),
     );
-    let Incumbent { best, designs, .. } = seen.into_inner();
-    Searched {
+    let SearchHistory { best, designs, .. } = seen.into_inner();
+    LocalSearchResult {
         from: start,
         end: best,
         designs,

@@ -7,7 +7,7 @@ use crate::scene::{Extent, Variable};
 
 /// Record of the turning points of a run that ends after a number of turns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Swing {
+pub(super) struct BoundedMotion {
     /// Outermost turning points on the lower and upper side, angles of the coordinate.
     reach: [Angle; 2],
     /// Number of turning points after the last one that was further out, and up to it.
@@ -18,9 +18,9 @@ pub(super) struct Swing {
     turns: f64,
 }
 
-impl Swing {
+impl BoundedMotion {
     /// Starts a record at angle `start` of the coordinate; none if the run has a last time.
-    pub fn new(task: &RunSetup<'_>, start: Angle) -> Option<Swing> {
+    pub fn new(task: &RunSetup<'_>, start: Angle) -> Option<BoundedMotion> {
         let Extent::Revolutions(turns) = task.extent else {
             return None;
         };
@@ -34,7 +34,7 @@ impl Swing {
         } else {
             50
         };
-        Some(Swing {
+        Some(BoundedMotion {
             reach: [start; 2],
             since: 0,
             before: 0,

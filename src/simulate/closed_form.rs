@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::balance::Balance;
-use super::driving_torque::Drive;
+use super::driving_torque::ConstantSpeedMotion;
 use super::outcome::{Estimate, Outcome};
 use super::passages;
 use super::recorder::Recorder;
@@ -36,7 +36,7 @@ pub(super) fn run<'a>(
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let mut drive = Drive {
+    let mut drive = ConstantSpeedMotion {
         maker: &task.maker,
         start,
         speed,
@@ -115,7 +115,7 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     (speed != 0.0).then(|| left / speed.abs())
 }
 
-impl RowSource for Drive<'_> {
+impl RowSource for ConstantSpeedMotion<'_> {
     fn times(&self) -> [f64; 2] {
         [0.0, self.end]
     }

@@ -3,7 +3,7 @@
 
 use super::row::Row;
 use super::row_maker::RowMaker;
-use super::stick_slip::{InPhase, Phase};
+use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::{CurveEquation, Reactor};
@@ -43,14 +43,18 @@ impl Coordinate for Crank<'_> {
 
 /// Coordinate of the configuration curve in one phase.
 pub(super) struct AlongCurve<'a> {
-    motion: InPhase<'a>,
+    motion: CurveMotion<'a>,
     reactor: Option<&'a Reactor>,
 }
 
 impl<'a> AlongCurve<'a> {
-    pub fn new(equation: &'a CurveEquation, phase: Phase, maker: &'a RowMaker) -> AlongCurve<'a> {
+    pub fn new(
+        equation: &'a CurveEquation,
+        phase: StickSlipPhase,
+        maker: &'a RowMaker,
+    ) -> AlongCurve<'a> {
         AlongCurve {
-            motion: InPhase { equation, phase },
+            motion: CurveMotion { equation, phase },
             reactor: maker.reactor.as_deref(),
         }
     }

@@ -13,7 +13,7 @@ use crate::numeric::{gauss, maximum};
 use crate::scene::Variable;
 
 /// Run at constant speed.
-pub(super) struct Drive<'a> {
+pub(super) struct ConstantSpeedMotion<'a> {
     pub maker: &'a RowMaker,
     pub start: Angle,
     /// Crank speed, rad/s.
@@ -22,7 +22,7 @@ pub(super) struct Drive<'a> {
     pub end: f64,
 }
 
-impl Drive<'_> {
+impl ConstantSpeedMotion<'_> {
     fn equation(&self) -> &Equation {
         &self.maker.equation
     }

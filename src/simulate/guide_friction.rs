@@ -26,7 +26,7 @@ pub(super) struct GuideFriction {
 
 /// Effect of the loads on the guide at one position of a panel.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct GuideGain {
+pub(super) struct GuideLoadEffect {
     /// dN/dτ, change of the normal force with a crank torque, 1/m
     torque: f64,
     /// dN/dF, change of the normal force with a slider force
@@ -35,31 +35,31 @@ pub(super) struct GuideGain {
     grip: f64,
 }
 
-impl GuideGain {
+impl GuideLoadEffect {
     /// Returns the part of a load in the frictionless normal force, N.
-    pub fn pressed(&self, load: LoadValue) -> f64 {
+    pub fn normal_force(&self, load: LoadValue) -> f64 {
         self.torque * load.torque + self.force * load.force
     }
 
     /// Returns the crank torque of the friction that a load causes, N m.
-    pub fn rubbed(&self, load: LoadValue) -> f64 {
-        self.grip * self.pressed(load)
+    pub fn friction_torque(&self, load: LoadValue) -> f64 {
+        self.grip * self.normal_force(load)
     }
 }
 
 /// Position as the loads see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spot {
+pub(super) struct PanelPlace {
     /// Slider position x (m) and derivative x' (m/rad).
     pub at: [f64; 2],
     /// Effect of the loads on the guide; zero without friction.
-    pub gain: GuideGain,
+    pub gain: GuideLoadEffect,
 }
 
-impl Spot {
+impl PanelPlace {
     /// Converts states of the crank to instants of the loads.
     #[inline]
-    pub fn instants<const N: usize>(at: &[State<'_, Spot>; N]) -> [Instant; N] {
+    pub fn instants<const N: usize>(at: &[State<'_, PanelPlace>; N]) -> [Instant; N] {
         let mut instants = [Instant::default(); N];
         for (instant, at) in instants.iter_mut().zip(at) {
             let [x, dx] = at.place.at;
@@ -100,7 +100,7 @@ impl GuideFriction {
         signs: f64,
         loads: &Loads,
         of_place: &[LoadValue],
-        table: &mut Table<Spot>,
+        table: &mut Table<PanelPlace>,
     ) {
         // At the ends of a panel x' is rounding: the middle gives the sign.
         let c = -self.mu * signs * dx[dx.len() / 2].signum();
@@ -109,19 +109,19 @@ impl GuideFriction {
         for (i, normal) in normals.iter().enumerate() {
             let grip = normal.grip(c);
             self.jams.fetch_or(grip.is_none(), Relaxed);
-            let gain = GuideGain {
+            let gain = GuideLoadEffect {
                 torque: normal.torque,
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
             let force = force * dx[i];
             let damping = LoadValue { torque, force };
-            switch.place[i] = normal.place + gain.pressed(of_place[i]);
-            switch.rate[i] = -gain.pressed(damping);
+            switch.place[i] = normal.place + gain.normal_force(of_place[i]);
+            switch.rate[i] = -gain.normal_force(damping);
             switch.square[i] = normal.square;
             switch.force[i] = gain.grip * normal.square;
             table.push[i] += gain.grip * switch.place[i];
-            table.damping[i] += gain.rubbed(damping);
+            table.damping[i] += gain.friction_torque(damping);
             if let Some(spot) = table.places.get_mut(i) {
                 spot.gain = gain;
             }

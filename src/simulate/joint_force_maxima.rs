@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::driving_torque::Drive;
+use super::driving_torque::ConstantSpeedMotion;
 use super::result::{FORCES, Peak, Peaks, Summary};
 use super::simulation::Simulation;
 use crate::mechanism::{Linkage, Reactions};
@@ -110,7 +110,7 @@ struct AlongRun<'a> {
 fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
     let maker = run.dense.maker.as_ref()?;
-    let drive = Drive {
+    let drive = ConstantSpeedMotion {
         maker,
         start,
         speed,

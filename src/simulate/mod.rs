@@ -12,7 +12,6 @@ mod driving_torque;
 mod forward;
 mod guide_friction;
 mod joint_force_maxima;
-mod marks;
 mod options;
 mod outcome;
 mod passages;

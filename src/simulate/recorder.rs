@@ -12,7 +12,7 @@ use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::second_run::Checkpoints;
 use super::simulation::PhaseInterval;
-use super::stick_slip::Phase;
+use super::stick_slip::StickSlipPhase;
 use crate::engine::PIECES;
 use crate::engine::step::Step;
 use crate::error::Error;
@@ -154,7 +154,7 @@ impl<'a> Recorder<'a> {
         step: &mut Step,
         until: f64,
         along: &dyn Coordinate,
-        phase: Option<Phase>,
+        phase: Option<StickSlipPhase>,
     ) -> bool {
         self.record.checkpoints.pass(step);
         let mut part = InStep {

@@ -1,7 +1,7 @@
 //! Roundoff propagation: standard deviations of angle and speed, carried along a motion in time by state transitions.
 
-use super::state_transition::{Slopes, StateTransition};
-use super::stick_slip::{InPhase, Phase};
+use super::state_transition::{AccelerationSlopes, StateTransition};
+use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
@@ -9,28 +9,28 @@ use crate::mechanism::{CurveEquation, Equation};
 
 /// Standard deviation of one rounding, in units of the last place: about 1/√12, for errors spread evenly over half a
 /// unit on either side.
-const ONE_ROUNDING: f64 = 0.3;
+const ROUNDING_DEVIATION: f64 = 0.3;
 
 /// Roundoff of a run in time.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rounding {
+pub(super) struct RoundoffPropagation {
     /// Standard deviations at the last step, in units of the last place.
-    pub spread: Spread,
+    pub spread: CovarianceFactor,
     /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
     rounds_states: bool,
     /// Number of evaluations for slopes on the configuration curve.
     pub evaluations: u64,
     /// Acceleration at the end of the last step on the curve, and the phase of that step.
-    before: Option<(f64, Phase)>,
+    before: Option<(f64, StickSlipPhase)>,
 }
 
-impl Rounding {
+impl RoundoffPropagation {
     /// Starts with one rounding of the angle if the run moves, with none in a balance. Tolerances are absolute below
     /// one radian: the start is resolved to a unit in the last place of one, however small the angle.
-    pub fn new(method: Method, moves: bool) -> Rounding {
-        let angle = if moves { ONE_ROUNDING } else { 0.0 };
-        Rounding {
-            spread: Spread::default().plus(angle, 0.0),
+    pub fn new(method: Method, moves: bool) -> RoundoffPropagation {
+        let angle = if moves { ROUNDING_DEVIATION } else { 0.0 };
+        RoundoffPropagation {
+            spread: CovarianceFactor::default().plus_independent(angle, 0.0),
             rounds_states: !matches!(method, Method::Picard),
             evaluations: 0,
             before: None,
@@ -39,16 +39,16 @@ impl Rounding {
 
     /// Adds the rounding of a state: angle, rad, and speed, rad/s.
     pub fn round(&mut self, theta: f64, omega: f64) {
-        let [angle, speed] = [theta, omega].map(|size| ONE_ROUNDING * size.abs());
-        self.spread = self.spread.plus(angle, speed);
+        let [angle, speed] = [theta, omega].map(|size| ROUNDING_DEVIATION * size.abs());
+        self.spread = self.spread.plus_independent(angle, speed);
     }
 
     /// Carries the spread over a step of the crank angle; adds one unit of the end acceleration and the rounded angle.
     pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
-        let slopes = Slopes::of(motion, step);
+        let slopes = AccelerationSlopes::of(motion, step);
         let transition = slopes.transition(step);
         let end = &step.end;
-        let place = ONE_ROUNDING * end.theta.abs() * slopes.by_angle();
+        let place = ROUNDING_DEVIATION * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
         // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as
         // much changes the stated errors of 200 random runs by 1 % at most.
@@ -61,17 +61,18 @@ impl Rounding {
             let correlation = 2.0;
             size = size.max(correlation * terms / inertia);
         }
-        let carried = self.spread.carried(&transition);
-        self.spread = carried.pushed(place.hypot(size), &transition, step.length());
+        let carried = self.spread.propagated(&transition);
+        self.spread =
+            carried.plus_acceleration_error(place.hypot(size), &transition, step.length());
         if self.rounds_states {
             self.round(end.theta, end.omega);
         }
     }
 
     /// Carries the spread over a step on the configuration curve in one phase and adds the roundoff of the step.
-    pub fn step_on_curve(&mut self, equation: &CurveEquation, step: &Step, phase: Phase) {
+    pub fn step_on_curve(&mut self, equation: &CurveEquation, step: &Step, phase: StickSlipPhase) {
         let before = self.before.take();
-        if phase == Phase::Sticking {
+        if phase == StickSlipPhase::Sticking {
             // At rest an error of the speed is lost.
             self.spread = self.spread.with_speed_times(0.0);
             return;
@@ -85,13 +86,13 @@ impl Rounding {
         }
         if turned || before.is_none_or(|(_, before)| before != phase) {
             // A piece begins at a rounded time.
-            let late = ONE_ROUNDING * start.t.abs();
-            spread = spread.along(late * start.omega, late * start.alpha);
+            let late = ROUNDING_DEVIATION * start.t.abs();
+            spread = spread.plus_error(late * start.omega, late * start.alpha);
         }
         self.before = Some((end.alpha, phase));
-        let motion = InPhase { equation, phase };
+        let motion = CurveMotion { equation, phase };
         let motion = Counted::new(&motion);
-        let slopes = Slopes::of(&motion, step);
+        let slopes = AccelerationSlopes::of(&motion, step);
         self.evaluations += motion.evaluations();
         let transition = slopes.transition(step);
         // Roundings of coordinate and acceleration, evaluated on the curve, in units of the last place.
@@ -100,9 +101,9 @@ impl Rounding {
         let within = place.abs() + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
-        let carried = spread.carried(&transition);
-        let pushed = carried.pushed(within, &transition, step.length());
-        self.spread = pushed.plus(angle, speed);
+        let carried = spread.propagated(&transition);
+        let pushed = carried.plus_acceleration_error(within, &transition, step.length());
+        self.spread = pushed.plus_independent(angle, speed);
     }
 }
 
@@ -110,11 +111,11 @@ impl Rounding {
 /// (angle, speed). Near a limit both point along the motion for a while: a covariance matrix would lose the part across
 /// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Spread([[f64; 2]; 2]);
+pub(super) struct CovarianceFactor([[f64; 2]; 2]);
 
-impl Spread {
+impl CovarianceFactor {
     /// Returns this spread, or the one before if a number overflowed.
-    fn or(self, before: &Spread) -> Spread {
+    fn or(self, before: &CovarianceFactor) -> CovarianceFactor {
         let finite = self.0.iter().flatten().all(|size| size.is_finite());
         if finite { self } else { *before }
     }
@@ -130,35 +131,40 @@ impl Spread {
     }
 
     /// Adds independent errors of angle (rad) and speed (rad/s).
-    pub fn plus(self, angle: f64, speed: f64) -> Spread {
-        self.along(angle, 0.0).along(0.0, speed)
+    pub fn plus_independent(self, angle: f64, speed: f64) -> CovarianceFactor {
+        self.plus_error(angle, 0.0).plus_error(0.0, speed)
     }
 
     /// Adds an error of the acceleration (rad/s²) that lasts over a step of length h (s), seen at the end of the step.
-    pub fn pushed(self, acceleration: f64, transition: &StateTransition, h: f64) -> Spread {
+    pub fn plus_acceleration_error(
+        self,
+        acceleration: f64,
+        transition: &StateTransition,
+        h: f64,
+    ) -> CovarianceFactor {
         let speed = transition[0][1] * acceleration;
-        self.along(0.5 * h * speed, speed)
+        self.plus_error(0.5 * h * speed, speed)
     }
 
     /// Adds one error with components in angle (rad) and speed (rad/s).
-    pub fn along(self, angle: f64, speed: f64) -> Spread {
+    pub fn plus_error(self, angle: f64, speed: f64) -> CovarianceFactor {
         // Rotated until only the first has an angle, three perturbations become two.
         let [first, second] = self.0;
         let [first, second] = rotated(first, second);
         let [first, third] = rotated(first, [angle, speed]);
-        Spread([first, [0.0, second[1].hypot(third[1])]]).or(&self)
+        CovarianceFactor([first, [0.0, second[1].hypot(third[1])]]).or(&self)
     }
 
     /// Multiplies the speed of both perturbations by a factor.
-    pub fn with_speed_times(self, factor: f64) -> Spread {
-        Spread(self.0.map(|[angle, speed]| [angle, factor * speed])).or(&self)
+    pub fn with_speed_times(self, factor: f64) -> CovarianceFactor {
+        CovarianceFactor(self.0.map(|[angle, speed]| [angle, factor * speed])).or(&self)
     }
 
     /// Applies a transition matrix.
-    pub fn carried(self, [[c11, c12], [c21, c22]]: &StateTransition) -> Spread {
+    pub fn propagated(self, [[c11, c12], [c21, c22]]: &StateTransition) -> CovarianceFactor {
         let carried =
             |[angle, speed]: [f64; 2]| [c11 * angle + c12 * speed, c21 * angle + c22 * speed];
-        Spread(self.0.map(carried)).or(&self)
+        CovarianceFactor(self.0.map(carried)).or(&self)
     }
 }
 
@@ -177,7 +183,7 @@ fn rotated(a: [f64; 2], b: [f64; 2]) -> [[f64; 2]; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::Spread;
+    use super::CovarianceFactor;
 
     fn assert_close(value: f64, exact: f64) {
         assert!((value - exact).abs() < 1e-9 * exact, "{value}, not {exact}");
@@ -185,7 +191,9 @@ mod tests {
 
     #[test]
     fn independent_errors_add_up_by_their_squares() {
-        let spread = Spread::default().plus(3.0, 5.0).along(4.0, 12.0);
+        let spread = CovarianceFactor::default()
+            .plus_independent(3.0, 5.0)
+            .plus_error(4.0, 12.0);
         assert_close(spread.angle(), 5.0);
         assert_close(spread.speed(), 13.0);
         let faster = spread.with_speed_times(2.0);
@@ -196,8 +204,10 @@ mod tests {
     #[test]
     fn what_is_small_beside_a_large_spread_is_kept() {
         let steep = |slope: f64| [[1.0, 0.0], [slope, 1.0]];
-        let spread = Spread::default().plus(1.0, 3.0).carried(&steep(1e12));
-        let back = spread.along(1e-3, 1e9).carried(&steep(-1e12));
+        let spread = CovarianceFactor::default()
+            .plus_independent(1.0, 3.0)
+            .propagated(&steep(1e12));
+        let back = spread.plus_error(1e-3, 1e9).propagated(&steep(-1e12));
         assert!((back.speed() - 3.0).abs() < 1e-3, "{back:?}");
         assert_close(back.angle(), 1f64.hypot(1e-3));
     }

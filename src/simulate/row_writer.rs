@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::row::{Row, RowSink};
-use super::schedule::{SAME_ROW, Schedule, passed, refuse_rows};
+use super::schedule::{SAME_ROW, Schedule, check_row_count, passed};
 use crate::error::Error;
 
 /// Part of a motion between two times, as rows see it.
@@ -93,7 +93,7 @@ impl<'a> RowWriter<'a> {
         };
         self.before = due.t;
         self.taken += 1;
-        refuse_rows(self.taken as f64, due.t)?;
+        check_row_count(self.taken as f64, due.t)?;
         self.rows.row(&due)
     }
 
@@ -119,7 +119,7 @@ impl<'a> RowWriter<'a> {
 
     fn at_angles(&mut self, part: &mut dyn RowSource, spacing: f64) -> Result<(), Error> {
         let [mut from, until] = part.times();
-        refuse_rows((part.turned(until) / spacing).abs(), until)?;
+        check_row_count((part.turned(until) / spacing).abs(), until)?;
         if self.next == 0 {
             self.put(part.row(from))?;
             self.next = 1;

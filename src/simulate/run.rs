@@ -73,7 +73,7 @@ fn run(
             ..options.clone()
         };
         let end = simulate_rows(scene, &blind, &mut NoRows)?.summary.last.t_s;
-        schedule::refuse_rows(task.schedule().rows_until(end), end)?;
+        schedule::check_row_count(task.schedule().rows_until(end), end)?;
     }
     let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),

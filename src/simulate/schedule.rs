@@ -31,7 +31,7 @@ pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Refuses more rows until a time (s) than a run may have.
-pub(super) fn refuse_rows(rows: f64, until: f64) -> Result<(), Error> {
+pub(super) fn check_row_count(rows: f64, until: f64) -> Result<(), Error> {
     if rows <= MOST_OUTPUT_ROWS {
         return Ok(());
     }

@@ -6,7 +6,7 @@ use super::coordinate::{AlongCurve, Coordinate};
 use super::result::Summary;
 use super::row::Row;
 use super::row_maker::RowMaker;
-use super::stick_slip::Phase;
+use super::stick_slip::StickSlipPhase;
 use crate::mechanism::CurveEquation;
 use crate::trajectory::Trajectory;
 
@@ -72,7 +72,7 @@ pub(super) struct PhaseInterval {
     pub from: f64,
     /// Last time, s.
     pub until: f64,
-    pub phase: Phase,
+    pub phase: StickSlipPhase,
 }
 
 /// Maker of the rows of a finished run.

@@ -18,7 +18,7 @@ use crate::engine::{Batch, Motion};
 type AtNodes<T> = [T; 3];
 
 /// Nodes and weights of Gauss's rule with three points on [0, 1] (Abramowitz and Stegun, 25.4.30).
-const RULE: AtNodes<(f64, f64)> = [
+const GAUSS_RULE: AtNodes<(f64, f64)> = [
     (0.112_701_665_379_258_3, 5.0 / 18.0),
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
@@ -29,7 +29,7 @@ pub(super) type StateTransition = [[f64; 2]; 2];
 
 /// Partial derivatives of the acceleration at the nodes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Slopes {
+pub(super) struct AccelerationSlopes {
     /// By the angle, 1/s².
     by_angle: AtNodes<f64>,
     /// By the speed, 1/s.
@@ -38,9 +38,9 @@ pub(super) struct Slopes {
     by_time: AtNodes<f64>,
 }
 
-impl Slopes {
+impl AccelerationSlopes {
     /// Computes the slopes at the nodes of a step, by forward differences.
-    pub fn of(motion: &dyn Motion, step: &Step) -> Slopes {
+    pub fn of(motion: &dyn Motion, step: &Step) -> AccelerationSlopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         // Differences, about the square root of a rounding: of the angle, rad, no more than in the step, as slopes near
         // a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
@@ -57,7 +57,7 @@ impl Slopes {
             turns: step.turns,
             ..Batch::default()
         };
-        for (i, (part, _)) in RULE.into_iter().enumerate() {
+        for (i, (part, _)) in GAUSS_RULE.into_iter().enumerate() {
             let t = start.t + part * h;
             let (theta, speed) = step.at(t);
             faster[i] = speed_share * speed.abs().max(start.omega.abs()).max(1.0);
@@ -75,7 +75,7 @@ impl Slopes {
         }
         motion.fill(&mut beside);
         let gain = |i: usize, j: usize| beside.alpha[4 * i + j] - beside.alpha[4 * i];
-        Slopes {
+        AccelerationSlopes {
             by_angle: from_fn(|i| gain(i, 1) / aside),
             by_speed: from_fn(|i| gain(i, 2) / faster[i]),
             by_time: from_fn(|i| gain(i, 3) / later),
@@ -90,7 +90,7 @@ impl Slopes {
     /// Computes the transition over the step, from the slopes and, where exact enough, the motion a little later.
     pub fn transition(&self, step: &Step) -> StateTransition {
         let h = step.length();
-        let (plain, pushed) = self.plain(h);
+        let (magnus_transition, pushed) = self.magnus_transition(h);
         let travel = (step.end.theta - step.start.theta).abs();
         let along = [step.start.omega, step.start.alpha];
         // The time changes the forces: this part of the state is no perturbation of the motion a little later.
@@ -99,16 +99,16 @@ impl Slopes {
         // Rotation, rad, of which rounding leaves too little, and largest effect of the time beside the motion.
         let (shortest_travel, most_pushed) = (1e-11, 0.3);
         if travel < shortest_travel || size(pushed) > most_pushed * size(along) {
-            return plain;
+            return magnus_transition;
         }
-        let found = self.with_motion(&plain, along, then, h);
+        let found = self.with_exact_motion(&magnus_transition, along, then, h);
         let finite = found.iter().flatten().all(|entry| entry.is_finite());
-        if finite { found } else { plain }
+        if finite { found } else { magnus_transition }
     }
 
     /// Computes the transition over a step of length h (s) from the slopes alone, and the change of angle and speed
     /// that the time adds; exact for constant slopes.
-    fn plain(&self, h: f64) -> (StateTransition, [f64; 2]) {
+    fn magnus_transition(&self, h: f64) -> (StateTransition, [f64; 2]) {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
         // State of the linear system: angle, speed times h, and one.
@@ -128,7 +128,7 @@ impl Slopes {
 
     /// Computes the transition that takes `along` to `then` and has the right determinant; the rest comes from `other`.
     /// The metric multiplies speeds by h.
-    fn with_motion(
+    fn with_exact_motion(
         &self,
         other: &StateTransition,
         along: [f64; 2],
@@ -175,13 +175,13 @@ fn exponential([first, middle, last]: AtNodes<Matrix3<f64>>) -> Matrix3<f64> {
         let mixed = commutator(&(inner - 20.0 * middle - even), &(odd - outer / 60.0));
         (middle + even / 12.0 + mixed / 240.0).exp()
     } else {
-        let part = |a: Matrix3<f64>, i: usize| (a * RULE[i].1).exp();
+        let part = |a: Matrix3<f64>, i: usize| (a * GAUSS_RULE[i].1).exp();
         part(last, 2) * part(middle, 1) * part(first, 0)
     }
 }
 
 fn mean(values: &AtNodes<f64>) -> f64 {
-    let weighted = RULE.iter().zip(values);
+    let weighted = GAUSS_RULE.iter().zip(values);
     weighted.map(|((_, weight), value)| weight * value).sum()
 }
 
@@ -248,7 +248,7 @@ mod tests {
                 speed,
             };
             for step in steps(&motion, start(0.0, angle, speed), 3.0) {
-                let found = Slopes::of(&motion, &step).transition(&step);
+                let found = AccelerationSlopes::of(&motion, &step).transition(&step);
                 let from = step.start;
                 let end = |part: [f64; 2]| {
                     let beside = start(from.t, from.theta + part[0], from.omega + part[1]);

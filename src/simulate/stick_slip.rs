@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use EventIndex::{Clear, Crank, DeadCentre, Limit, Normal, Speed, Turned};
+use EventIndex::{CrankRate, DeadCentre, JamDistance, Limit, NormalForce, Speed, TurnLimit};
 
 use super::guide_friction::NEARBY_ANGLE;
 use crate::engine::Motion;
@@ -23,39 +23,47 @@ pub(super) enum EventIndex {
     /// Cosine of the rod inclination.
     Limit,
     /// Rotation of the crank that is left to the turn limit.
-    Turned,
+    TurnLimit,
     /// Normal force of the guide.
-    Normal,
+    NormalForce,
     /// Distance from jamming.
-    Clear,
+    JamDistance,
     /// Derivative of the crank angle.
-    Crank,
+    CrankRate,
 }
 
 impl EventIndex {
     /// All indices, in the order of the values.
-    pub const ALL: [EventIndex; 7] = [Speed, DeadCentre, Limit, Turned, Normal, Clear, Crank];
+    pub const ALL: [EventIndex; 7] = [
+        Speed,
+        DeadCentre,
+        Limit,
+        TurnLimit,
+        NormalForce,
+        JamDistance,
+        CrankRate,
+    ];
 }
 
 pub(super) type Signs = [f64; EventIndex::ALL.len()];
 
 /// Phase of the slider in its guide.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Phase {
+pub(super) enum StickSlipPhase {
     Sliding {
         /// c = −μ sgn(v) sgn(N), zero without friction.
         c: f64,
         /// Signs of the speeds that dry loads oppose; zero without dry loads.
-        against: Sense,
+        opposed: Sense,
     },
     Sticking,
 }
 
-impl Phase {
+impl StickSlipPhase {
     /// Sliding without friction.
-    pub const FREE: Phase = Phase::Sliding {
+    pub const FREE: StickSlipPhase = StickSlipPhase::Sliding {
         c: 0.0,
-        against: Sense {
+        opposed: Sense {
             crank: 0.0,
             slider: 0.0,
         },
@@ -63,22 +71,22 @@ impl Phase {
 }
 
 /// Equation of motion on the configuration curve in one phase.
-pub(super) struct InPhase<'a> {
+pub(super) struct CurveMotion<'a> {
     pub equation: &'a CurveEquation,
-    pub phase: Phase,
+    pub phase: StickSlipPhase,
 }
 
-impl InPhase<'_> {
+impl CurveMotion<'_> {
     /// Returns acceleration (rad/s² of the coordinate), guide forces, and power (W) of all that has no potential.
     pub fn state(&self, t: f64, angle: Angle, speed: f64) -> (f64, GuideForces, f64) {
         match self.phase {
-            Phase::Sliding { c, against } => {
-                let free = self.equation.free_against(t, angle, speed, against);
+            StickSlipPhase::Sliding { c, opposed } => {
+                let free = self.equation.free_against(t, angle, speed, opposed);
                 let (acceleration, touch) = free.sliding(c);
                 let power = free.power + touch.friction * free.velocity(speed);
                 (acceleration, touch, power)
             }
-            Phase::Sticking => {
+            StickSlipPhase::Sticking => {
                 let touch = self.equation.at_rest(angle).held(t).free.holding();
                 (0.0, touch.unwrap_or_default(), 0.0)
             }
@@ -89,17 +97,17 @@ impl InPhase<'_> {
     pub fn load(&self, place: &CurvePose, t: f64, angle: Angle, speed: f64) -> LoadValue {
         let equation = self.equation;
         let dry = match self.phase {
-            Phase::Sliding { against, .. } => {
+            StickSlipPhase::Sliding { opposed, .. } => {
                 let now = equation.instant(place, t, angle, speed);
-                equation.loads().dry(&now, against)
+                equation.loads().dry(&now, opposed)
             }
-            Phase::Sticking => equation.at_rest(angle).held(t).dry,
+            StickSlipPhase::Sticking => equation.at_rest(angle).held(t).dry,
         };
         equation.load_beside(dry, place, t, angle, speed)
     }
 }
 
-impl Motion for InPhase<'_> {
+impl Motion for CurveMotion<'_> {
     fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
         self.state(t, angle, speed).0
     }
@@ -122,11 +130,12 @@ impl Motion for InPhase<'_> {
     }
 
     fn varies_between_nodes(&self) -> bool {
-        matches!(self.phase, Phase::Sliding { .. }) && self.equation.loads().vary_between_nodes()
+        matches!(self.phase, StickSlipPhase::Sliding { .. })
+            && self.equation.loads().vary_between_nodes()
     }
 
     fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
-        let Phase::Sliding { c, .. } = self.phase else {
+        let StickSlipPhase::Sliding { c, .. } = self.phase else {
             return Variation::NONE;
         };
         let loads = self.equation.loads();
@@ -148,24 +157,24 @@ impl Motion for InPhase<'_> {
 }
 
 /// Event functions of a run on the configuration curve.
-pub(super) struct Quantities<'a> {
+pub(super) struct CurveEvents<'a> {
     pub equation: &'a CurveEquation,
     /// Crank angle at the start and largest rotation of the crank from there, rad.
     pub turning: Option<(Angle, f64)>,
     pub evaluations: Cell<u64>,
     /// Signs of the speeds that dry loads oppose.
-    pub against: Cell<Sense>,
+    pub opposed: Cell<Sense>,
 }
 
-impl EventFunction<{ EventIndex::ALL.len() }> for Quantities<'_> {
+impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
     fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
         let curve = self.equation.curve();
         let place = curve.pose(angle.rest);
         let (normal, clear) = match self.equation.friction() {
             Some(friction) => {
                 self.evaluations.update(|before| before + 1);
-                let against = self.against.get();
-                let free = self.equation.free_against(t, angle, speed, against);
+                let opposed = self.opposed.get();
+                let free = self.equation.free_against(t, angle, speed, opposed);
                 (free.normal, free.clear_of_jam(friction.coefficient))
             }
             None => (1.0, 1.0),
@@ -195,25 +204,25 @@ pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
         if value < 0.0 { -1.0 } else { 1.0 }
     });
     signs[Speed as usize] = direction;
-    (signs[Turned as usize], signs[Clear as usize]) = (1.0, 1.0);
+    (signs[TurnLimit as usize], signs[JamDistance as usize]) = (1.0, 1.0);
     signs
 }
 
 /// Returns the sliding phase that belongs to the signs.
-pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> Phase {
+pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> StickSlipPhase {
     let friction = equation.friction();
     let mu = friction.map_or(0.0, |friction| friction.coefficient);
-    Phase::Sliding {
-        c: -mu * signs[Speed as usize] * signs[DeadCentre as usize] * signs[Normal as usize],
-        against: against(equation, signs),
+    StickSlipPhase::Sliding {
+        c: -mu * signs[Speed as usize] * signs[DeadCentre as usize] * signs[NormalForce as usize],
+        opposed: opposed(equation, signs),
     }
 }
 
 /// Returns the signs of the speeds that dry loads oppose; zero without dry loads.
-pub(super) fn against(equation: &CurveEquation, signs: &Signs) -> Sense {
+pub(super) fn opposed(equation: &CurveEquation, signs: &Signs) -> Sense {
     match equation.loads().are_dry() {
         true => Sense::of(
-            signs[Speed as usize] * signs[Crank as usize],
+            signs[Speed as usize] * signs[CrankRate as usize],
             signs[Speed as usize] * signs[DeadCentre as usize],
         ),
         false => Sense::default(),

@@ -1,13 +1,13 @@
 //! Model over the crank angle for the energy and angle engines: inertia, potential and generalized force of a scene.
 
+mod panel_ends;
 mod profile;
 mod work;
 
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
-use super::guide_friction::{GuideFriction, GuideGain, Spot};
-use super::marks::{Marks, SAME_CORNER, in_order};
+use super::guide_friction::{GuideFriction, GuideLoadEffect, PanelPlace};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Dynamics, Panels, State, Table};
@@ -17,6 +17,9 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
+use panel_ends::{PanelEnds, sorted_corners};
+
+pub(super) use panel_ends::SAME_CORNER;
 
 /// Inertia, generalized force and loads of an equation as functions of the crank angle.
 pub(super) struct AngleModel<'a> {
@@ -30,18 +33,18 @@ pub(super) struct AngleModel<'a> {
     /// Number of turns after which the loads repeat.
     cycle: u32,
     /// Corners of loads in a cycle, rad, without and with the dead centres of the cycle.
-    of_loads: Vec<f64>,
-    of_cycle: Vec<f64>,
+    load_corners: Vec<f64>,
+    cycle_corners: Vec<f64>,
     /// Corners and narrow parts of formulas; the flag is set where they are corners of each turn.
-    marks: Marks<'a>,
-    marks_are_corners: bool,
+    panel_ends: PanelEnds<'a>,
+    panel_ends_are_corners: bool,
     repeats: bool,
     /// Work of the loads in one turn and the error of this work, J, if all turns are equal.
     work_of_turn: Option<(f64, f64)>,
     evaluations: Cell<u64>,
     /// Limit on the number of positions of a motion from its energy.
     limit: WorkLimit<'a>,
-    shared: Option<RefCell<Panels<Spot>>>,
+    shared: Option<RefCell<Panels<PanelPlace>>>,
 }
 
 impl<'a> AngleModel<'a> {
@@ -52,18 +55,18 @@ impl<'a> AngleModel<'a> {
         let loads = equation.loads();
         let dead_centres = task.dead_centres();
         let tables = loads.angle_corners().into_iter();
-        let of_loads = in_order(tables.map(|theta| theta.rem_euclid(TAU)));
-        let corners = in_order(dead_centres.iter().chain(&of_loads).copied());
+        let load_corners = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
+        let corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
         let mut model = AngleModel {
             equation,
             guide: task.maker.guide.as_deref(),
             turns: start.turns,
             cycle: 1,
-            of_cycle: corners.clone(),
+            cycle_corners: corners.clone(),
             corners,
-            of_loads,
-            marks: Marks::new(equation, start, task.speed),
-            marks_are_corners: false,
+            load_corners,
+            panel_ends: PanelEnds::new(equation, start, task.speed),
+            panel_ends_are_corners: false,
             repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
@@ -93,19 +96,19 @@ impl<'a> AngleModel<'a> {
     fn take_cycle(&mut self, turns: u32, dead_centres: &[f64]) {
         self.cycle = turns;
         let length = f64::from(turns) * TAU;
-        let marks = self.marks.between(0.0, length);
+        let panel_ends = self.panel_ends.between(0.0, length);
         if turns > 1 {
             // Corners at the start of the cycle belong to the cycle.
             let before = -SAME_CORNER;
             let loads = self.equation.loads();
-            self.of_loads = loads.corners_between(before, length + before);
+            self.load_corners = loads.corners_between(before, length + before);
         } else {
-            self.corners = in_order(self.corners.iter().chain(&marks).copied());
-            self.marks_are_corners = true;
+            self.corners = sorted_corners(self.corners.iter().chain(&panel_ends).copied());
+            self.panel_ends_are_corners = true;
         }
-        self.of_loads = in_order(self.of_loads.iter().chain(&marks).copied());
+        self.load_corners = sorted_corners(self.load_corners.iter().chain(&panel_ends).copied());
         let all = angle::in_turns(dead_centres, 0..turns.into());
-        self.of_cycle = in_order(all.chain(self.of_loads.iter().copied()));
+        self.cycle_corners = sorted_corners(all.chain(self.load_corners.iter().copied()));
     }
 
     /// Returns the number of positions evaluated up to now.
@@ -124,7 +127,7 @@ impl<'a> AngleModel<'a> {
 }
 
 impl Dynamics for AngleModel<'_> {
-    type Place = Spot;
+    type Place = PanelPlace;
 
     fn positions(&self) -> u64 {
         self.evaluations()
@@ -135,7 +138,7 @@ impl Dynamics for AngleModel<'_> {
         turns: f64,
         (angles, count): (&Values, usize),
         side: f64,
-        table: &mut Table<Spot>,
+        table: &mut Table<PanelPlace>,
     ) {
         self.count(count);
         let loads = self.equation.loads();
@@ -161,8 +164,8 @@ impl Dynamics for AngleModel<'_> {
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
-                let gain = GuideGain::default();
-                table.places.push(Spot { at: [x, dx], gain });
+                let gain = GuideLoadEffect::default();
+                table.places.push(PanelPlace { at: [x, dx], gain });
             }
         }
         if let Some((guide, normals)) = guided {
@@ -173,7 +176,7 @@ impl Dynamics for AngleModel<'_> {
         }
     }
 
-    fn shared(&self) -> Option<&RefCell<Panels<Spot>>> {
+    fn shared(&self) -> Option<&RefCell<Panels<PanelPlace>>> {
         self.shared.as_ref()
     }
 
@@ -189,13 +192,13 @@ impl Dynamics for AngleModel<'_> {
         self.has_state_loads() && self.equation.loads().reads().has(Variable::T)
     }
 
-    fn state_loads<const N: usize>(&self, at: &[State<'_, Spot>; N]) -> [f64; N] {
-        let now = Spot::instants(at);
+    fn state_loads<const N: usize>(&self, at: &[State<'_, PanelPlace>; N]) -> [f64; N] {
+        let now = PanelPlace::instants(at);
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
-            let Spot { at: [_, dx], gain } = *at.place;
-            *force = load.generalized(dx) + gain.rubbed(*load);
+            let PanelPlace { at: [_, dx], gain } = *at.place;
+            *force = load.generalized(dx) + gain.friction_torque(*load);
         }
         forces
     }
@@ -210,25 +213,30 @@ impl Dynamics for AngleModel<'_> {
             .equation
             .linkage()
             .enclosed_state(reach, loads.meet_slider());
-        let rubbed = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
-        let arms = seen.unit_load_effects().plus(rubbed.unwrap_or_default());
+        let friction_torque = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
+        let arms = seen
+            .unit_load_effects()
+            .plus(friction_torque.unwrap_or_default());
         loads.variation_with_state(&seen, arms, ellipse)
     }
 
-    fn switch_of_state_loads(&self, at: &State<'_, Spot>) -> f64 {
-        let [load] = self.equation.loads().of_states(&Spot::instants(&[*at]));
-        at.place.gain.pressed(load)
+    fn switch_of_state_loads(&self, at: &State<'_, PanelPlace>) -> f64 {
+        let [load] = self
+            .equation
+            .loads()
+            .of_states(&PanelPlace::instants(&[*at]));
+        at.place.gain.normal_force(load)
     }
 
     fn corners(&self) -> &[f64] {
         // Friction changes sign at the dead centres.
         match self.guide {
-            Some(_) => &self.of_cycle,
-            None => &self.of_loads,
+            Some(_) => &self.cycle_corners,
+            None => &self.load_corners,
         }
     }
 
     fn corners_if_light(&self) -> &[f64] {
-        &self.of_cycle
+        &self.cycle_corners
     }
 }

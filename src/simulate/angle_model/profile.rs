@@ -55,10 +55,10 @@ impl Profile for AngleModel<'_> {
         let turns = self.turns * TAU;
         let loads = self.equation.loads();
         let corner = loads.corner_out_of_step(from + apart + turns, to + turns);
-        let mark = self.mark(from + apart, to);
+        let panel_end = self.panel_end(from + apart, to);
         let first = |a: f64, b: f64| if (a < b) == (from < to) { a } else { b };
         let corner = corner.map(|corner| corner - turns);
-        corner.into_iter().chain(mark).reduce(first)
+        corner.into_iter().chain(panel_end).reduce(first)
     }
 
     fn is_spent(&self) -> bool {

@@ -1,4 +1,4 @@
-//! Work of the loads, by adaptive Gauss quadrature independent of the engines, and marks of narrow formulas.
+//! Work of the loads, by adaptive Gauss quadrature independent of the engines, and panel ends at narrow formulas.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,14 @@ use crate::numeric::angle::{self, Angle};
 use crate::numeric::gauss;
 
 impl AngleModel<'_> {
-    /// Returns the first mark after `from` towards `to`, in either direction, rad, that is no corner of each turn.
-    pub(super) fn mark(&self, from: f64, to: f64) -> Option<f64> {
+    /// Returns the first panel end after `from` towards `to`, in either direction, rad, that is no corner of each turn.
+    pub(super) fn panel_end(&self, from: f64, to: f64) -> Option<f64> {
+        if self.panel_ends_are_corners {
+            return None;
+        }
         let before = self.turns * TAU;
-        let mark = || self.marks.next(from + before, to + before);
-        (!self.marks_are_corners)
-            .then(mark)?
-            .map(|mark| mark - before)
+        let end = self.panel_ends.next(from + before, to + before)?;
+        Some(end - before)
     }
 
     /// Computes the work of one turn and the error of it, J, for loads of the position alone that repeat each turn.
@@ -63,9 +64,9 @@ impl AngleModel<'_> {
         let loads = self.equation.loads();
         let out_of_step = loads.corners_out_of_step(low + before, high + before);
         cuts.extend(out_of_step.iter().map(|corner| corner - before));
-        if !self.marks_are_corners {
-            let marks = self.marks.between(low + before, high + before);
-            cuts.extend(marks.iter().map(|mark| mark - before));
+        if !self.panel_ends_are_corners {
+            let panel_ends = self.panel_ends.between(low + before, high + before);
+            cuts.extend(panel_ends.iter().map(|panel_end| panel_end - before));
         }
         cuts.push(high);
         cuts.sort_by(f64::total_cmp);

@@ -3,11 +3,11 @@
 use std::cell::Cell;
 
 use super::super::stick_slip::EventIndex::{
-    self, Clear, Crank, DeadCentre, Limit, Normal, Speed, Turned,
+    self, CrankRate, DeadCentre, JamDistance, Limit, NormalForce, Speed, TurnLimit,
 };
-use super::super::stick_slip::{InPhase, Phase, Quantities, Signs, sliding};
+use super::super::stick_slip::{CurveEvents, CurveMotion, Signs, StickSlipPhase, sliding};
 use super::super::stop::Why;
-use super::{End, Observer, TimePiece, crank_state, newton_time};
+use super::{EndReason, StepObserver, TimePiece, crank_state, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -20,8 +20,8 @@ use crate::numeric::angle::Angle;
 pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) equation: &'a CurveEquation,
     pub(super) settings: Settings<'a>,
-    pub(super) quantities: Quantities<'a>,
-    pub(super) observer: &'o mut dyn Observer,
+    pub(super) quantities: CurveEvents<'a>,
+    pub(super) observer: &'o mut dyn StepObserver,
     pub(super) now: Start,
     pub(super) signs: Signs,
     pub(super) piece: TimePiece,
@@ -45,7 +45,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         settings: Settings<'a>,
         start: Start,
         turning: Option<(Angle, f64)>,
-        observer: &'o mut dyn Observer,
+        observer: &'o mut dyn StepObserver,
     ) -> TimePiece {
         let Start { t, angle, speed } = start;
         let node = Node {
@@ -57,11 +57,11 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let mut run = CurveRun {
             equation,
             settings,
-            quantities: Quantities {
+            quantities: CurveEvents {
                 equation,
                 turning,
                 evaluations: Cell::new(0),
-                against: Cell::default(),
+                opposed: Cell::default(),
             },
             observer,
             now: start,
@@ -71,7 +71,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 work: 0.0,
                 steps: 0,
                 evaluations: 0,
-                end: End::Done,
+                end: EndReason::Done,
                 singular_state: None,
             },
         };
@@ -96,39 +96,41 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         self.equation.friction().is_some() || self.equation.loads().are_dry()
     }
 
-    pub(super) fn in_phase(&self, phase: Phase) -> InPhase<'a> {
-        InPhase {
+    pub(super) fn curve_motion(&self, phase: StickSlipPhase) -> CurveMotion<'a> {
+        CurveMotion {
             equation: self.equation,
             phase,
         }
     }
 
-    fn pieces(&mut self) -> End {
-        let in_time = self.in_phase(Phase::Sticking).depends_on_time();
+    fn pieces(&mut self) -> EndReason {
+        let in_time = self
+            .curve_motion(StickSlipPhase::Sticking)
+            .depends_on_time();
         let settings = self.settings;
         let mut forecast = WorkForecast::new(self.now.t, 0, settings.ends(), in_time);
         loop {
             let from = self.now.angle;
             let end = self.slide().map_or_else(Some, |change| self.pass(change));
             if end.is_some() || self.now.t >= self.settings.t_end {
-                return end.unwrap_or(End::Done);
+                return end.unwrap_or(EndReason::Done);
             }
             let spent = self.spent();
             if self.settings.limit.is_reached(spent) {
-                return End::Integrator(Finish::WorkLimit);
+                return EndReason::Integrator(Finish::WorkLimit);
             }
             let travel = self.now.angle.minus(from);
             if let Some(finish) = forecast.reason_to_stop(spent, self.now.t, travel) {
-                return End::Integrator(finish);
+                return EndReason::Integrator(finish);
             }
         }
     }
 
     /// Passes the change at the end of a piece of sliding; returns the end of the run, if it ends there.
-    fn pass(&mut self, Change { t, index }: Change) -> Option<End> {
+    fn pass(&mut self, Change { t, index }: Change) -> Option<EndReason> {
         match EventIndex::ALL[index] {
-            Turned => Some(End::Done),
-            Clear => Some(self.jam()),
+            TurnLimit => Some(EndReason::Done),
+            JamDistance => Some(self.jam()),
             Speed => {
                 self.now.speed = 0.0;
                 self.leave_rest(Some(self.signs[index]))
@@ -146,14 +148,14 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     }
 
     /// Integrates one piece of sliding, up to the next change of friction or the end of the run.
-    fn slide(&mut self) -> Result<Change, End> {
+    fn slide(&mut self) -> Result<Change, EndReason> {
         let equation = self.equation;
         let friction = equation.friction();
         let [on_crank, on_slider] = equation.loads().dry_on();
         let phase = sliding(equation, &self.signs);
-        let in_phase = self.in_phase(phase);
-        let motion = Counted::new(&in_phase);
-        let looked_at = Counted::new(&in_phase);
+        let curve_motion = self.curve_motion(phase);
+        let motion = Counted::new(&curve_motion);
+        let looked_at = Counted::new(&curve_motion);
         let settings = Settings {
             limit: self.settings.limit.after(self.spent()),
             ..self.settings
@@ -180,10 +182,10 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 let ends = match index {
                     Speed => friction.is_some() || on_crank || on_slider,
                     DeadCentre => friction.is_some() || on_slider,
-                    Normal => friction.is_some(),
-                    Crank => on_crank,
+                    NormalForce => friction.is_some(),
+                    CrankRate => on_crank,
                     Limit => false,
-                    Turned | Clear => true,
+                    TurnLimit | JamDistance => true,
                 };
                 if ends {
                     cut = Some((step, change));
@@ -212,12 +214,12 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 last
             });
             return Err(match finish {
-                _ if stopped => End::Stopped,
+                _ if stopped => EndReason::Stopped,
                 // The inertia vanishes next to the end of the piece.
-                _ if vanished => End::Named(Why::NoInertiaOnCurve.into()),
-                Finish::AtEnd => End::Done,
+                _ if vanished => EndReason::Named(Why::NoInertiaOnCurve.into()),
+                Finish::AtEnd => EndReason::Done,
                 Finish::StepTooSmall => self.singular(),
-                finish => End::Integrator(finish),
+                finish => EndReason::Integrator(finish),
             });
         };
         let last = self.shorten(&motion, &step, change, phase);
@@ -227,17 +229,23 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     }
 
     /// Integrates the step anew up to a change inside it.
-    fn shorten(&mut self, motion: &Counted<'_>, step: &Step, change: Change, phase: Phase) -> Step {
+    fn shorten(
+        &mut self,
+        motion: &Counted<'_>,
+        step: &Step,
+        change: Change,
+        phase: StickSlipPhase,
+    ) -> Step {
         let settings = &self.settings;
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
             time::shortened(motion, step, t_end, settings, sink)
         };
         let mut t = change.t;
-        if change.index == Turned as usize {
+        if change.index == TurnLimit as usize {
             t = newton_time(t, step, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
-                let missing = self.quantities.values(t, angle, last.end.omega)[Turned as usize];
+                let missing = self.quantities.values(t, angle, last.end.omega)[TurnLimit as usize];
                 let dtheta = self.equation.curve().pose(angle.rest).dtheta;
                 [missing, (dtheta * last.end.omega).abs()]
             });

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::balance::Balance;
 use super::run_setup::RunSetup;
-use super::stick_slip::Phase;
+use super::stick_slip::StickSlipPhase;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
@@ -82,9 +82,9 @@ impl CurveProblem {
 }
 
 /// Receiver of motion in time, step by step.
-pub(super) trait Observer {
+pub(super) trait StepObserver {
     /// Takes a step in a phase of the curve, or in none with the crank angle as a smooth coordinate; true ends the run.
-    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool;
+    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool;
 
     /// Takes an event on the curve.
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
@@ -92,7 +92,7 @@ pub(super) trait Observer {
 
 /// End of a piece in time.
 #[derive(Clone, Debug, Default)]
-pub(super) enum End {
+pub(super) enum EndReason {
     /// The piece reached its time or its turns, or another piece follows.
     #[default]
     Done,
@@ -113,7 +113,7 @@ pub(super) struct TimePiece {
     pub work: f64,
     pub steps: u64,
     pub evaluations: u64,
-    pub end: End,
+    pub end: EndReason,
     /// Time, crank angle and speed of the last evaluation without a finite result.
     pub singular_state: Option<Start>,
 }

@@ -5,7 +5,7 @@ use crate::mechanism::AtRest;
 use crate::numeric::root;
 
 /// Sample places in an interval, as parts of its length: uneven, as a periodic load could hide between even ones.
-const PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
+const SAMPLE_PLACES: [f64; 5] = [0.0, 0.29, 0.53, 0.83, 1.0];
 
 /// Result of a search for release.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,16 +34,16 @@ pub(super) fn time(
     let (mut t, mut length) = (from, longest);
     while t < to && !allowed.is_reached(count) {
         let end = rest.next_corner(t).min(to).min(t + length);
-        let times = PLACES.map(|part| match part {
+        let times = SAMPLE_PLACES.map(|part| match part {
             1.0 => end,
             _ => t + part * (end - t),
         });
         let values = times.map(band);
-        count += PLACES.len() as u64;
+        count += SAMPLE_PLACES.len() as u64;
         // The distance of the samples from a straight line indicates the dip of the margin between them.
         let line = |part: f64| values[0] + part * (values[4] - values[0]);
         let bend = (1..4)
-            .map(|i| (values[i] - line(PLACES[i])).abs())
+            .map(|i| (values[i] - line(SAMPLE_PLACES[i])).abs())
             .fold(0.0, f64::max);
         let least = values.iter().fold(f64::INFINITY, |a, b| a.min(*b));
         // A margin that is zero throughout, as at a dead centre without weight, holds.

@@ -1,10 +1,10 @@
 //! Transitions between motion and rest, and jamming, where rigid bodies leave the motion undetermined.
 
 use super::super::guide_friction::NEARBY_ANGLE;
-use super::super::stick_slip::EventIndex::{self, Crank, DeadCentre, Normal, Speed};
-use super::super::stick_slip::{Phase, Signs, against, signs};
+use super::super::stick_slip::EventIndex::{self, CrankRate, DeadCentre, NormalForce, Speed};
+use super::super::stick_slip::{Signs, StickSlipPhase, opposed, signs};
 use super::super::stop::Why;
-use super::End;
+use super::EndReason;
 use super::follow::CurveRun;
 use super::release::{self, Release};
 use crate::engine::Motion;
@@ -16,7 +16,7 @@ use crate::scene::Variable;
 
 impl CurveRun<'_, '_> {
     /// Leaves rest; none if the motion goes on, otherwise the end of the run. `before`: previous direction of motion.
-    pub fn leave_rest(&mut self, before: Option<f64>) -> Option<End> {
+    pub fn leave_rest(&mut self, before: Option<f64>) -> Option<EndReason> {
         let friction = self.equation.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
         let Start { t, angle, .. } = self.now;
@@ -39,7 +39,7 @@ impl CurveRun<'_, '_> {
     }
 
     /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
-    fn rest(&mut self, mu_static: f64) -> Result<f64, End> {
+    fn rest(&mut self, mu_static: f64) -> Result<f64, EndReason> {
         let Start { t, angle, .. } = self.now;
         let equation = self.equation;
         let is_open = self.quantities.turning.is_some();
@@ -63,10 +63,10 @@ impl CurveRun<'_, '_> {
         };
         self.observer.event(kind, t, angle, 0.0);
         let (until, ends) = match release {
-            Release::Never if is_open => return Err(End::AtRest),
-            Release::Never => (end, Some(End::Done)),
+            Release::Never if is_open => return Err(EndReason::AtRest),
+            Release::Never => (end, Some(EndReason::Done)),
             Release::At(t) => (t, None),
-            Release::Unknown(t) => (t, Some(End::Integrator(Finish::WorkLimit))),
+            Release::Unknown(t) => (t, Some(EndReason::Integrator(Finish::WorkLimit))),
         };
         let node = |t: f64| Node {
             t,
@@ -74,7 +74,7 @@ impl CurveRun<'_, '_> {
             ..Node::default()
         };
         let still = Step::new(angle.turns, node(t), node(until));
-        self.observer.step(&still, Some(Phase::Sticking));
+        self.observer.step(&still, Some(StickSlipPhase::Sticking));
         self.arrive(still);
         if let Some(end) = ends {
             return Err(end);
@@ -85,18 +85,18 @@ impl CurveRun<'_, '_> {
     }
 
     /// Returns the end of the run if rigid bodies jam at the current state.
-    pub fn check_jam(&mut self) -> Option<End> {
+    pub fn check_jam(&mut self) -> Option<EndReason> {
         let friction = self.equation.friction()?;
         let Start { t, angle, speed } = self.now;
         let free = self.equation.free(t, angle, speed);
         (free.clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
     }
 
-    pub fn jam(&self) -> End {
+    pub fn jam(&self) -> EndReason {
         let Start { t, angle, speed } = self.now;
         let free = self.equation.free(t, angle, speed);
         let mu = self.equation.friction().map_or(0.0, |f| f.coefficient);
-        End::Named(Box::new(Why::Jam {
+        EndReason::Named(Box::new(Why::Jam {
             solutions: free.jam(
                 mu,
                 self.signs[Speed as usize] * self.signs[DeadCentre as usize],
@@ -107,14 +107,14 @@ impl CurveRun<'_, '_> {
     }
 
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
-    pub fn singular(&self) -> End {
+    pub fn singular(&self) -> EndReason {
         let Start { t, angle, speed } = self.now;
         // Of 1 − μ |κ|: the acceleration grows a thousandfold towards jamming, which the steps do not follow.
         let near_jam = 1e-3;
         let clear = |mu: f64| self.equation.free(t, angle, speed).clear_of_jam(mu);
         match self.equation.friction() {
             Some(friction) if clear(friction.coefficient) < near_jam => self.jam(),
-            _ => End::Integrator(Finish::StepTooSmall),
+            _ => EndReason::Integrator(Finish::StepTooSmall),
         }
     }
 
@@ -124,7 +124,7 @@ impl CurveRun<'_, '_> {
         if equation.loads().are_dry() {
             // The signs of the speeds determine the sign of N.
             let seen = self.seen(direction);
-            self.quantities.against.set(against(equation, &seen));
+            self.quantities.opposed.set(opposed(equation, &seen));
         }
         self.seen(direction)
     }
@@ -138,7 +138,7 @@ impl CurveRun<'_, '_> {
         let mut signs = signs(values, ahead, direction);
         // A start at rest has no direction: the acceleration gives it.
         if speed == 0.0 && !self.may_stick() {
-            let motion = self.in_phase(Phase::FREE);
+            let motion = self.curve_motion(StickSlipPhase::FREE);
             if motion.acceleration(t, angle, speed) < 0.0 {
                 signs[Speed as usize] = -1.0;
             }
@@ -149,10 +149,10 @@ impl CurveRun<'_, '_> {
     /// Updates the signs where dry loads reverse and the normal force jumps.
     pub fn oppose(&mut self, index: EventIndex) {
         let equation = self.equation;
-        if equation.loads().are_dry() && matches!(index, DeadCentre | Crank) {
-            self.quantities.against.set(against(equation, &self.signs));
+        if equation.loads().are_dry() && matches!(index, DeadCentre | CrankRate) {
+            self.quantities.opposed.set(opposed(equation, &self.signs));
             let direction = self.signs[Speed as usize];
-            self.signs[Normal as usize] = self.seen(direction)[Normal as usize];
+            self.signs[NormalForce as usize] = self.seen(direction)[NormalForce as usize];
         }
     }
 }

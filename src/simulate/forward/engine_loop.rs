@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
-use super::super::configuration_curve::{CurveProblem, End, Observer};
+use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
 use super::super::run_setup::RunSetup;
 use super::stop_reason;
 use crate::engine::angle::{AngleRun, Resolution};
@@ -34,7 +34,7 @@ pub(super) struct PassSettings<'a> {
 }
 
 /// Receiver of the pieces of a pass.
-pub(super) trait PassObserver: Observer {
+pub(super) trait PassObserver: StepObserver {
     /// Takes note that an engine takes over at a time, s.
     fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
 
@@ -95,7 +95,7 @@ pub(super) struct PassResult {
     pub steps: u64,
     pub pieces_over_angle: u64,
     pub pieces_in_time: u64,
-    pub end: End,
+    pub end: EndReason,
     /// Time, crank angle and speed of the last evaluation without a finite result.
     pub singular_state: Option<Start>,
 }
@@ -217,7 +217,7 @@ impl<'a> Pass<'a, '_> {
             (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
             (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
             (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
-                self.result.end = End::Integrator(match why {
+                self.result.end = EndReason::Integrator(match why {
                     WorkLimit => Finish::WorkLimit,
                     _ => Finish::TooManyTurns,
                 });

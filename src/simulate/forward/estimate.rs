@@ -8,16 +8,16 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::super::configuration_curve::{CurveProblem, End, Observer};
+use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
 use super::super::crank_motion::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
-use super::super::roundoff_propagation::{Rounding, Spread};
+use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
-use super::super::stick_slip::Phase;
+use super::super::stick_slip::StickSlipPhase;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings};
 use super::errors_over_angle::{TURN_ROUNDING, by_energy, late_by, row_error, worst_row};
 use super::over_angle::second_run_resolution;
@@ -82,7 +82,7 @@ fn by_second_run(
         let mut seen = SecondRun::new(&finer, &motion, record);
         let best = finer.run(&motion, &mut seen).ok()?;
         evaluations += best.evaluations + seen.rounding.evaluations;
-        let arrives = matches!(best.end, End::Done);
+        let arrives = matches!(best.end, EndReason::Done);
         arrives.then_some((best, seen.rounding.spread, seen.compared))
     };
     let (best, spread, compared) = second_settings(pass, result, record)
@@ -149,7 +149,7 @@ fn distance(
     task: &RunSetup<'_>,
     result: &PassResult,
     best: &PassResult,
-    spread: Spread,
+    spread: CovarianceFactor,
 ) -> ErrorEstimate {
     let Start { t, angle, speed } = result.state;
     let [angle_noise, speed_noise] =
@@ -172,7 +172,7 @@ fn distance(
 }
 
 /// Converts the spread of a coordinate at the end to that of crank angle and crank speed.
-fn of_crank(result: &PassResult, spread: Spread) -> [f64; 2] {
+fn of_crank(result: &PassResult, spread: CovarianceFactor) -> [f64; 2] {
     let (angle, speed) = (spread.angle(), spread.speed());
     let (Some(Step { end, .. }), Some(curve)) = (result.last_step, &result.curve) else {
         return [angle, speed];
@@ -187,7 +187,7 @@ fn of_crank(result: &PassResult, spread: Spread) -> [f64; 2] {
 struct SecondRun<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
-    rounding: Rounding,
+    rounding: RoundoffPropagation,
     /// Configuration curve of the last piece in time, if it follows one.
     curve: Option<Arc<CurveEquation>>,
     compared: Comparison<'a>,
@@ -207,7 +207,7 @@ impl<'m, 'a> SecondRun<'m, 'a> {
         SecondRun {
             equation: pass.task.equation(),
             motion,
-            rounding: Rounding::new(pass.time_settings.method, moves),
+            rounding: RoundoffPropagation::new(pass.time_settings.method, moves),
             curve: None,
             compared: Comparison::with(&record.checkpoints),
         }
@@ -259,10 +259,10 @@ impl PassObserver for SecondRun<'_, '_> {
         // The roundoff of the piece is a stated error, no standard deviation.
         let unit = STATED_DEVIATIONS * f64::EPSILON;
         let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
-        let carried = self.rounding.spread.carried(&transition);
+        let carried = self.rounding.spread.propagated(&transition);
         self.rounding.spread = carried
-            .along(speed * late, self.acceleration(&to) * late)
-            .plus(0.0, off / (self.inertia(&to) * speed));
+            .plus_error(speed * late, self.acceleration(&to) * late)
+            .plus_independent(0.0, off / (self.inertia(&to) * speed));
         Ok(())
     }
 
@@ -274,8 +274,8 @@ impl PassObserver for SecondRun<'_, '_> {
     }
 }
 
-impl Observer for SecondRun<'_, '_> {
-    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
+impl StepObserver for SecondRun<'_, '_> {
+    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
         let SecondRun {
             rounding, compared, ..
         } = self;

@@ -3,16 +3,16 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::super::bounded_motion::Swing;
-use super::super::configuration_curve::{CurveProblem, Observer, crank_state, newton_time};
+use super::super::angle_model::SAME_CORNER;
+use super::super::bounded_motion::BoundedMotion;
+use super::super::configuration_curve::{CurveProblem, StepObserver, crank_state, newton_time};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank};
-use super::super::marks::SAME_CORNER;
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
-use super::super::stick_slip::Phase;
+use super::super::stick_slip::StickSlipPhase;
 use super::super::stop::Why;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult};
 use crate::engine::Counted;
@@ -33,7 +33,7 @@ pub(super) struct ForwardRecorder<'a> {
     /// Dead centres, rad in [0, 2π).
     dead_centres: Vec<f64>,
     /// Record of turning points, if the crank may never complete its turns.
-    swing: Option<Swing>,
+    swing: Option<BoundedMotion>,
     /// Time (s) and reason of an end inside the last step.
     ends_at: Option<(f64, EndsBy)>,
     /// Start of a piece at a dead centre that is already recorded.
@@ -42,7 +42,7 @@ pub(super) struct ForwardRecorder<'a> {
     /// Configuration curve of the last piece in time, if it follows one.
     curve: Option<Arc<CurveEquation>>,
     /// Last phase of the slider in its guide.
-    phase: Phase,
+    phase: StickSlipPhase,
 }
 
 /// Reason for an end inside a step.
@@ -51,7 +51,7 @@ enum EndsBy {
     /// The turns asked for are complete.
     Turns,
     /// The crank swings to and fro, and its swing no longer grows.
-    Swing,
+    BoundedMotion,
 }
 
 impl<'a> ForwardRecorder<'a> {
@@ -65,12 +65,12 @@ impl<'a> ForwardRecorder<'a> {
             recorder: Recorder::new(task, rows, task.schedule()),
             motion,
             dead_centres: task.dead_centres(),
-            swing: Swing::new(task, task.start()),
+            swing: BoundedMotion::new(task, task.start()),
             ends_at: None,
             passed: None,
             crossings: Vec::new(),
             curve: None,
-            phase: Phase::Sticking,
+            phase: StickSlipPhase::Sticking,
         }
     }
 
@@ -112,10 +112,15 @@ impl<'a> ForwardRecorder<'a> {
     }
 
     /// Records a step along the configuration curve; true ends the run.
-    fn step_on_curve(&mut self, mut step: Step, equation: &CurveEquation, phase: Phase) -> bool {
+    fn step_on_curve(
+        &mut self,
+        mut step: Step,
+        equation: &CurveEquation,
+        phase: StickSlipPhase,
+    ) -> bool {
         self.phase = phase;
         let along = AlongCurve::new(equation, phase, &self.task.maker);
-        if phase != Phase::Sticking {
+        if phase != StickSlipPhase::Sticking {
             let speed = self.recorder.speed();
             let crank = |step: &Step, t: f64| along.crank_speed(step, t);
             *speed = events::follow(&mut step, along.motion(), *speed, crank);
@@ -188,7 +193,7 @@ impl<'a> ForwardRecorder<'a> {
                 break;
             }
             self.happens(step, t.min(end), what);
-            if matches!(self.ends_at, Some((_, EndsBy::Swing))) {
+            if matches!(self.ends_at, Some((_, EndsBy::BoundedMotion))) {
                 break;
             }
         }
@@ -210,13 +215,13 @@ impl<'a> ForwardRecorder<'a> {
             Crossing::Turning => self.event("turning-point", t, at, 0.0),
         }
         if what == Crossing::Turning && self.swing.is_some_and(|swing| swing.is_caught()) {
-            self.ends_at = Some((t, EndsBy::Swing));
+            self.ends_at = Some((t, EndsBy::BoundedMotion));
         }
     }
 }
 
-impl Observer for ForwardRecorder<'_> {
-    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
+impl StepObserver for ForwardRecorder<'_> {
+    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
         match self.curve.clone().zip(phase) {
             Some((equation, phase)) => self.step_on_curve(*step, &equation, phase),
             None => self.step_of_crank(*step),
@@ -261,7 +266,7 @@ impl PassObserver for ForwardRecorder<'_> {
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
         self.passed = again.then_some(from);
         if curve.is_some() && !self.task.turns_fully() {
-            self.swing = Swing::new(self.task, from.angle);
+            self.swing = BoundedMotion::new(self.task, from.angle);
         }
     }
 

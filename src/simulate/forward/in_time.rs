@@ -5,9 +5,11 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::super::configuration_curve::{self, CurveProblem, CurveRun, End, Observer, TimePiece};
+use super::super::configuration_curve::{
+    self, CurveProblem, CurveRun, EndReason, StepObserver, TimePiece,
+};
 use super::super::guide_friction::NEARBY_ANGLE;
-use super::super::stick_slip::Phase;
+use super::super::stick_slip::StickSlipPhase;
 use super::super::stop;
 use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd};
 use super::stop_reason;
@@ -76,7 +78,7 @@ impl Pass<'_, '_> {
             .observer
             .end_in_time(self.motion, &piece.last, &settings)
         {
-            (piece.last, piece.work, piece.end) = (last, last.end.work, End::Done);
+            (piece.last, piece.work, piece.end) = (last, last.end.work, EndReason::Done);
         }
         let end = &piece.last.end;
         let coordinate = Start {
@@ -95,14 +97,16 @@ impl Pass<'_, '_> {
         result.singular_state = piece.singular_state;
         result.curve = curve.cloned();
         result.last_step = Some(piece.last);
-        if is_met && matches!(piece.end, End::Stopped) {
-            result.end = End::Done;
+        if is_met && matches!(piece.end, EndReason::Stopped) {
+            result.end = EndReason::Done;
             result.state.angle = result.state.angle.reduced();
             return Ok(PieceEnd::ClearOfRest);
         }
         result.end = match (piece.end, pass.extent) {
-            (End::Done, Extent::Revolutions(turns)) if result.state.t >= time::UNLIMITED_TIME => {
-                End::Named(stop::Why::TurnsNeverComplete(turns).into())
+            (EndReason::Done, Extent::Revolutions(turns))
+                if result.state.t >= time::UNLIMITED_TIME =>
+            {
+                EndReason::Named(stop::Why::TurnsNeverComplete(turns).into())
             }
             (end, _) => end,
         };
@@ -115,7 +119,7 @@ fn of_crank(
     motion: &Counted<'_>,
     from: Start,
     settings: &Settings<'_>,
-    observer: &mut dyn Observer,
+    observer: &mut dyn StepObserver,
 ) -> TimePiece {
     let mut sink = |step: &Step| observer.step(step, None);
     let (finish, last, steps) = time::run(motion, from, settings, &mut sink);
@@ -126,9 +130,9 @@ fn of_crank(
         steps,
         evaluations: 0,
         end: match finish {
-            Finish::AtEnd => End::Done,
-            Finish::Stopped => End::Stopped,
-            finish => End::Integrator(finish),
+            Finish::AtEnd => EndReason::Done,
+            Finish::Stopped => EndReason::Stopped,
+            finish => EndReason::Integrator(finish),
         },
         singular_state: singular_state.map(|(t, angle, speed)| Start { t, angle, speed }),
     }
@@ -161,8 +165,8 @@ struct ResumeCondition<'a, 'o> {
     is_met: bool,
 }
 
-impl Observer for ResumeCondition<'_, '_> {
-    fn step(&mut self, step: &Step, phase: Option<Phase>) -> bool {
+impl StepObserver for ResumeCondition<'_, '_> {
+    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
         let ends = self.observer.step(step, phase);
         self.is_met = !ends && self.is_met_at_end(step);
         ends || self.is_met

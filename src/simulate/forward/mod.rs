@@ -19,7 +19,7 @@ use forward_recorder::ForwardRecorder;
 
 use super::angle_model::AngleModel;
 use super::balance::Balance;
-use super::configuration_curve::{self, CurveProblem, End, crank_state};
+use super::configuration_curve::{self, CurveProblem, EndReason, crank_state};
 use super::crank_motion::CrankMotion;
 use super::outcome::Outcome;
 use super::recorder::Record;
@@ -58,7 +58,8 @@ pub(super) fn run(
     let looked_at = Counted::new(&forward);
     let mut recorder = ForwardRecorder::new(task, &looked_at, rows);
     let result = pass.run(&Counted::new(&forward), &mut recorder)?;
-    if matches!(result.end, End::Integrator(Finish::NoStart)) && result.pieces_over_angle == 0 {
+    if matches!(result.end, EndReason::Integrator(Finish::NoStart)) && result.pieces_over_angle == 0
+    {
         return Err(stop_reason::no_start(task));
     }
     let caught = recorder.caught();

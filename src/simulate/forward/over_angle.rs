@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
-use super::super::configuration_curve::End;
+use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
@@ -30,7 +30,7 @@ impl Pass<'_, '_> {
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
         if let Some(why) = stopped {
-            self.result.end = End::Named(why.into());
+            self.result.end = EndReason::Named(why.into());
         }
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);

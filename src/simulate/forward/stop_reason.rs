@@ -1,6 +1,6 @@
 //! Reasons for a free motion that ends before its goal, cannot begin, or is not applicable to an engine.
 
-use super::super::configuration_curve::End;
+use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
 use super::super::stop::{Why, why_not_applicable};
@@ -15,9 +15,9 @@ use crate::scene::Extent;
 pub(super) fn reason(pass: &PassSettings<'_>, result: &PassResult) -> Option<Why> {
     let task = pass.task;
     let finish = match (&result.end, task.extent) {
-        (End::Named(why), _) => return Some((**why).clone()),
-        (End::Integrator(finish), _) => *finish,
-        (End::AtRest, Extent::Revolutions(turns)) => {
+        (EndReason::Named(why), _) => return Some((**why).clone()),
+        (EndReason::Integrator(finish), _) => *finish,
+        (EndReason::AtRest, Extent::Revolutions(turns)) => {
             let theta = result.state.angle.radians();
             let held_by = task.turns_fully().then(|| torques(task, theta));
             return Some(Why::AtRest { turns, held_by });

@@ -97,7 +97,7 @@ fn search(
     }
     let model = AngleModel::of(&task).with_shared_panels();
     let mut cycles = Cycles::new(&task, &model);
-    let seeker = Seeker { task: &task, turns };
+    let seeker = OrbitSearch { task: &task, turns };
     match (seeker.solve(&mut cycles, step), cycles.refused) {
         (Err(_), Some(why)) => Err(why),
         (found, _) => found,
@@ -105,13 +105,13 @@ fn search(
 }
 
 /// Search for the periodic motion of a scene.
-struct Seeker<'a> {
+struct OrbitSearch<'a> {
     task: &'a RunSetup<'a>,
     /// Number of turns after which the loads repeat.
     turns: u32,
 }
 
-impl Seeker<'_> {
+impl OrbitSearch<'_> {
     fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
         let reads = self.task.equation().loads().reads();
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);

@@ -13,26 +13,26 @@ const RESOLUTION: PanelResolution = PanelResolution {
 };
 
 /// Panel ends for the loads of the position alone, rad, computed on demand.
-pub(super) struct Marks<'a> {
+pub(super) struct PanelEnds<'a> {
     equation: &'a Equation,
     /// Crank angle and speed (rad/s) at the start of the run.
     start: (Angle, f64),
-    /// Interval of the last search, rad, and the marks found in it.
+    /// Interval of the last search, rad, and the panel ends found in it.
     last: RefCell<(Interval, Vec<f64>)>,
 }
 
-impl<'a> Marks<'a> {
+impl<'a> PanelEnds<'a> {
     /// Makes an empty set for a motion from an angle and a speed, rad/s.
-    pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> Marks<'a> {
+    pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> PanelEnds<'a> {
         let nowhere = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
-        Marks {
+        PanelEnds {
             equation,
             start: (start, speed),
             last: RefCell::new((nowhere, Vec::new())),
         }
     }
 
-    /// Returns the marks between two angles, rad, in rising order.
+    /// Returns the panel ends between two angles, rad, in rising order.
     pub fn between(&self, low: f64, high: f64) -> Vec<f64> {
         let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
         if !loads.vary_with_position_between_nodes() || low >= high {
@@ -46,21 +46,21 @@ impl<'a> Marks<'a> {
         partition(variation, Interval::new(low, high), RESOLUTION, unit)
     }
 
-    /// Returns the first mark after `from` on the way to `to`, in either direction, rad.
+    /// Returns the first panel end after `from` on the way to `to`, in either direction, rad.
     pub fn next(&self, from: f64, to: f64) -> Option<f64> {
         if !self.equation.loads().vary_with_position_between_nodes() {
             return None;
         }
         let way = Interval::between(from, to);
-        let (known, marks) = &mut *self.last.borrow_mut();
+        let (known, ends) = &mut *self.last.borrow_mut();
         if !(known.low <= way.low && way.high <= known.high) {
-            *marks = self.between(way.low, way.high);
+            *ends = self.between(way.low, way.high);
             *known = way;
         }
-        let mut inside = marks
+        let mut inside = ends
             .iter()
             .copied()
-            .filter(|mark| way.low < *mark && *mark < way.high);
+            .filter(|panel_end| way.low < *panel_end && *panel_end < way.high);
         if from < to {
             inside.next()
         } else {
@@ -70,10 +70,10 @@ impl<'a> Marks<'a> {
 }
 
 /// Distance, rad, below which two corners are one: the rows of a table may be rounded to nine digits.
-pub(super) const SAME_CORNER: f64 = 1e-9;
+pub(in super::super) const SAME_CORNER: f64 = 1e-9;
 
 /// Sorts angles, rad, and merges equal ones: a corner doubled by rounding makes an empty panel.
-pub(super) fn in_order(angles: impl Iterator<Item = f64>) -> Vec<f64> {
+pub(super) fn sorted_corners(angles: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut angles: Vec<f64> = angles.collect();
     angles.sort_by(f64::total_cmp);
     angles.dedup_by(|a, b| (*a - *b).abs() < SAME_CORNER);
