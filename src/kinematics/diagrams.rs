@@ -22,7 +22,7 @@ pub struct Diagrams {
     /// Fourier coefficients of the shaking force and of the driving torque.
     pub orders: Vec<Order>,
     /// Balance by a counterweight on the crank.
-    pub balance: Balance,
+    pub balance: Counterweight,
 }
 
 /// Work of the gas on the piston over the cycle.
@@ -56,7 +56,7 @@ pub struct Order {
 /// Counterweight for the rotating mass and a part of the reciprocating mass. The first order of the shaking force is
 /// one vector that turns with the crank and one that turns against the crank; a counterweight changes only the former.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Balance {
+pub struct Counterweight {
     /// Balanced part of the first order of the reciprocating mass; 0.5 leaves the least largest force of first order.
     pub part: f64,
     /// Mass times distance from the crank's axis, kg m.
@@ -172,7 +172,7 @@ impl ForceAnalysis {
         (1..=fourier::HIGHEST_ORDER * turns).map(order).collect()
     }
 
-    fn balance(&self, samples: &[[f64; 4]], part: f64) -> Balance {
+    fn balance(&self, samples: &[[f64; 4]], part: f64) -> Counterweight {
         let [[xc, xs], [yc, ys], ..] = fourier::coefficients(samples, self.cycle_turns);
         // x + iy = forward e^{iθ} + backward e^{-iθ}.
         let forward = [xc + ys, yc - xs];
@@ -194,7 +194,7 @@ impl ForceAnalysis {
             });
             forces.fold(0.0, f64::max)
         };
-        Balance {
+        Counterweight {
             part,
             counterweight_kg_m: taken.abs() / self.speed_rad_per_s.powi(2),
             angle_rad: counter[1].atan2(counter[0]).rem_euclid(TAU) % TAU,

@@ -12,7 +12,7 @@ pub use crate::mechanism::{Length, size_from_stroke};
 #[cfg(feature = "cli")]
 pub(crate) use closed_form::of_checked;
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
-pub use diagrams::{Balance, Diagrams, Indicated, Order};
+pub use diagrams::{Counterweight, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{

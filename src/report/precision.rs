@@ -76,7 +76,7 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
 }
 
 /// Widths of the columns of the table, characters; negative for left-aligned.
-const WIDTHS: [isize; 9] = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
+const COLUMN_WIDTHS: [isize; 9] = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
 
 /// Returns the comparison of one scene as text.
 pub fn precision(scene: &Precision) -> String {
@@ -91,7 +91,7 @@ pub fn precision(scene: &Precision) -> String {
         facts.add("its error", text);
     }
     let header = "method,tolerance,error [rad],error [rad/s],stated [rad],least [us],median,evaluations,steps";
-    let mut text = facts.lines(10) + "\n" + &aligned(&WIDTHS, header.split(','));
+    let mut text = facts.lines(10) + "\n" + &aligned(&COLUMN_WIDTHS, header.split(','));
     for row in &scene.rows {
         text += &line(row);
     }
@@ -104,7 +104,7 @@ pub fn precision(scene: &Precision) -> String {
 fn line(row: &PrecisionRow) -> String {
     let name = [row.method.clone(), format!("{:.0e}", row.tolerance)].into_iter();
     if row.failure.is_some() && row.error_theta_rad.is_none() {
-        return aligned(&WIDTHS, name.chain(["failed".to_owned()]));
+        return aligned(&COLUMN_WIDTHS, name.chain(["failed".to_owned()]));
     }
     let bound = if row.error_is_bound { "<= " } else { "" };
     let or_none = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
@@ -120,7 +120,7 @@ fn line(row: &PrecisionRow) -> String {
         count(row.evaluations),
         count(row.steps),
     ];
-    aligned(&WIDTHS, name.chain(cells))
+    aligned(&COLUMN_WIDTHS, name.chain(cells))
 }
 
 /// Returns notes on the rows: methods left out, bounds, failures, other references, slider errors.

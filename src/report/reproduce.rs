@@ -48,7 +48,7 @@ fn short(value: f64) -> String {
 
 /// Returns a table of all entries, and the counts of the verdicts.
 pub fn reproduction(result: &Reproduction) -> String {
-    const WIDTHS: [isize; 6] = [-22, 14, 14, -7, -21, 0];
+    const COLUMN_WIDTHS: [isize; 6] = [-22, 14, 14, -7, -21, 0];
     let mut text = String::new();
     let mut paper = "";
     for entry in &result.entries {
@@ -56,7 +56,7 @@ pub fn reproduction(result: &Reproduction) -> String {
             paper = entry.paper;
             let gap = if text.is_empty() { "" } else { "\n" };
             let header = ["  place", "printed", "ours", "unit", "verdict", "what"];
-            text += &format!("{gap}{paper}\n{}", aligned(&WIDTHS, header));
+            text += &format!("{gap}{paper}\n{}", aligned(&COLUMN_WIDTHS, header));
         }
         let printed = match entry.printed.parse() {
             Ok(value) if entry.printed.len() > 12 => short(value),
@@ -70,7 +70,7 @@ pub fn reproduction(result: &Reproduction) -> String {
             entry.verdict.name(),
             &*entry.what,
         ];
-        text += &aligned(&WIDTHS, cells);
+        text += &aligned(&COLUMN_WIDTHS, cells);
         let more = " ".repeat(60);
         if !entry.condition.is_empty() {
             let value = entry.conditional.map(|value| format!(": {}", short(value)));

@@ -113,9 +113,9 @@ fn seconds(value: f64) -> String {
 
 /// Returns rows as a table with aligned columns.
 pub(super) fn table(rows: &[Row]) -> String {
-    const WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
+    const COLUMN_WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
     let header = "t [s],turns,theta [deg],omega [rad/s],x [mm],v [m/s]";
-    let mut text = aligned(&WIDTHS, header.split(','));
+    let mut text = aligned(&COLUMN_WIDTHS, header.split(','));
     for row in rows {
         let turns = (row.theta / TAU).floor();
         let cells = [
@@ -127,7 +127,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             // Minus zero prints as zero.
             format!("{:.5}", row.v + 0.0),
         ];
-        text += &aligned(&WIDTHS, cells);
+        text += &aligned(&COLUMN_WIDTHS, cells);
     }
     text
 }

@@ -54,12 +54,12 @@ impl Report for StaticsReport<'_> {
 
     /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
-        const WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
+        const COLUMN_WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
         let (what, unit) = self.sought();
         let sought = format!("{what} [{unit}]");
         let [thrust, transmission] = ["side thrust [N]", "transmission [deg]"];
         let header = ["theta [deg]", &sought, "from", "to", thrust, transmission];
-        let mut text = self.facts().lines(NAME_WIDTH) + "\n" + &aligned(&WIDTHS, header);
+        let mut text = self.facts().lines(NAME_WIDTH) + "\n" + &aligned(&COLUMN_WIDTHS, header);
         for row in self.result.rows(15f64.to_radians()) {
             let [_, value, min, max, thrust, transmission, ..] = cells(&row);
             let degrees = transmission.to_degrees();
@@ -68,7 +68,7 @@ impl Report for StaticsReport<'_> {
                 false => "-".to_owned(),
             });
             let theta = format!("{:.0}", row.theta.to_degrees());
-            text += &aligned(&WIDTHS, [theta].into_iter().chain(shown));
+            text += &aligned(&COLUMN_WIDTHS, [theta].into_iter().chain(shown));
         }
         text
     }

@@ -44,5 +44,5 @@ pub use problem::{Places, Problem, Problems};
 pub use table::{Interpolation, Table, calibration_points};
 #[cfg(feature = "cli")]
 pub use table::{LoadTable, load_table};
-pub(crate) use validate::{LEAST_TOLERANCE, MOST_OUTPUT_ROWS};
+pub(crate) use validate::{LEAST_RUN_TOLERANCE, MOST_OUTPUT_ROWS};
 pub use variable::{Instant, Variable, Variables};

@@ -17,18 +17,18 @@ pub struct Accepted {
 
 /// Reason to reject a step.
 #[derive(Clone, Copy, Debug)]
-pub enum Failed {
+pub enum Rejection {
     /// Step too long; ratio of the next try to this length.
     TooLong(f64),
     /// Load missed between the nodes; the position, as a fraction, at which the step has to end.
-    Hides(f64),
+    Unresolved(f64),
     /// Step too long, with a corner at the fraction `at`; the step after the corner has `factor` times the length.
-    Meets { at: f64, factor: f64 },
+    Corner { at: f64, factor: f64 },
 }
 
-impl Failed {
+impl Rejection {
     /// Rejection of a step with an acceleration that is not finite.
-    pub const NOT_FINITE: Failed = Failed::TooLong(0.25);
+    pub const NOT_FINITE: Rejection = Rejection::TooLong(0.25);
 }
 
 /// Requested step.
@@ -82,7 +82,7 @@ impl Collocation<'_> {
     }
 
     /// Rejects a step as too long, and estimates the rounding error due to its times: no shorter step reduces it.
-    pub(super) fn too_long(&mut self, h: f64, factor: f64) -> Failed {
+    pub(super) fn too_long(&mut self, h: f64, factor: f64) -> Rejection {
         if self.motion.depends_on_time() {
             // Time shift of the difference quotient of the acceleration: a small fraction of the step.
             let apart = 1e-3 * h;
@@ -94,7 +94,7 @@ impl Collocation<'_> {
             let steepest = (0..NODES).map(slope).fold(0.0, f64::max);
             self.by_time = f64::EPSILON * later.t[NODES - 1].abs() * steepest;
         }
-        Failed::TooLong(factor)
+        Rejection::TooLong(factor)
     }
 
     /// Estimates the error of the motion inside the step from its last two Legendre coefficients.

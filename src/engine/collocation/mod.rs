@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 use super::step::{Node, Step};
 use super::time::{Finish, Settings, Start};
 use super::{Counted, Motion};
-use attempt::{Accepted, Attempt, Failed};
+use attempt::{Accepted, Attempt, Rejection};
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
@@ -71,11 +71,11 @@ pub fn run(
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);
             }
-            Err(Failed::TooLong(factor)) => {
+            Err(Rejection::TooLong(factor)) => {
                 wanted = h * factor.clamp(least_factor, greatest_retry);
             }
-            Err(Failed::Hides(at)) => hidden = state.t + at * h,
-            Err(Failed::Meets { at, factor }) => {
+            Err(Rejection::Unresolved(at)) => hidden = state.t + at * h,
+            Err(Rejection::Corner { at, factor }) => {
                 hidden = state.t + at * h;
                 wanted = h * factor.clamp(least_factor, greatest_retry);
             }

@@ -4,7 +4,7 @@ use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
-use super::attempt::{Accepted, Attempt, Failed};
+use super::attempt::{Accepted, Attempt, Rejection};
 use super::newton::Newton;
 use super::state::State;
 use super::tableau::Tableau;
@@ -54,12 +54,12 @@ impl<'a> Collocation<'a> {
     }
 
     /// Tries a step from a state; a step that is too long because of a corner is to end there.
-    pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Failed> {
+    pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Rejection> {
         let result = self.attempt_whole(state, step);
         match result {
-            Err(Failed::TooLong(factor)) if self.varies_between_nodes => {
+            Err(Rejection::TooLong(factor)) if self.varies_between_nodes => {
                 match self.corner(state, step.h) {
-                    Some(at) => Err(Failed::Meets { at, factor }),
+                    Some(at) => Err(Rejection::Corner { at, factor }),
                     None => result,
                 }
             }
@@ -85,7 +85,7 @@ impl<'a> Collocation<'a> {
         &mut self,
         state: &State,
         Attempt { h, corners }: Attempt,
-    ) -> Result<Accepted, Failed> {
+    ) -> Result<Accepted, Rejection> {
         let (sweeps, newton) = self.converge(state, h)?;
         let coefficients = self.coefficients();
         let (step, next, alpha) = self.finish(state, h, &coefficients);
@@ -94,7 +94,7 @@ impl<'a> Collocation<'a> {
         let mut error = self.error(state, h, &coefficients);
         for (jump, at_corner) in jumps.into_iter().zip(corners) {
             if !jump.is_finite() {
-                return Err(Failed::NOT_FINITE);
+                return Err(Rejection::NOT_FINITE);
             } else if !at_corner {
                 error = error.max(self.error_of(state, h, jump, &coefficients));
             }
@@ -112,7 +112,7 @@ impl<'a> Collocation<'a> {
             factor = factor.min(1.0);
         }
         if let Some(hidden) = self.hides(state, &step, &coefficients) {
-            return Err(Failed::Hides(hidden.at));
+            return Err(Rejection::Unresolved(hidden.at));
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
@@ -126,7 +126,7 @@ impl<'a> Collocation<'a> {
 
     /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone fail. Returns the
     /// number of sweeps and the factors of Newton's method, if it was used.
-    fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Failed> {
+    fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Rejection> {
         // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
         let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
         // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
@@ -140,7 +140,7 @@ impl<'a> Collocation<'a> {
             self.motion.fill(&mut self.batch);
             sweeps += 1;
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
-                return Err(Failed::NOT_FINITE);
+                return Err(Rejection::NOT_FINITE);
             }
             if self.steep && newton.is_none() {
                 newton = Newton::new(self.motion, &self.batch, self.tableau, h);
@@ -179,7 +179,7 @@ impl<'a> Collocation<'a> {
                 let error = self.error(state, h, &self.coefficients());
                 // Beyond hope, in units of the tolerance.
                 if error > 1e3 {
-                    return Err(Failed::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
+                    return Err(Rejection::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));
                 }
             }
             before = change;

@@ -9,7 +9,7 @@ use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
-use super::turns::{Map, Recent, Turns};
+use super::turns::{Map, RecentTurn, Turns};
 
 /// Initial state of the turns, and the gain of each.
 pub(super) struct EqualGains<'a> {
@@ -98,7 +98,7 @@ impl EqualGains<'_> {
             map: Map::Gaining(cells),
             marks,
             last,
-            recent: Recent::default(),
+            recent: RecentTurn::default(),
             error,
         }))
     }

@@ -26,16 +26,16 @@ pub(in crate::engine) struct Turns {
     /// Panels of the last turns, up to the end of the run.
     pub last: Segment,
     /// Cache of the latest requested turn.
-    pub recent: Recent,
+    pub recent: RecentTurn,
     /// Error bound of times, s, from the panels alone.
     pub error: f64,
 }
 
 /// Motion in one turn with the mark of its start, cached because rows and events ask for the same turn repeatedly.
 #[derive(Debug, Default)]
-pub(in crate::engine) struct Recent(Mutex<Option<(TurnStart, Arc<Segment>)>>);
+pub(in crate::engine) struct RecentTurn(Mutex<Option<(TurnStart, Arc<Segment>)>>);
 
-impl Recent {
+impl RecentTurn {
     fn or_new(&self, mark: &TurnStart, new: impl FnOnce() -> Segment) -> Arc<Segment> {
         let mut recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let known = recent.take().filter(|(known, _)| {
@@ -47,9 +47,9 @@ impl Recent {
     }
 }
 
-impl Clone for Recent {
-    fn clone(&self) -> Recent {
-        Recent::default()
+impl Clone for RecentTurn {
+    fn clone(&self) -> RecentTurn {
+        RecentTurn::default()
     }
 }
 

@@ -150,7 +150,7 @@ fn range(range: &ForceRange, unit: &str) -> String {
 }
 
 fn table(result: &Inverse, printed: Option<&AsPrinted>, rows: usize) -> String {
-    const WIDTHS: [isize; 10] = [12, 12, 13, 13, 13, 13, 13, 10, 13, 13];
+    const COLUMN_WIDTHS: [isize; 10] = [12, 12, 13, 13, 13, 13, 13, 10, 13, 13];
     let mut header = vec![
         "t [s]",
         "theta [deg]",
@@ -164,7 +164,7 @@ fn table(result: &Inverse, printed: Option<&AsPrinted>, rows: usize) -> String {
     if printed.is_some() {
         header.extend(["spin-only [N]", "their (9) [N]"]);
     }
-    let mut text = "\n".to_owned() + &aligned(&WIDTHS, header);
+    let mut text = "\n".to_owned() + &aligned(&COLUMN_WIDTHS, header);
     let none = || "-".to_owned();
     let cell = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.5}"));
     let torque = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.6}"));
@@ -184,7 +184,7 @@ fn table(result: &Inverse, printed: Option<&AsPrinted>, rows: usize) -> String {
             let forces = printed.forces(row);
             cells.extend([0, 1].map(|which| cell(forces.map(|f| f[which]))));
         }
-        text += &aligned(&WIDTHS, cells);
+        text += &aligned(&COLUMN_WIDTHS, cells);
     }
     text
 }

@@ -14,7 +14,7 @@ use super::{
 use crate::numeric::exact::sum3;
 
 /// Least local error target that can be met in double precision.
-pub(crate) const LEAST_TOLERANCE: f64 = 1e-14;
+pub(crate) const LEAST_RUN_TOLERANCE: f64 = 1e-14;
 
 /// Largest number of output rows; more, some hundred gigabytes, come from a wrong unit.
 pub(crate) const MOST_OUTPUT_ROWS: f64 = 1e9;
@@ -211,11 +211,11 @@ fn run(check: &mut Check, run: &Run, motion: &Motion) {
         );
     }
     let largest = 0.1;
-    if !(LEAST_TOLERANCE..=largest).contains(&run.tolerance) {
+    if !(LEAST_RUN_TOLERANCE..=largest).contains(&run.tolerance) {
         let what = format!("a tolerance of {} cannot be used", show(run.tolerance));
         let usual = Run::default().tolerance;
         let help =
-            format!("give one from {LEAST_TOLERANCE:e} to {largest}; {usual:e} is the default");
+            format!("give one from {LEAST_RUN_TOLERANCE:e} to {largest}; {usual:e} is the default");
         check.add("run.tolerance", what, help);
     }
 }

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::root;
 use crate::plan::cycle_over_angle;
-use crate::scene::{Extent, LEAST_TOLERANCE, Scene, Variable};
+use crate::scene::{Extent, LEAST_RUN_TOLERANCE, Scene, Variable};
 
 /// Extreme of the speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +65,14 @@ impl PeriodicOrbit {
 /// Finds the periodic motion that a scene's start approaches from a speed, rad/s.
 pub(super) fn find(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
     let first_log_step = 0.05;
-    search(scene, speed, options, LEAST_TOLERANCE, first_log_step)
+    search(scene, speed, options, LEAST_RUN_TOLERANCE, first_log_step)
 }
 
 /// Computes a second time, for comparison, a periodic motion that begins at about this speed, rad/s.
 pub(super) fn again(scene: &Scene, speed: f64, options: &Options) -> Result<PeriodicOrbit, Error> {
     // Far above the distance of both motions: one step brackets the second.
     let first_log_step = 1e-10;
-    let tolerance = 10.0 * LEAST_TOLERANCE;
+    let tolerance = 10.0 * LEAST_RUN_TOLERANCE;
     search(scene, speed, options, tolerance, first_log_step)
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::Dynamics;
 use super::super::load_resolution::resolves_speeds;
 use super::super::stepper::PanelStepper;
-use super::{DEGREE, MapRun};
+use super::{MAP_DEGREE, MapRun};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::interpolated_turns::{Cell, Cycle};
 use crate::engine::energy::segment::Segment;
@@ -16,10 +16,10 @@ use crate::numeric::enclosure::{Interval, ellipses};
 impl<D: Dynamics> MapRun<'_, D> {
     /// Computes the cell over the energies middle ± half, J.
     pub(super) fn cell(&mut self, middle: f64, half: f64) -> Result<Cell, NotApplicable> {
-        let rule = Rule::of(DEGREE);
-        let mut turns = Vec::with_capacity(DEGREE + 1);
+        let rule = Rule::of(MAP_DEGREE);
+        let mut turns = Vec::with_capacity(MAP_DEGREE + 1);
         let mut speeds: Option<Interval> = None;
-        while turns.len() <= DEGREE {
+        while turns.len() <= MAP_DEGREE {
             let kinetic = middle + half * rule.points()[turns.len()];
             let (turn, its) = self.whole_turn(kinetic)?;
             speeds = Some(speeds.map_or(its, |all| all.hull(its)));
@@ -48,8 +48,8 @@ impl<D: Dynamics> MapRun<'_, D> {
             ..
         } = &self.stepper;
         let look = NodeCriterion {
-            nodes: DEGREE,
-            ellipses: ellipses(DEGREE, fine.tail),
+            nodes: MAP_DEGREE,
+            ellipses: ellipses(MAP_DEGREE, fine.tail),
             allowed: fine.tail * middle / TAU,
             least: 0.0,
             has_interpolant: false,

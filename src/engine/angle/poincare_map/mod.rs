@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
-use super::super::energy::turns::{Map, Recent, Turns};
+use super::super::energy::turns::{Map, RecentTurn, Turns};
 use super::super::energy::{NotApplicable, Orbit};
 use super::angle_run::work_until;
 use super::progress::SolvedPanel;
@@ -17,9 +17,9 @@ use crate::engine::WorkLimit;
 use crate::engine::run_in_time::Start;
 
 /// Degree of the interpolation over the energy: a cell costs one turn more than this.
-const DEGREE: usize = 16;
+const MAP_DEGREE: usize = 16;
 /// Turns computed one by one before the map takes over, and again where it ends: about what its first three cells cost.
-pub(super) const SINGLE_TURNS: f64 = 3.0 * DEGREE as f64;
+pub(super) const SINGLE_TURNS: f64 = 3.0 * MAP_DEGREE as f64;
 
 /// Continues from the start of a turn to the goal, or as far as the angle can be the independent variable.
 pub(super) fn run<D: Dynamics>(
@@ -66,7 +66,7 @@ pub(super) fn run<D: Dynamics>(
         map: Map::Interpolated(turns.map),
         marks: turns.marks,
         last: turns.last,
-        recent: Recent::default(),
+        recent: RecentTurn::default(),
         error: 0.0,
     };
     let orbit = Orbit::of_turns(angle, speed, segment, turns);
@@ -194,7 +194,7 @@ impl<D: Dynamics> MapRun<'_, D> {
             let why = match self.cell(0.5 * (low + high), 0.5 * (high - low)) {
                 Ok(cell) => {
                     let share = aim * tail / cell.tail();
-                    let factor = share.powf(1.0 / DEGREE as f64).clamp(0.5, 2.0);
+                    let factor = share.powf(1.0 / MAP_DEGREE as f64).clamp(0.5, 2.0);
                     self.width = (factor * tried).min(widest);
                     if cell.tail() <= tail {
                         let turn = cell.cycle(kinetic);
@@ -209,7 +209,7 @@ impl<D: Dynamics> MapRun<'_, D> {
                 }
             };
             let narrows = matches!(why, NotApplicable::TooSlow | NotApplicable::NotSmooth);
-            let pays = self.width * kinetic > (DEGREE + 1) as f64 * self.gain.abs();
+            let pays = self.width * kinetic > (MAP_DEGREE + 1) as f64 * self.gain.abs();
             if !narrows || !pays || tried <= narrowest {
                 return Err(why);
             }
