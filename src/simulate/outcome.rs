@@ -113,7 +113,7 @@ impl Outcome {
         }
         let stopped = self
             .stopped
-            .or_else(|| short_of(task.extent, &last, turned));
+            .or_else(|| unexplained_end(task.extent, &last, turned));
         let stopped = stopped.map(|why| Stopped {
             why: stalled(task, &last).unwrap_or(why),
             at,
@@ -152,7 +152,6 @@ impl Outcome {
             trajectory: record.pieces.map(Trajectory::joined),
             dense: DenseRows {
                 maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
-                alpha: (self.engine == Engine::ClosedForm).then_some(0.0),
                 curve: None,
                 phases: record.phases,
             },
@@ -161,7 +160,7 @@ impl Outcome {
 }
 
 /// Returns the reason for a run that misses its goal or ends without a finite state, though no engine gave one.
-fn short_of(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
+fn unexplained_end(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
     let (goal, reached) = match extent {
         Extent::Duration(duration) => (duration, last.t_s),
         Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
@@ -185,7 +184,7 @@ mod tests {
                 theta_rad: turned,
                 omega_rad_per_s: 1.0,
             };
-            short_of(extent, &last, turned).is_some()
+            unexplained_end(extent, &last, turned).is_some()
         };
         let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
         assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));

@@ -60,9 +60,9 @@ impl<'a> RowWriter<'a> {
             return Ok(());
         }
         let begun = Instant::now();
-        let mut result = match self.schedule.angle_step() {
-            Some(spacing) => self.at_angles(part, spacing),
-            None => self.at_times(part),
+        let mut result = match self.schedule {
+            Schedule::Angles { step } if step > 0.0 => self.at_angles(part, step),
+            _ => self.at_times(part),
         };
         if self.rows.wants_steps() {
             result = result.and_then(|()| self.inside(part));

@@ -61,19 +61,24 @@ fn run(
     kept: usize,
 ) -> Result<Simulation, Error> {
     let mut task = RunSetup::new(scene, options, kept)?;
-    let looks = options.reactions && task.plan.engine != Engine::Contact;
-    if looks {
+    let searches_forces = options.reactions && task.plan.engine != Engine::Contact;
+    if searches_forces {
         task.kept = kept.max(MOST_FORCE_ROWS);
     }
-    if is_open(&task) && rows.wants_rows() {
-        let blind = Options {
+    if let Some(step) = row_step_of_open_run(&task)
+        && rows.wants_rows()
+    {
+        let end_only = Options {
             estimate: false,
             reactions: false,
             events_kept: 0,
             ..options.clone()
         };
-        let end = simulate_rows(scene, &blind, &mut NoRows)?.summary.last.t_s;
-        schedule::check_row_count(task.schedule().rows_until(end), end)?;
+        let end = simulate_rows(scene, &end_only, &mut NoRows)?
+            .summary
+            .last
+            .t_s;
+        schedule::check_row_count(end / step, end)?;
     }
     let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),
@@ -82,7 +87,7 @@ fn run(
             forward::run(&task, &AngleModel::of(&task), rows)
         }
     }?;
-    if looks && run.summary.stopped.is_none() {
+    if searches_forces && run.summary.stopped.is_none() {
         let peaks = joint_force_maxima::search(scene, &run);
         if peaks.is_none() {
             run.summary.warnings.push(Warning::NoForceMaxima);
@@ -92,12 +97,15 @@ fn run(
     Ok(run)
 }
 
-/// True if the duration of a run of turns, and with it the number of rows at times, is known only at its end.
-fn is_open(task: &RunSetup<'_>) -> bool {
-    let at_times = matches!(task.schedule(), Schedule::Times { .. });
-    let of_turns = matches!(task.extent, Extent::Revolutions(_));
-    task.plan.engine != Engine::Contact
-        && at_times
-        && of_turns
-        && task.scene.motion.kind == MotionKind::Free
+/// Returns the time between rows, s, of a run of turns: its duration, and with it their number, is known only at its end.
+fn row_step_of_open_run(task: &RunSetup<'_>) -> Option<f64> {
+    let is_free = task.scene.motion.kind == MotionKind::Free;
+    match (task.schedule(), task.extent) {
+        (Schedule::Times { step, .. }, Extent::Revolutions(_))
+            if is_free && task.plan.engine != Engine::Contact =>
+        {
+            Some(step)
+        }
+        _ => None,
+    }
 }

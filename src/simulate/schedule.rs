@@ -89,22 +89,6 @@ impl Schedule {
             Schedule::Angles { .. } => None,
         }
     }
-
-    /// Returns the number of rows due at times up to `t`, s, for a run without a last time.
-    pub fn rows_until(&self, t: f64) -> f64 {
-        match *self {
-            Schedule::Times { step, end } => t.min(end) / step,
-            _ => 0.0,
-        }
-    }
-
-    /// Returns the spacing in crank angle, rad, if rows are due at angles.
-    pub fn angle_step(&self) -> Option<f64> {
-        match *self {
-            Schedule::Angles { step } if step > 0.0 => Some(step),
-            _ => None,
-        }
-    }
 }
 
 #[cfg(test)]

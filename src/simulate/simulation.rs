@@ -42,12 +42,12 @@ impl Simulation {
     pub fn row(&self, t: f64) -> Option<Row> {
         let DenseRows {
             maker,
-            alpha,
             curve,
             phases,
         } = &self.dense;
         let maker = maker.as_ref()?;
-        let (angle, speed) = self.trajectory.as_ref()?.coordinate(t)?;
+        let trajectory = self.trajectory.as_ref()?;
+        let (angle, speed) = trajectory.coordinate(t)?;
         let after = phases.partition_point(|interval| interval.until < t);
         let interval = phases.get(after).filter(|interval| interval.from <= t);
         let row = match interval {
@@ -56,7 +56,10 @@ impl Simulation {
                 let equation = curve.as_deref().or(guide)?;
                 AlongCurve::new(equation, interval.phase, maker).row(t, angle, speed)
             }
-            None => maker.row(t, angle, speed, *alpha),
+            None => {
+                let alpha = trajectory.as_uniform().map(|_| 0.0);
+                maker.row(t, angle, speed, alpha)
+            }
         };
         [row.theta, row.omega, row.alpha, row.x, row.v, row.a]
             .iter()
@@ -79,8 +82,6 @@ pub(super) struct PhaseInterval {
 #[derive(Clone, Debug)]
 pub(super) struct DenseRows {
     pub maker: Option<RowMaker>,
-    /// Crank acceleration of a prescribed motion, rad/s²; none for a free one.
-    pub alpha: Option<f64>,
     /// Configuration curve, if the whole run follows its coordinate.
     pub curve: Option<Arc<CurveEquation>>,
     /// Intervals of motion along a configuration curve, in order.

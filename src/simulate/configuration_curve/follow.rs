@@ -161,8 +161,9 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             ..self.settings
         };
         let mut cut = None;
-        let (mut stopped, mut vanished, mut beyond) = (false, false, false);
+        let (mut reason, mut beyond) = (None, false);
         let vanishing = equation.vanishes_somewhere();
+        let no_inertia = || EndReason::Named(Why::NoInertiaOnCurve.into());
         let (quantities, observer) = (&self.quantities, &mut *self.observer);
         let signs = &mut self.signs;
         let begin = self.now.t;
@@ -175,7 +176,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             for change in changes {
                 let (theta, speed) = step.at(change.t);
                 if vanishing && equation.vanishes_at(theta) {
-                    (vanished, beyond) = (true, true);
+                    (reason, beyond) = (Some(no_inertia()), true);
                     return true;
                 }
                 let index = EventIndex::ALL[change.index];
@@ -198,9 +199,14 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                     observer.event(kind, change.t, step.angle(theta), speed);
                 }
             }
-            stopped = observer.step(&step, Some(phase));
-            vanished = vanishing && equation.vanishes_at(step.end.theta);
-            stopped || vanished
+            reason = match observer.step(&step, Some(phase)) {
+                true => Some(EndReason::Stopped),
+                false => {
+                    let vanishes = vanishing && equation.vanishes_at(step.end.theta);
+                    vanishes.then(no_inertia)
+                }
+            };
+            reason.is_some()
         });
         self.piece.steps += steps;
         self.piece.singular_state = motion
@@ -208,19 +214,15 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();
-            self.arrive(if beyond {
-                Step::new(last.turns, last.start, last.start)
-            } else {
-                last
+            self.arrive(match beyond {
+                true => Step::new(last.turns, last.start, last.start),
+                false => last,
             });
-            return Err(match finish {
-                _ if stopped => EndReason::Stopped,
-                // The inertia vanishes next to the end of the piece.
-                _ if vanished => EndReason::Named(Why::NoInertiaOnCurve.into()),
+            return Err(reason.unwrap_or_else(|| match finish {
                 Finish::AtEnd => EndReason::Done,
                 Finish::StepTooSmall => self.singular(),
                 finish => EndReason::Integrator(finish),
-            });
+            }));
         };
         let last = self.shorten(&motion, &step, change, phase);
         self.piece.evaluations += motion.evaluations();

@@ -11,7 +11,7 @@ use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{Finish, Start};
-use crate::mechanism::FromRest;
+use crate::mechanism::{Free, FromRest};
 use crate::scene::Variable;
 
 impl CurveRun<'_, '_> {
@@ -87,14 +87,18 @@ impl CurveRun<'_, '_> {
     /// Returns the end of the run if rigid bodies jam at the current state.
     pub fn check_jam(&mut self) -> Option<EndReason> {
         let friction = self.equation.friction()?;
-        let Start { t, angle, speed } = self.now;
-        let free = self.equation.free(t, angle, speed);
-        (free.clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
+        (self.free().clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
     }
 
-    pub fn jam(&self) -> EndReason {
+    /// Returns the free motion from the current state, without friction.
+    fn free(&self) -> Free {
         let Start { t, angle, speed } = self.now;
-        let free = self.equation.free(t, angle, speed);
+        self.equation.free(t, angle, speed)
+    }
+
+    /// Returns the end where rigid bodies jam, in the current state.
+    pub fn jam(&self) -> EndReason {
+        let free = self.free();
         let mu = self.equation.friction().map_or(0.0, |f| f.coefficient);
         EndReason::Named(Box::new(Why::Jam {
             solutions: free.jam(
@@ -108,10 +112,9 @@ impl CurveRun<'_, '_> {
 
     /// Returns the end of a run whose steps became too small: jamming, if the state is close to it.
     pub fn singular(&self) -> EndReason {
-        let Start { t, angle, speed } = self.now;
         // Of 1 − μ |κ|: the acceleration grows a thousandfold towards jamming, which the steps do not follow.
         let near_jam = 1e-3;
-        let clear = |mu: f64| self.equation.free(t, angle, speed).clear_of_jam(mu);
+        let clear = |mu: f64| self.free().clear_of_jam(mu);
         match self.equation.friction() {
             Some(friction) if clear(friction.coefficient) < near_jam => self.jam(),
             _ => EndReason::Integrator(Finish::StepTooSmall),
