@@ -33,34 +33,20 @@ use crate::scene::Extent;
 /// Stated roundoff, in standard deviations: exceeded by 5 % of normally distributed errors.
 const STATED_DEVIATIONS: f64 = 2.0;
 
-/// Estimates the global error of a run; none where no second run reaches the end.
+/// Estimates the global error of a run: from the energy engine, or by a second run, by collocation or, where that does
+/// not arrive, by the method of the run; none where no second run reaches the end.
 pub(super) fn estimate(
     pass: &PassSettings<'_>,
     result: &PassResult,
     record: &Record,
     wants_rows: bool,
 ) -> Option<Estimate> {
-    match &result.angle_piece {
-        Some(piece) if piece.engine == Engine::Energy => {
-            Some(by_energy(pass.task, &piece.run, result, wants_rows))
-        }
-        _ => by_second_run(pass, result, record, wants_rows),
+    let piece = result.angle_piece.as_ref();
+    if let Some(piece) = piece.filter(|piece| piece.engine == Engine::Energy) {
+        return Some(by_energy(pass.task, &piece.run, result, wants_rows));
     }
-}
-
-/// Estimates the error by a second run, by collocation or, where that does not arrive, by the method of the run.
-fn by_second_run(
-    pass: &PassSettings<'_>,
-    result: &PassResult,
-    record: &Record,
-    wants_rows: bool,
-) -> Option<Estimate> {
     let begun = Instant::now();
-    let guide = result
-        .angle_piece
-        .as_ref()
-        .filter(|_| result.is_one_piece());
-    let guide = guide.map(|piece| Guide::new(&piece.run.orbit, pass.resolution.tail));
+    let guide = piece.map(|piece| Guide::new(&piece.run.orbit, pass.resolution.tail));
     let first_engine = match result.pieces_over_angle {
         0 => Engine::Time,
         _ => Engine::Angle,
@@ -79,15 +65,14 @@ fn by_second_run(
         };
         let forward = CrankMotion(pass.task.equation());
         let motion = Counted::new(&forward);
-        let mut seen = SecondRun::new(&finer, &motion, record);
-        let best = finer.run(&motion, &mut seen).ok()?;
-        evaluations += best.evaluations + seen.rounding.evaluations;
+        let mut observer = SecondRunObserver::new(&finer, &motion, record);
+        let best = finer.run(&motion, &mut observer).ok()?;
+        evaluations += best.evaluations + observer.rounding.evaluations;
         let arrives = matches!(best.end, EndReason::Done);
-        arrives.then_some((best, seen.rounding.spread, seen.compared))
+        arrives.then_some((best, observer.rounding.spread, observer.compared))
     };
-    let (best, spread, compared) = second_settings(pass, result, record)
-        .into_iter()
-        .find_map(second)?;
+    let mut settings = second_settings(pass, result, record).into_iter();
+    let (best, spread, compared) = settings.find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
@@ -184,7 +169,7 @@ fn of_crank(result: &PassResult, spread: CovarianceFactor) -> [f64; 2] {
 }
 
 /// Observer of the second run: propagates roundoff and compares with the states of the first.
-struct SecondRun<'m, 'a> {
+struct SecondRunObserver<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: RoundoffPropagation,
@@ -193,18 +178,18 @@ struct SecondRun<'m, 'a> {
     compared: Comparison<'a>,
 }
 
-impl<'m, 'a> SecondRun<'m, 'a> {
+impl<'m, 'a> SecondRunObserver<'m, 'a> {
     fn new(
         pass: &'m PassSettings<'_>,
         motion: &'m Counted<'m>,
         record: &'a Record,
-    ) -> SecondRun<'m, 'a> {
+    ) -> SecondRunObserver<'m, 'a> {
         let Start { t, angle, speed } = pass.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         // Panels over the angle state their roundoff themselves.
         let moves = moves && pass.first_engine == Engine::Time;
-        SecondRun {
+        SecondRunObserver {
             equation: pass.task.equation(),
             motion,
             rounding: RoundoffPropagation::new(pass.time_settings.method, moves),
@@ -245,7 +230,7 @@ impl<'m, 'a> SecondRun<'m, 'a> {
     }
 }
 
-impl PassObserver for SecondRun<'_, '_> {
+impl PassObserver for SecondRunObserver<'_, '_> {
     fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
@@ -274,9 +259,9 @@ impl PassObserver for SecondRun<'_, '_> {
     }
 }
 
-impl StepObserver for SecondRun<'_, '_> {
+impl StepObserver for SecondRunObserver<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
-        let SecondRun {
+        let SecondRunObserver {
             rounding, compared, ..
         } = self;
         match self.curve.as_deref().zip(phase) {
