@@ -14,7 +14,7 @@ pub(super) struct BoundedMotion {
     since: u64,
     before: u64,
     /// Number of turning points without one further out from which the swing counts as bounded.
-    enough: u64,
+    least_count: u64,
     turns: f64,
 }
 
@@ -25,7 +25,7 @@ impl BoundedMotion {
             return None;
         };
         // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
-        let enough = if task.one_way {
+        let least_count = if task.one_way {
             0
         } else if task.equation().loads().reads().has(Variable::T) {
             10_000
@@ -38,12 +38,12 @@ impl BoundedMotion {
             reach: [start; 2],
             since: 0,
             before: 0,
-            enough,
+            least_count,
             turns,
         })
     }
 
-    pub fn turns_at(&mut self, at: Angle) {
+    pub fn add_turning_point(&mut self, at: Angle) {
         let [low, high] = self.reach;
         let (above, below) = (at.minus(high), low.minus(at));
         // Least growth of the swing, as part of its range: far above the errors of turning points.
@@ -57,15 +57,16 @@ impl BoundedMotion {
         }
     }
 
-    /// Whether the last turning points have led no further: at least `enough` of them, and as many as all those before.
-    pub fn is_caught(&self) -> bool {
+    /// Whether the last turning points have led no further: at least `least_count` of them, and as many as all those
+    /// before.
+    pub fn is_bounded(&self) -> bool {
         let seen = self.since + self.before;
-        seen > 0 && (self.enough == 0 || self.since >= self.enough.max(self.before))
+        seen > 0 && (self.least_count == 0 || self.since >= self.least_count.max(self.before))
     }
 
     /// Returns the reason for the end if the crank is caught; `crank` maps the coordinate to the crank angle.
     pub fn why(&self, crank: impl Fn(Angle) -> Angle) -> Option<Why> {
-        self.is_caught().then(|| Why::Caught {
+        self.is_bounded().then(|| Why::Caught {
             turns: self.turns,
             since: self.since,
             reach: self.reach.map(|at| crank(at).radians()),

@@ -36,19 +36,19 @@ pub(super) fn run<'a>(
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
     let last = start.plus(speed * end);
-    let mut drive = ConstantSpeedMotion {
+    let mut motion = ConstantSpeedMotion {
         maker: &task.maker,
         start,
         speed,
         end,
     };
-    let (torque, warnings) = match blocked.is_none().then(|| drive.torque_range()) {
+    let (torque, warnings) = match blocked.is_none().then(|| motion.torque_range()) {
         None => (None, Vec::new()),
         Some(Ok(range)) => (Some(range), Vec::new()),
         Some(Err(why)) => (None, vec![Warning::NoTorqueRange(why)]),
     };
     let balance = match blocked {
-        None => drive.energy_balance(),
+        None => motion.energy_balance(),
         // Towards a limit, or where the guide locks, torque and energy grow without bound.
         Some(_) => Balance {
             residual: f64::NAN,
@@ -58,9 +58,9 @@ pub(super) fn run<'a>(
     let wall_s = begun.elapsed().as_secs_f64();
     let schedule = Schedule::at_speed(task.scene.run.output_every, speed, end);
     let mut recorder = Recorder::new(task, rows, schedule);
-    recorder.rows(&mut drive);
+    recorder.rows(&mut motion);
     // The limit itself has no finite velocity.
-    let mut record = recorder.finish(|| blocked.is_none().then(|| drive.row(end)))?;
+    let mut record = recorder.finish(|| blocked.is_none().then(|| motion.row(end)))?;
     (record.events, record.events_total) = passages::at_constant_speed(task, end);
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,

@@ -151,7 +151,7 @@ impl ConstantSpeedMotion<'_> {
         }
         let kinetic = self.equation().kinetic_energy(self.start.rest, self.speed);
         let way = self.speed * span;
-        let integral = quarters(
+        let integral = integral_by_quarters(
             self.start.rest,
             self.start.rest + way,
             &|theta| self.torque((theta - self.start.rest) / self.speed),
@@ -169,14 +169,14 @@ impl ConstantSpeedMotion<'_> {
         let (from, to) = (self.start.rest, self.start.rest + (speed * self.end) % TAU);
         let largest = energy(from).abs().max(kinetic(from)).max(kinetic(to));
         let force = |theta: f64| equation.generalized_force(&equation.terms(theta), speed, 0.0);
-        let work = quarters(from, to, &force, 1e-14 * largest);
+        let work = integral_by_quarters(from, to, &force, 1e-14 * largest);
         let residual = work.map_or(f64::NAN, |work| work - (energy(to) - energy(from)));
         Balance { residual, largest }
     }
 }
 
 /// Integrates f over a range of crank angles, cut at ±90°, where a rod that is hardly long enough makes narrow peaks.
-fn quarters(from: f64, to: f64, f: &dyn Fn(f64) -> f64, tolerance: f64) -> Option<f64> {
+fn integral_by_quarters(from: f64, to: f64, f: &dyn Fn(f64) -> f64, tolerance: f64) -> Option<f64> {
     if from == to {
         return Some(0.0);
     }

@@ -41,7 +41,7 @@ pub(super) fn search(scene: &Scene, run: &Simulation) -> Option<Peaks> {
         if 2 * way.parameters.len() > MOST_FORCE_ROWS {
             return None;
         }
-        way.parameters = halved(&way.parameters);
+        way.parameters = with_midpoints(&way.parameters);
     }
 }
 
@@ -52,7 +52,7 @@ fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
 }
 
 /// Inserts the midpoint of each interval between parameters.
-fn halved(parameters: &[f64]) -> Vec<f64> {
+fn with_midpoints(parameters: &[f64]) -> Vec<f64> {
     let between = parameters.windows(2);
     let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
     between.chain(parameters.last().copied()).collect()
@@ -60,7 +60,7 @@ fn halved(parameters: &[f64]) -> Vec<f64> {
 
 /// Finds the maximum of a force: refines beside the rows that are local maxima and less than the error of the grid
 /// below the largest row.
-fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
+fn peak(way: &Parametrization, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
     let last = sizes.len() - 1;
     let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
@@ -97,7 +97,7 @@ fn peak(way: &AlongRun, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> 
 }
 
 /// Parametrization of a run, with the joint forces along it.
-struct AlongRun<'a> {
+struct Parametrization<'a> {
     /// Values of the parameter, in rising order.
     parameters: Vec<f64>,
     /// Sizes of the joint forces at a value of the parameter, N.
@@ -107,7 +107,7 @@ struct AlongRun<'a> {
 }
 
 /// Parametrizes a run at constant speed by time: one turn if all are equal, otherwise all; resolves geometry and loads.
-fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
+fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
     let maker = run.dense.maker.as_ref()?;
     let drive = ConstantSpeedMotion {
@@ -119,7 +119,7 @@ fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
     let (parameters, whole) = drive.sample_times().ok()?;
     let turn = TAU / speed.abs();
     let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
-    Some(AlongRun {
+    Some(Parametrization {
         parameters,
         sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
         time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
@@ -127,7 +127,7 @@ fn at_constant_speed(run: &Simulation) -> Option<AlongRun<'_>> {
 }
 
 /// Parametrizes a motion over the crank angle by its places: the nodes of the series of the motion.
-fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
+fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
     let orbit = run.trajectory.as_ref()?.as_orbit()?;
     let end = run.summary.last.t_s;
     let maker = run.dense.maker.as_ref()?;
@@ -142,7 +142,7 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
         };
         maker.row(t, angle, speed, None).reactions
     };
-    Some(AlongRun {
+    Some(Parametrization {
         parameters: orbit.positions(end)?,
         sizes: Box::new(move |at| reactions(at).as_ref().map(sizes)),
         time: Box::new(move |at| orbit.time_of_position(at).unwrap_or(end)),
@@ -150,14 +150,14 @@ fn over_orbit(run: &Simulation) -> Option<AlongRun<'_>> {
 }
 
 /// Parametrizes a run by time, with rows at equal times between which the crank turns by at most a degree.
-fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<AlongRun<'a>> {
+fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
     let span = period.map_or(end, |period| period.min(end));
     let step = first_step(scene, &run.summary);
     let rows = (span / step).ceil();
     let time = |index: usize| (index as f64 * step).min(span);
-    (rows <= MOST_FORCE_ROWS as f64).then(|| AlongRun {
+    (rows <= MOST_FORCE_ROWS as f64).then(|| Parametrization {
         parameters: (0..=rows as usize).map(time).collect(),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),
@@ -168,7 +168,7 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<AlongRun<'a>> {
 fn first_step(scene: &Scene, summary: &Summary) -> f64 {
     let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
     let way = fastest * summary.last.t_s;
-    let narrow = narrowest(&Linkage::new(&scene.geometry), scene.motion.angle, way);
+    let narrow = narrowest_peak_width(&Linkage::new(&scene.geometry), scene.motion.angle, way);
     let angle = (PI / 180.0).min(0.1 * narrow);
     // As many as of two turns, for loads that change while the crank hardly turns.
     let least_rows = 720.0;
@@ -178,7 +178,7 @@ fn first_step(scene: &Scene, summary: &Summary) -> f64 {
 /// Returns the least width in the crank angle, rad, of the peaks on a way (rad) from an angle. A rod that is hardly
 /// long enough makes peaks of width sqrt((l − |e ± r|)/r) where the crank is normal to the guide; elsewhere no peak is
 /// narrower than the distance from there.
-fn narrowest(linkage: &Linkage, angle: f64, way: f64) -> f64 {
+fn narrowest_peak_width(linkage: &Linkage, angle: f64, way: f64) -> f64 {
     let Linkage { r, l, e, .. } = *linkage;
     let width = |side: f64| {
         let apart = (angle - side * FRAC_PI_2).rem_euclid(TAU);

@@ -62,7 +62,7 @@ impl Outcome {
         // An inertia that vanishes, of 1e-12 of that elsewhere, gives a speed of 1e6 times that elsewhere.
         let unbounded = 1e6 * usual;
         let is_bounded = |speed: f64| speed.abs() < unbounded;
-        let (low, high) = self.record.speed;
+        let (low, high) = self.record.speed_range;
         let mut at_events = self.record.events.iter().map(|event| event.omega_rad_per_s);
         let are_bounded = is_bounded(low) && is_bounded(high) && at_events.all(is_bounded);
         if are_bounded || !task.inertia_vanishes() {
@@ -72,7 +72,7 @@ impl Outcome {
             true => speed,
             false => speed * f64::INFINITY,
         };
-        self.record.speed = (shown(low), shown(high));
+        self.record.speed_range = (shown(low), shown(high));
         for event in &mut self.record.events {
             let speed = event.omega_rad_per_s;
             // Rounding leaves no sign there: a crank that does not turn back has the sign of all its speeds.
@@ -136,8 +136,8 @@ impl Outcome {
             steps: self.steps,
             wall_s: self.wall_s,
             estimate_cost: self.estimate.and_then(|estimate| estimate.cost),
-            omega_min: record.speed.0,
-            omega_max: record.speed.1,
+            omega_min: record.speed_range.0,
+            omega_max: record.speed_range.1,
             driving_torque: None,
             peaks: None,
             clearance: None,

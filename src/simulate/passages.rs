@@ -24,17 +24,17 @@ pub(super) struct OrbitPiece<'a> {
 }
 
 /// Returns the angle within which a dead centre counts as reached, rad: far from zero angles are rounded more.
-fn near(way: f64) -> f64 {
+fn dead_centre_tolerance(way: f64) -> f64 {
     (8.0 * f64::EPSILON * way).max(DEAD_CENTRE_WIDTH)
 }
 
 /// Lists distance, rad in (0, 2π], and angle of each dead centre ahead in a direction: the start is not passed.
-fn ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
+fn dead_centres_ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
     let dead_centres = task.limits.dead_centres.iter();
     let mut all: Vec<(f64, f64)> = dead_centres
         .map(|dead_centre| {
             let ahead = (direction * (dead_centre.theta - of.rest)).rem_euclid(TAU);
-            let here = ahead <= near(of.rest.abs());
+            let here = ahead <= dead_centre_tolerance(of.rest.abs());
             (if here { TAU } else { ahead }, dead_centre.theta)
         })
         .collect();
@@ -44,14 +44,14 @@ fn ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f64, f64)> {
 
 /// Lists the dead centres that a crank passes on a way (rad) from an angle without turning back, at most `kept`, each
 /// with its distance (rad) and its angle, and counts all of them.
-fn on_way(
+fn dead_centres_on_way(
     task: &RunSetup<'_>,
     (from, direction): (Angle, f64),
     way: f64,
     kept: usize,
 ) -> (Vec<(f64, f64)>, u64) {
-    let way = (way + near(from.rest.abs())) * (1.0 + 4.0 * f64::EPSILON);
-    let first = ahead(task, from, direction);
+    let way = (way + dead_centre_tolerance(from.rest.abs())) * (1.0 + 4.0 * f64::EPSILON);
+    let first = dead_centres_ahead(task, from, direction);
     let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
     let turns = (0u32..).map(|turn| f64::from(turn) * TAU);
     let marks = turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
@@ -66,7 +66,7 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
         return (Vec::new(), 0);
     }
     let (way, kept) = (speed.abs() * end, task.options.events_kept);
-    let (passed, total) = on_way(task, (start, speed.signum()), way, kept);
+    let (passed, total) = dead_centres_on_way(task, (start, speed.signum()), way, kept);
     let event = |(ahead, dead_centre): (f64, f64)| {
         let way = speed.signum() * ahead;
         let t = (way / speed).min(end);
@@ -81,7 +81,7 @@ impl OrbitPiece<'_> {
     fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, Start)> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());
-        let (passed, _) = on_way(self.task, from, self.way(until), kept);
+        let (passed, _) = dead_centres_on_way(self.task, from, self.way(until), kept);
         let passages = passed.into_iter().map(|(ahead, dead_centre)| {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
             let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
@@ -106,10 +106,10 @@ impl OrbitPiece<'_> {
             let [begin, end] = [from, to].map(|t| orbit.state(t).0);
             let (direction, span) = (end.minus(begin).signum(), end.minus(begin).abs());
             let last = match turns_back {
-                true => span - near(span),
-                false => span + near(span),
+                true => span - dead_centre_tolerance(span),
+                false => span + dead_centre_tolerance(span),
             };
-            for (ahead, dead_centre) in ahead(self.task, begin, direction) {
+            for (ahead, dead_centre) in dead_centres_ahead(self.task, begin, direction) {
                 let mut ahead = ahead;
                 while ahead <= last {
                     let beyond = |t: f64| orbit.state(t).0.minus(begin).abs() - ahead;
@@ -150,7 +150,7 @@ impl OrbitPiece<'_> {
             once.iter().map(rounds).sum()
         } else {
             let from = (orbit.start(), orbit.direction());
-            on_way(self.task, from, self.way(self.end), 0).1
+            dead_centres_on_way(self.task, from, self.way(self.end), 0).1
         };
         let turns = if turns_back { 0.0 } else { orbit.direction() };
         let most = total.min(kept as u64) * u64::from(!once.is_empty());
@@ -212,6 +212,6 @@ impl RowSource for OrbitPiece<'_> {
 pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
     task.limits.dead_centres.iter().any(|dead_centre| {
         let apart = (theta - dead_centre.theta).rem_euclid(TAU);
-        apart.min(TAU - apart) <= near(theta.abs())
+        apart.min(TAU - apart) <= dead_centre_tolerance(theta.abs())
     })
 }

@@ -28,7 +28,7 @@ pub(super) struct Record {
     pub events: Vec<Event>,
     pub events_total: u64,
     /// Least and largest crank speed, rad/s.
-    pub speed: (f64, f64),
+    pub speed_range: (f64, f64),
     /// Pieces of the dense motion; none without room for all.
     pub pieces: Option<Vec<Trajectory>>,
     /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
@@ -49,7 +49,7 @@ impl Record {
 
     /// Returns the largest crank speed in either sense, rad/s.
     pub fn fastest(&self) -> f64 {
-        self.speed.0.abs().max(self.speed.1.abs())
+        self.speed_range.0.abs().max(self.speed_range.1.abs())
     }
 }
 
@@ -78,7 +78,7 @@ impl<'a> Recorder<'a> {
             room: task.kept,
             steps: Vec::new(),
             record: Record {
-                speed: (task.speed, task.speed),
+                speed_range: (task.speed, task.speed),
                 pieces: (task.kept > 0).then(Vec::new),
                 ..Record::default()
             },
@@ -88,7 +88,7 @@ impl<'a> Recorder<'a> {
 
     /// Borrows the least and largest crank speed up to now, rad/s.
     pub fn speed(&mut self) -> &mut (f64, f64) {
-        &mut self.record.speed
+        &mut self.record.speed_range
     }
 
     /// True if there is room for another event.
@@ -127,7 +127,7 @@ impl<'a> Recorder<'a> {
         self.record.events.extend(events);
         self.record.events_total += total;
         let (low, high) = piece.orbit.speed_range(piece.end);
-        let speed = &mut self.record.speed;
+        let speed = &mut self.record.speed_range;
         *speed = (speed.0.min(low), speed.1.max(high));
         self.writer.write(piece)
     }

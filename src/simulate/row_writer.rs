@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::row::{Row, RowSink};
-use super::schedule::{SAME_ROW, Schedule, check_row_count, passed};
+use super::schedule::{SAME_ROW, Schedule, check_row_count, integers_passed};
 use crate::error::Error;
 
 /// Part of a motion between two times, as rows see it.
@@ -130,7 +130,7 @@ impl<'a> RowWriter<'a> {
         cuts.push(until);
         for to in cuts {
             let [before, after] = [from, to].map(|t| part.turned(t) / spacing);
-            for k in passed(before, after) {
+            for k in integers_passed(before, after) {
                 // Rounding may leave a turning point short of the angle of its row.
                 let t = part.time_of(k * spacing, [from, to]).unwrap_or(to);
                 self.put(part.row(t))?;

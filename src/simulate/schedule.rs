@@ -13,7 +13,7 @@ pub(super) const SAME_ROW: f64 = 1e-9;
 
 /// Lists the whole numbers passed on the way from `a` to `b`, in the order of passing, without `a` and with `b`. A
 /// number within [`SAME_ROW`] of a whole number counts as the whole number.
-pub(super) fn passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
+pub(super) fn integers_passed(a: f64, b: f64) -> impl Iterator<Item = f64> {
     let snapped = |x: f64| {
         if (x - x.round()).abs() < SAME_ROW {
             x.round()
@@ -93,11 +93,11 @@ impl Schedule {
 
 #[cfg(test)]
 mod tests {
-    use super::passed;
+    use super::integers_passed;
 
     #[test]
     fn whole_numbers_are_passed_once() {
-        let list = |a, b| passed(a, b).collect::<Vec<_>>();
+        let list = |a, b| integers_passed(a, b).collect::<Vec<_>>();
         assert_eq!(list(0.0, 3.0), [1.0, 2.0, 3.0]);
         assert_eq!(list(0.0, -2.5), [-1.0, -2.0]);
         assert_eq!(list(2.0 + 1e-15, 2.9), [0.0; 0]);
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn more_whole_numbers_than_memory_holds_are_passed_one_by_one() {
-        assert_eq!(passed(0.0, 1e300).nth(1), Some(2.0));
-        assert_eq!(passed(0.0, -1e300).nth(1), Some(-2.0));
+        assert_eq!(integers_passed(0.0, 1e300).nth(1), Some(2.0));
+        assert_eq!(integers_passed(0.0, -1e300).nth(1), Some(-2.0));
     }
 }

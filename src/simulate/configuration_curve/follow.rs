@@ -20,9 +20,9 @@ use crate::numeric::angle::Angle;
 pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) equation: &'a CurveEquation,
     pub(super) settings: Settings<'a>,
-    pub(super) quantities: CurveEvents<'a>,
+    pub(super) events: CurveEvents<'a>,
     pub(super) observer: &'o mut dyn StepObserver,
-    pub(super) now: Start,
+    pub(super) state: Start,
     pub(super) signs: Signs,
     pub(super) piece: TimePiece,
 }
@@ -57,14 +57,14 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let mut run = CurveRun {
             equation,
             settings,
-            quantities: CurveEvents {
+            events: CurveEvents {
                 equation,
                 turning,
                 evaluations: Cell::new(0),
                 opposed: Cell::default(),
             },
             observer,
-            now: start,
+            state: start,
             signs: Signs::default(),
             piece: TimePiece {
                 last: Step::new(angle.turns, node, node),
@@ -88,7 +88,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
 
     /// Returns the number of evaluations, with those of the event functions.
     pub(super) fn spent(&self) -> u64 {
-        self.piece.evaluations + self.quantities.evaluations.get()
+        self.piece.evaluations + self.events.evaluations.get()
     }
 
     /// Whether friction or a dry load may hold the mechanism at rest.
@@ -108,19 +108,19 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             .curve_motion(StickSlipPhase::Sticking)
             .depends_on_time();
         let settings = self.settings;
-        let mut forecast = WorkForecast::new(self.now.t, 0, settings.ends(), in_time);
+        let mut forecast = WorkForecast::new(self.state.t, 0, settings.ends(), in_time);
         loop {
-            let from = self.now.angle;
+            let from = self.state.angle;
             let end = self.slide().map_or_else(Some, |change| self.pass(change));
-            if end.is_some() || self.now.t >= self.settings.t_end {
+            if end.is_some() || self.state.t >= self.settings.t_end {
                 return end.unwrap_or(EndReason::Done);
             }
             let spent = self.spent();
             if self.settings.limit.is_reached(spent) {
                 return EndReason::Integrator(Finish::WorkLimit);
             }
-            let travel = self.now.angle.minus(from);
-            if let Some(finish) = forecast.reason_to_stop(spent, self.now.t, travel) {
+            let travel = self.state.angle.minus(from);
+            if let Some(finish) = forecast.reason_to_stop(spent, self.state.t, travel) {
                 return EndReason::Integrator(finish);
             }
         }
@@ -132,14 +132,14 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             TurnLimit => Some(EndReason::Done),
             JamDistance => Some(self.jam()),
             Speed => {
-                self.now.speed = 0.0;
+                self.state.speed = 0.0;
                 self.leave_rest(Some(self.signs[index]))
             }
             of => {
                 self.signs[index] = -self.signs[index];
                 self.oppose(of);
                 if let Some(kind) = event(of) {
-                    let Start { angle, speed, .. } = self.now;
+                    let Start { angle, speed, .. } = self.state;
                     self.observer.event(kind, t, angle, speed);
                 }
                 None
@@ -164,15 +164,15 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let (mut reason, mut beyond) = (None, false);
         let vanishing = equation.vanishes_somewhere();
         let no_inertia = || EndReason::Named(Why::NoInertiaOnCurve.into());
-        let (quantities, observer) = (&self.quantities, &mut *self.observer);
+        let (events, observer) = (&self.events, &mut *self.observer);
         let signs = &mut self.signs;
-        let begin = self.now.t;
-        let (finish, last, steps) = time::run(&motion, self.now, &settings, &mut |step| {
+        let begin = self.state.t;
+        let (finish, last, steps) = time::run(&motion, self.state, &settings, &mut |step| {
             let mut step = *step;
             let mut after = *signs;
             let follows = step.start.t > begin;
             let changes =
-                event_functions::changes(&mut step, &looked_at, quantities, follows, &mut after);
+                event_functions::changes(&mut step, &looked_at, events, follows, &mut after);
             for change in changes {
                 let (theta, speed) = step.at(change.t);
                 if vanishing && equation.vanishes_at(theta) {
@@ -247,7 +247,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             t = newton_time(t, step, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
-                let missing = self.quantities.values(t, angle, last.end.omega)[TurnLimit as usize];
+                let missing = self.events.values(t, angle, last.end.omega)[TurnLimit as usize];
                 let dtheta = self.equation.curve().pose(angle.rest).dtheta;
                 [missing, (dtheta * last.end.omega).abs()]
             });
@@ -269,7 +269,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
 
     pub(super) fn arrive(&mut self, last: Step) {
         self.piece.work += last.end.work;
-        self.now = Start {
+        self.state = Start {
             t: last.end.t,
             angle: last.angle(last.end.theta).reduced(),
             speed: last.end.omega,

@@ -19,7 +19,7 @@ impl CurveRun<'_, '_> {
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<EndReason> {
         let friction = self.equation.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
-        let Start { t, angle, .. } = self.now;
+        let Start { t, angle, .. } = self.state;
         let held = self.equation.at_rest(angle).held(t);
         let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
@@ -40,9 +40,9 @@ impl CurveRun<'_, '_> {
 
     /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
     fn rest(&mut self, mu_static: f64) -> Result<f64, EndReason> {
-        let Start { t, angle, .. } = self.now;
+        let Start { t, angle, .. } = self.state;
         let equation = self.equation;
-        let is_open = self.quantities.turning.is_some();
+        let is_open = self.events.turning.is_some();
         // A run of turns has no last time: it seeks a release for this many times its time up to now, or this many s.
         let search_span = 1e3;
         let end = match is_open {
@@ -92,7 +92,7 @@ impl CurveRun<'_, '_> {
 
     /// Returns the free motion from the current state, without friction.
     fn free(&self) -> Free {
-        let Start { t, angle, speed } = self.now;
+        let Start { t, angle, speed } = self.state;
         self.equation.free(t, angle, speed)
     }
 
@@ -127,16 +127,16 @@ impl CurveRun<'_, '_> {
         if equation.loads().are_dry() {
             // The signs of the speeds determine the sign of N.
             let seen = self.seen(direction);
-            self.quantities.opposed.set(opposed(equation, &seen));
+            self.events.opposed.set(opposed(equation, &seen));
         }
         self.seen(direction)
     }
 
     fn seen(&self, direction: f64) -> Signs {
-        let Start { t, angle, speed } = self.now;
-        let values = self.quantities.values(t, angle, speed);
+        let Start { t, angle, speed } = self.state;
+        let values = self.events.values(t, angle, speed);
         let ahead = self
-            .quantities
+            .events
             .values(t, angle.plus(direction * NEARBY_ANGLE), speed);
         let mut signs = signs(values, ahead, direction);
         // A start at rest has no direction: the acceleration gives it.
@@ -153,7 +153,7 @@ impl CurveRun<'_, '_> {
     pub fn oppose(&mut self, index: EventIndex) {
         let equation = self.equation;
         if equation.loads().are_dry() && matches!(index, DeadCentre | CrankRate) {
-            self.quantities.opposed.set(opposed(equation, &self.signs));
+            self.events.opposed.set(opposed(equation, &self.signs));
             let direction = self.signs[Speed as usize];
             self.signs[NormalForce as usize] = self.seen(direction)[NormalForce as usize];
         }

@@ -11,7 +11,7 @@ use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
 
 /// Returns the error of the worst row of a run until a time (s), from samples over the run.
-pub(super) fn worst_row(
+pub(super) fn worst_row_error(
     end: f64,
     last: ErrorEstimate,
     error: impl Fn(f64) -> ErrorEstimate,
@@ -29,7 +29,12 @@ pub(super) const TURN_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// Returns the error of a state whose time is off by `late` (s), which moves the state along the motion. The angle
 /// within its turn is exact to `place` (rad), and rounded once more with its turns. The speed comes from series of 33
 /// terms, whose sum is rounded by half of √33 units. These errors are independent.
-pub(super) fn late_by(task: &RunSetup<'_>, at: Start, late: f64, place: f64) -> ErrorEstimate {
+pub(super) fn error_of_delay(
+    task: &RunSetup<'_>,
+    at: Start,
+    late: f64,
+    place: f64,
+) -> ErrorEstimate {
     let Start { t, angle, speed } = at;
     let (alpha, _) = task.maker.forward(t, angle, speed);
     let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
@@ -51,7 +56,8 @@ pub(super) fn by_energy(
     error.omega_rad_per_s += truncation_error(task, orbit, result.state, result.work);
     Estimate {
         error,
-        on_the_way: wants_rows.then(|| worst_row(end, error, |t| row_by_energy(task, orbit, t))),
+        on_the_way: wants_rows
+            .then(|| worst_row_error(end, error, |t| row_error_by_energy(task, orbit, t))),
         cost: None,
     }
 }
@@ -67,7 +73,7 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimat
     let place = orbit
         .rounding(t)
         .map_or(TURN_ROUNDING, |place| place.min(TURN_ROUNDING));
-    let mut error = late_by(task, at, late, place);
+    let mut error = error_of_delay(task, at, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.turning_point_error(t));
     let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
     // At rest: not a number.
@@ -87,7 +93,7 @@ fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) ->
 }
 
 /// Returns the error of a row at a time, s.
-fn row_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
+fn row_error_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let (angle, speed) = orbit.state(t);
     let mut error = rounding_error(task, orbit, Start { t, angle, speed });
     error.omega_rad_per_s += orbit.speed_error(t) * speed.abs();

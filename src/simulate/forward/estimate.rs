@@ -19,7 +19,9 @@ use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_m
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::StickSlipPhase;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings};
-use super::errors_over_angle::{TURN_ROUNDING, by_energy, late_by, row_error, worst_row};
+use super::errors_over_angle::{
+    TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
+};
 use super::over_angle::second_run_resolution;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
@@ -82,7 +84,7 @@ pub(super) fn estimate(
         _ if !result.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
             let orbits = [one, other].map(|piece| &piece.run.orbit);
-            worst_row(one.run.end, error, |t| row_error(orbits, t, error))
+            worst_row_error(one.run.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
         (None, _) => Some(compared.worst(error)),
@@ -146,7 +148,7 @@ fn distance(
             theta_rad: f64::EPSILON * angle.radians().abs(),
             omega_rad_per_s: f64::EPSILON * speed.abs(),
         },
-        _ => late_by(task, result.state, time_rounding * t, TURN_ROUNDING),
+        _ => error_of_delay(task, result.state, time_rounding * t, TURN_ROUNDING),
     };
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(best.state.angle).abs() + floor.theta_rad + angle_noise,

@@ -33,7 +33,7 @@ pub(super) struct ForwardRecorder<'a> {
     /// Dead centres, rad in [0, 2π).
     dead_centres: Vec<f64>,
     /// Record of turning points, if the crank may never complete its turns.
-    swing: Option<BoundedMotion>,
+    bounded_motion: Option<BoundedMotion>,
     /// Time (s) and reason of an end inside the last step.
     ends_at: Option<(f64, EndsBy)>,
     /// Start of a piece at a dead centre that is already recorded.
@@ -65,7 +65,7 @@ impl<'a> ForwardRecorder<'a> {
             recorder: Recorder::new(task, rows, task.schedule()),
             motion,
             dead_centres: task.dead_centres(),
-            swing: BoundedMotion::new(task, task.start()),
+            bounded_motion: BoundedMotion::new(task, task.start()),
             ends_at: None,
             passed: None,
             crossings: Vec::new(),
@@ -78,7 +78,7 @@ impl<'a> ForwardRecorder<'a> {
     pub fn caught(&self) -> Option<Why> {
         let curve = self.curve.as_ref().map(|equation| equation.curve());
         let crank = |at| curve.map_or(at, |curve| curve.crank_angle(at));
-        self.swing?.why(crank)
+        self.bounded_motion?.why(crank)
     }
 
     /// Returns the record, with the row of the end.
@@ -127,7 +127,10 @@ impl<'a> ForwardRecorder<'a> {
         }
         let until = step.end.t;
         let fails = self.recorder.step(&mut step, until, &along, Some(phase));
-        fails || self.swing.is_some_and(|swing| swing.is_caught())
+        fails
+            || self
+                .bounded_motion
+                .is_some_and(|bounded_motion| bounded_motion.is_bounded())
     }
 
     fn follow_speed(&mut self, step: &mut Step) {
@@ -181,7 +184,7 @@ impl<'a> ForwardRecorder<'a> {
     fn look_for_events(&mut self, step: &mut Step) {
         let mut crossings = std::mem::take(&mut self.crossings);
         events::crossings(step, &self.dead_centres, &mut crossings);
-        let wanted = self.recorder.keeps_events() || self.swing.is_some();
+        let wanted = self.recorder.keeps_events() || self.bounded_motion.is_some();
         if !step.is_refined() && !crossings.is_empty() && wanted {
             step.refine(self.motion);
             events::crossings(step, &self.dead_centres, &mut crossings);
@@ -214,7 +217,11 @@ impl<'a> ForwardRecorder<'a> {
             Crossing::Angle(_) => self.event("dead-centre", t, at, omega),
             Crossing::Turning => self.event("turning-point", t, at, 0.0),
         }
-        if what == Crossing::Turning && self.swing.is_some_and(|swing| swing.is_caught()) {
+        if what == Crossing::Turning
+            && self
+                .bounded_motion
+                .is_some_and(|bounded_motion| bounded_motion.is_bounded())
+        {
             self.ends_at = Some((t, EndsBy::BoundedMotion));
         }
     }
@@ -230,9 +237,9 @@ impl StepObserver for ForwardRecorder<'_> {
 
     fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
         if kind == "turning-point"
-            && let Some(swing) = &mut self.swing
+            && let Some(bounded_motion) = &mut self.bounded_motion
         {
-            swing.turns_at(angle);
+            bounded_motion.add_turning_point(angle);
         }
         let at = Start { t, angle, speed };
         let crank = |equation: &Arc<CurveEquation>| crank_state(equation.curve(), at);
@@ -266,7 +273,7 @@ impl PassObserver for ForwardRecorder<'_> {
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
         self.passed = again.then_some(from);
         if curve.is_some() && !self.task.turns_fully() {
-            self.swing = BoundedMotion::new(self.task, from.angle);
+            self.bounded_motion = BoundedMotion::new(self.task, from.angle);
         }
     }
 

@@ -49,7 +49,7 @@ impl CycleRun {
 }
 
 /// CycleRun map of a scene: runs from any energy with one set-up, which share their panels.
-pub(super) struct Cycles<'a> {
+pub(super) struct SceneCycleMap<'a> {
     task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
     /// Inertia at the start, kg m².
@@ -60,10 +60,10 @@ pub(super) struct Cycles<'a> {
     pub refused: Option<Error>,
 }
 
-impl<'a> Cycles<'a> {
+impl<'a> SceneCycleMap<'a> {
     /// Makes the map for a set-up and the model of its mechanism over the angle.
-    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> Cycles<'a> {
-        Cycles {
+    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> SceneCycleMap<'a> {
+        SceneCycleMap {
             task,
             model,
             inertia: task.equation().terms(task.start().rest).inertia.m,
@@ -131,7 +131,7 @@ impl<'a> Cycles<'a> {
     }
 }
 
-impl CycleMap for Cycles<'_> {
+impl CycleMap for SceneCycleMap<'_> {
     fn first(&self) -> f64 {
         self.energy(self.task.speed)
     }

@@ -6,7 +6,7 @@ use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
 use super::super::stop::why_not_applicable;
-use super::cycles::{CycleRun, Cycles};
+use super::cycles::{CycleRun, SceneCycleMap};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -96,7 +96,7 @@ fn search(
         return Err(unbounded());
     }
     let model = AngleModel::of(&task).with_shared_panels();
-    let mut cycles = Cycles::new(&task, &model);
+    let mut cycles = SceneCycleMap::new(&task, &model);
     let seeker = OrbitSearch { task: &task, turns };
     match (seeker.solve(&mut cycles, step), cycles.refused) {
         (Err(_), Some(why)) => Err(why),
@@ -112,7 +112,7 @@ struct OrbitSearch<'a> {
 }
 
 impl OrbitSearch<'_> {
-    fn solve(&self, cycles: &mut Cycles<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
+    fn solve(&self, cycles: &mut SceneCycleMap<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
         let reads = self.task.equation().loads().reads();
         let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         if !by_speed && self.task.maker.guide.is_none() {
