@@ -108,7 +108,7 @@ impl<'a> Evaluator<'a> {
     pub fn calibrate(&mut self, sample: Vec<EvaluatedPoint>) -> Vec<EvaluatedPoint> {
         let of = |value: &dyn Fn(&EvaluatedPoint) -> f64| {
             let computed = sample.iter().filter(|one| one.objective.is_some());
-            middle_half(computed.map(value).collect())
+            interquartile_range(computed.map(value).collect())
         };
         let constraints = 0..self.problem.constraints.len();
         self.scales = constraints.map(|i| of(&|one| one.margins[i])).collect();
@@ -180,7 +180,7 @@ impl<'a> Evaluator<'a> {
 }
 
 /// Returns the interquartile range of at least one value; the full range if that is zero, 1 if both are zero or not finite.
-fn middle_half(mut values: Vec<f64>) -> f64 {
+fn interquartile_range(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let last = values.len() - 1;
     let spreads = [

@@ -37,7 +37,7 @@ impl Choice {
 }
 
 /// Returns the engines that take over where the chosen engine cannot start or continue, in this order.
-pub(super) fn after(
+pub(super) fn successors(
     choice: &Choice,
     method: Method,
     loads: &Loads,
@@ -63,13 +63,13 @@ pub(super) fn after(
     }
 }
 
-const IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
-const WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
+const METHODS_IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
+const METHODS_WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
 
 /// Selects the first engine that serves a scene without parts of zero strength, or the engine that `method` asks for.
 pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
     if scene.clearance.is_some() {
-        return for_all(
+        return only_if(
             method,
             &[Method::Auto],
             Choice::without_stepper(
@@ -81,7 +81,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         );
     }
     if scene.motion.kind == MotionKind::ConstantSpeed {
-        return for_all(
+        return only_if(
             method,
             &[Method::Auto, Method::ClosedForm],
             Choice::without_stepper(
@@ -106,7 +106,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             Stepper::Picard,
             "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
         )),
-        _ if class == Class::ChangePoint => for_all(
+        _ if class == Class::ChangePoint => only_if(
             method,
             &[Method::Auto],
             Choice::in_time(
@@ -114,10 +114,10 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
                 "a change point: integration in time along the configuration curve",
             ),
             "the lengths of a change point, which it passes onto the other branch",
-            IN_TIME,
+            METHODS_IN_TIME,
         ),
         // Dry loads change sign where the crank or the slider reverses.
-        _ if loads.are_dry() => for_all(
+        _ if loads.are_dry() => only_if(
             method,
             &[Method::Auto],
             Choice::in_time(
@@ -125,14 +125,14 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
                 "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
             ),
             "a load of kind \"dry\", which turns round with the motion",
-            IN_TIME,
+            METHODS_IN_TIME,
         ),
         _ => energy_angle_or_time(method, scene, class),
     }
 }
 
 /// Returns `choice`, the only engine that serves the scene, if `method` is one of `methods`; otherwise refuses.
-fn for_all(
+fn only_if(
     method: Method,
     methods: &[Method],
     choice: Choice,
@@ -151,8 +151,8 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
 fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
-    let rubs = scene.friction.is_some();
-    let without_energy = match rubs {
+    let has_friction = scene.friction.is_some();
+    let without_energy = match has_friction {
         true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
         false => why_not_energy(scene).map(|why| format!("this scene: {why}")),
     };
@@ -163,13 +163,15 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
                 "every load depends on the position alone: omega from the energy, time from one quadrature",
             ));
         }
-        (Method::Energy, Some(what)) => return Err(cannot_serve(method, &what, WITHOUT_ENERGY)),
+        (Method::Energy, Some(what)) => {
+            return Err(cannot_serve(method, &what, METHODS_WITHOUT_ENERGY));
+        }
         _ => {}
     }
     match why_not_angle(scene, class) {
         None => Ok(Choice::without_stepper(
             Engine::Angle,
-            match rubs {
+            match has_friction {
                 true => {
                     "the crank turns: its energy and the time over the crank angle, with Coulomb friction piece by piece between its changes; where it comes near to rest, integration in time takes over"
                 }
@@ -179,15 +181,15 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
             },
         )),
         Some(why) if method == Method::Angle => {
-            let what = match rubs {
+            let what = match has_friction {
                 true => format!("this motion with Coulomb friction: {why}"),
                 false => format!("this scene: {why}"),
             };
-            Err(cannot_serve(method, &what, IN_TIME))
+            Err(cannot_serve(method, &what, METHODS_IN_TIME))
         }
         Some(why) => Ok(Choice::in_time(
             Stepper::Picard,
-            match rubs {
+            match has_friction {
                 true => format!(
                     "Coulomb friction, and {why}: integration in time, piece by piece between its changes"
                 ),
@@ -205,21 +207,21 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
         let depends = reads.or(position) != position;
         depends.then(|| format!("{of} depends on {reads}, and its work on more than the position"))
     });
-    more.or_else(|| why_corners(scene))
+    more.or_else(|| why_corners_are_unknown(scene))
 }
 
 /// Returns why the crank angle cannot be the independent variable from the start: the crank is at rest, a load has
 /// unknown corners or no cycle to tabulate; with friction also: the crank cannot turn fully, or the guide jams.
 fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
-    let rubs = scene.friction.is_some();
-    if rubs && class != Class::RotatingCrank {
+    let has_friction = scene.friction.is_some();
+    if has_friction && class != Class::RotatingCrank {
         return Some("the crank cannot turn fully".to_owned());
     }
     if scene.motion.speed == 0.0 {
         return Some("the crank starts at rest".to_owned());
     }
-    let why = why_corners(scene).or_else(|| cycle_over_angle(scene).err());
-    if why.is_none() && rubs && jams(scene) {
+    let why = why_corners_are_unknown(scene).or_else(|| cycle_over_angle(scene).err());
+    if why.is_none() && has_friction && jams(scene) {
         return Some("the slider jams in its guide at an angle of the turn".to_owned());
     }
     why
@@ -238,7 +240,7 @@ fn jams(scene: &Scene) -> bool {
 }
 
 /// Returns the first load whose corners are not known as crank angles, and why.
-fn why_corners(scene: &Scene) -> Option<String> {
+fn why_corners_are_unknown(scene: &Scene) -> Option<String> {
     non_zero(scene).find_map(|of| match of.load {
         Load::Table(table) if table.of() != Variable::Theta => {
             let rows_over = table.of().name();

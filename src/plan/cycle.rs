@@ -53,7 +53,7 @@ impl Cycle {
     pub fn of(scene: &Scene) -> Cycle {
         let mut turns = cycle_over_angle(scene);
         for of in non_zero(scene).filter(reads_time) {
-            turns = turns.and(Err(format!("{of} {OF_TIME}")));
+            turns = turns.and(Err(format!("{of} {DEPENDS_ON_TIME}")));
         }
         Cycle {
             turns: turns.as_ref().ok().copied(),
@@ -78,8 +78,8 @@ pub(crate) fn cycle_over_angle(scene: &Scene) -> Result<u32, String> {
     })
 }
 
-const OF_TIME: &str = "depends on the time t";
-const SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
+const DEPENDS_ON_TIME: &str = "depends on the time t";
+const ONLY_SAMPLED: &str = "a closure is seen at the nodes of panels and steps alone, which is no guarantee: state its finest scale";
 
 /// Iterates over the loads of a scene that are not zero.
 pub(super) fn non_zero(scene: &Scene) -> impl Iterator<Item = LoadOf<'_>> {
@@ -99,7 +99,7 @@ impl fmt::Display for LoadName {
 impl fmt::Display for LoadPeriodicity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.over_angle {
-            _ if self.reads_time => write!(f, "not: it {OF_TIME}"),
+            _ if self.reads_time => write!(f, "not: it {DEPENDS_ON_TIME}"),
             Periodicity::Always => f.write_str("at every angle"),
             Periodicity::After(Period::TURN) => f.write_str("each turn"),
             Periodicity::After(period) => write!(f, "after {period}"),
@@ -119,7 +119,7 @@ impl LoadPeriod {
                 over_angle: of.repeats(),
                 reads_time: reads_time(&of),
             },
-            between_nodes: of.load.is_only_sampled().then_some(SAMPLED),
+            between_nodes: of.load.is_only_sampled().then_some(ONLY_SAMPLED),
         }
     }
 }

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use choice::{after, choose};
+use choice::{choose, successors};
 pub(crate) use cycle::cycle_over_angle;
 pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
@@ -120,7 +120,7 @@ impl Plan {
         let choice = choose(method, &loads, &reduced)?;
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
-            then: after(&choice, method, &loads, &reduced),
+            then: successors(&choice, method, &loads, &reduced),
             engine: choice.engine,
             reason: choice.reason,
             stepper: choice.stepper,

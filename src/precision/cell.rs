@@ -79,7 +79,7 @@ pub(super) struct MethodRun {
     scene: Scene,
     method: Method,
     result: Result<Summary, String>,
-    walls: Vec<f64>,
+    wall_times_s: Vec<f64>,
 }
 
 impl MethodRun {
@@ -97,26 +97,26 @@ impl MethodRun {
             scene,
             method,
             result,
-            walls: Vec::new(),
+            wall_times_s: Vec::new(),
         })
     }
 
     /// Whether the run reached its end; if the equations end earlier (`ends`), whether it ran at all.
-    fn arrived(&self, ends: bool) -> bool {
+    fn reached_end(&self, ends: bool) -> bool {
         let summary = self.result.as_ref().ok();
         summary.is_some_and(|summary| ends || summary.stopped.is_none())
     }
 
     fn run_again(&mut self, options: &PrecisionOptions) {
         if let Ok(summary) = run(&self.scene, self.method, false, options) {
-            self.walls.push(black_box(summary).wall_s);
+            self.wall_times_s.push(black_box(summary).wall_s);
         }
     }
 
     /// Returns the row, measured against the first reference of another identity.
     pub(super) fn row(&self, references: &[(Option<Identity>, Reference)]) -> PrecisionRow {
         let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
-        row.runs = self.walls.len();
+        row.runs = self.wall_times_s.len();
         let summary = match &self.result {
             Ok(summary) => summary,
             Err(why) => {
@@ -127,7 +127,7 @@ impl MethodRun {
         let own = Some((summary.plan.engine, summary.plan.stepper));
         let found = references.iter().position(|(identity, _)| *identity != own);
         let reference = found.map(|index| &references[index].1);
-        row.failure = unlike(summary, reference);
+        row.failure = ends_elsewhere(summary, reference);
         if row.failure.is_some() {
             return row;
         }
@@ -135,10 +135,10 @@ impl MethodRun {
         let estimate = summary.error_estimate;
         row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
         row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
-        let mut walls = self.walls.clone();
-        walls.sort_by(f64::total_cmp);
-        row.wall_s = walls.first().copied();
-        row.wall_median_s = walls.get(walls.len() / 2).copied();
+        let mut wall_times_s = self.wall_times_s.clone();
+        wall_times_s.sort_by(f64::total_cmp);
+        row.wall_s = wall_times_s.first().copied();
+        row.wall_median_s = wall_times_s.get(wall_times_s.len() / 2).copied();
         row.evaluations = Some(summary.evaluations);
         row.steps = Some(summary.steps);
         let Some(reference) = reference else {
@@ -167,7 +167,7 @@ impl MethodRun {
 }
 
 /// Returns the reason why a run does not end where the reference does; none if both end together.
-fn unlike(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
+fn ends_elsewhere(summary: &Summary, reference: Option<&Reference>) -> Option<String> {
     // Relative difference of end times below which two runs end at one place.
     let same_end = 1e-3;
     match (&summary.stopped, reference.and_then(|found| found.ends_at)) {
@@ -199,7 +199,10 @@ pub(super) fn time(cells: &mut [MethodRun], ends: bool, options: &PrecisionOptio
         if round > 0 && begun.elapsed().as_secs_f64() > options.most_s {
             break;
         }
-        let mut served: Vec<_> = cells.iter_mut().filter(|cell| cell.arrived(ends)).collect();
+        let mut served: Vec<_> = cells
+            .iter_mut()
+            .filter(|cell| cell.reached_end(ends))
+            .collect();
         if round % 2 == 1 {
             served.reverse();
         }

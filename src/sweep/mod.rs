@@ -19,7 +19,8 @@ pub use figure::{Figure, FigureValue, Source};
 pub use options::SweepOptions;
 pub use pareto::{Goal, Member, ParetoFront};
 
-const EXAMPLE: &str = "say which key takes which values, like --vary geometry.offset=0mm:20mm:41";
+const VARY_EXAMPLE: &str =
+    "say which key takes which values, like --vary geometry.offset=0mm:20mm:41";
 
 /// Checks that each key is varied once, distributions are sampled, and the number of designs is within [`Sweep::MOST_DESIGNS`].
 fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), Error> {
@@ -45,11 +46,11 @@ fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), 
             .try_fold(1usize, |product, one| product.checked_mul(one.len())),
     };
     match designs {
-        _ if varied.is_empty() => refused("no key is varied".to_owned(), EXAMPLE),
+        _ if varied.is_empty() => refused("no key is varied".to_owned(), VARY_EXAMPLE),
         Some(designs) if designs <= Sweep::MOST_DESIGNS => Ok(()),
         _ => {
             let what = format!("the sweep has more than {} designs", Sweep::MOST_DESIGNS);
-            refused(what, EXAMPLE)
+            refused(what, VARY_EXAMPLE)
         }
     }
 }
@@ -106,7 +107,7 @@ impl Sweep {
         let scene = sweep.draft.scene().or_else(|_| first())?;
         let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&&*one.key());
         let has_run = scene.run.extent.is_some() || sweep.varied.iter().any(runs);
-        sweep.options.settle(has_run)?;
+        sweep.options.derive_computations(has_run)?;
         sweep.title = scene.title.unwrap_or_default();
         Ok(sweep)
     }
@@ -222,15 +223,15 @@ impl Sweep {
         mut take: impl FnMut(Vec<Design>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         /// Target for the time of one batch, half to once this, which bounds the loss when the sweep is cut off.
-        const PAUSE: Duration = Duration::from_millis(500);
+        const BATCH_TIME: Duration = Duration::from_millis(500);
         let (mut start, mut count) = (range.start, 16);
         while start < range.end {
             let end = range.end.min(start + count);
             let begun = Instant::now();
             let designs = parallel::map(start..end, |index| self.design(index));
-            if begun.elapsed() < PAUSE / 2 {
+            if begun.elapsed() < BATCH_TIME / 2 {
                 count = (2 * count).min(1 << 14);
-            } else if begun.elapsed() > PAUSE {
+            } else if begun.elapsed() > BATCH_TIME {
                 count = (count / 2).max(16);
             }
             if self.options.stop.as_ref().is_some_and(Stop::is_requested) {

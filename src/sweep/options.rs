@@ -52,7 +52,7 @@ impl Default for SweepOptions {
 impl SweepOptions {
     /// Derives the computations from named figures, or the figures from the computations, for scenes with or without a
     /// run. Named figures override the other options.
-    pub(super) fn settle(&mut self, has_run: bool) -> Result<(), Error> {
+    pub(super) fn derive_computations(&mut self, has_run: bool) -> Result<(), Error> {
         let named = !self.figures.is_empty();
         let takes = |source| self.figures.iter().any(|one| one.source() == source);
         if takes(Source::Flywheel) && !self.has(Source::Flywheel) {
