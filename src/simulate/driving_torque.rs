@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::balance::Balance;
 use super::result::TorqueRange;
-use super::row_maker::RowMaker;
+use super::row::RowMaker;
 use super::warning::NoRange;
 use crate::engine::time::Start;
 use crate::mechanism::Equation;

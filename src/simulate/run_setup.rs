@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::guide_friction::GuideFriction;
 use super::options::Options;
-use super::row_maker::RowMaker;
+use super::row::RowMaker;
 use super::schedule::Schedule;
 use super::stop::Why;
 use crate::engine::runge_kutta;

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::coordinate::{AlongCurve, Coordinate};
 use super::result::Summary;
-use super::row::Row;
-use super::row_maker::RowMaker;
+use super::row::{Row, RowMaker};
 use super::stick_slip::StickSlipPhase;
 use crate::mechanism::CurveEquation;
 use crate::trajectory::Trajectory;

@@ -191,7 +191,7 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::crank_motion::CrankMotion;
+    use super::super::coordinate::CrankMotion;
     use super::*;
     use crate::engine::Counted;
     use crate::engine::WorkLimit;

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
-use super::super::crank_motion::CrankMotion;
+use super::super::coordinate::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
@@ -54,7 +54,7 @@ pub(super) fn estimate(
         _ => Engine::Angle,
     };
     let mut evaluations = 0;
-    let second = |time_settings| {
+    let second = |time_settings: Settings<'_>| {
         let finer = PassSettings {
             first_engine,
             is_second: true,
@@ -67,7 +67,20 @@ pub(super) fn estimate(
         };
         let forward = CrankMotion(pass.task.equation());
         let motion = Counted::new(&forward);
-        let mut observer = SecondRunObserver::new(&finer, &motion, record);
+        let Start { t, angle, speed } = pass.task.first_state();
+        let force = || motion.acceleration(t, angle, speed);
+        let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
+        let mut observer = SecondRunObserver {
+            equation: pass.task.equation(),
+            motion: &motion,
+            // Panels over the angle state their roundoff themselves.
+            rounding: RoundoffPropagation::new(
+                time_settings.method,
+                moves && first_engine == Engine::Time,
+            ),
+            curve: None,
+            compared: Comparison::with(&record.checkpoints),
+        };
         let best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
         let arrives = matches!(best.end, EndReason::Done);
@@ -180,26 +193,7 @@ struct SecondRunObserver<'m, 'a> {
     compared: Comparison<'a>,
 }
 
-impl<'m, 'a> SecondRunObserver<'m, 'a> {
-    fn new(
-        pass: &'m PassSettings<'_>,
-        motion: &'m Counted<'m>,
-        record: &'a Record,
-    ) -> SecondRunObserver<'m, 'a> {
-        let Start { t, angle, speed } = pass.task.first_state();
-        let force = || motion.acceleration(t, angle, speed);
-        let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
-        // Panels over the angle state their roundoff themselves.
-        let moves = moves && pass.first_engine == Engine::Time;
-        SecondRunObserver {
-            equation: pass.task.equation(),
-            motion,
-            rounding: RoundoffPropagation::new(pass.time_settings.method, moves),
-            curve: None,
-            compared: Comparison::with(&record.checkpoints),
-        }
-    }
-
+impl SecondRunObserver<'_, '_> {
     /// Computes the transition over a piece over the angle: a lead in time stays, and an energy error adds to it.
     fn transition(&self, [from, to]: [&Start; 2], errors: &Errors) -> StateTransition {
         let [inertia, then] = [from, to].map(|at| self.inertia(at));

@@ -20,7 +20,7 @@ use forward_recorder::ForwardRecorder;
 use super::angle_model::AngleModel;
 use super::balance::Balance;
 use super::configuration_curve::{self, CurveProblem, EndReason, crank_state};
-use super::crank_motion::CrankMotion;
+use super::coordinate::CrankMotion;
 use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
