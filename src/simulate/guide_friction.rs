@@ -50,10 +50,12 @@ impl GuideLoadEffect {
 /// Position as the loads see it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PanelPlace {
-    /// Slider position x (m) and derivative x' (m/rad).
-    pub at: [f64; 2],
+    /// Slider position, m.
+    pub x: f64,
+    /// Derivative of the slider position by the crank angle, m/rad.
+    pub dx: f64,
     /// Effect of the loads on the guide; zero without friction.
-    pub gain: GuideLoadEffect,
+    pub load_effect: GuideLoadEffect,
 }
 
 impl PanelPlace {
@@ -62,7 +64,7 @@ impl PanelPlace {
     pub fn instants<const N: usize>(at: &[State<'_, PanelPlace>; N]) -> [Instant; N] {
         let mut instants = [Instant::default(); N];
         for (instant, at) in instants.iter_mut().zip(at) {
-            let [x, dx] = at.place.at;
+            let PanelPlace { x, dx, .. } = *at.place;
             *instant = Instant {
                 t: at.t,
                 theta: at.angle.radians(),
@@ -109,21 +111,21 @@ impl GuideFriction {
         for (i, normal) in normals.iter().enumerate() {
             let grip = normal.grip(c);
             self.jams.fetch_or(grip.is_none(), Relaxed);
-            let gain = GuideLoadEffect {
+            let load_effect = GuideLoadEffect {
                 torque: normal.torque,
                 force: normal.force,
                 grip: grip.unwrap_or(f64::NAN),
             };
             let force = force * dx[i];
             let damping = LoadValue { torque, force };
-            switch.place[i] = normal.place + gain.normal_force(of_place[i]);
-            switch.rate[i] = -gain.normal_force(damping);
+            switch.place[i] = normal.place + load_effect.normal_force(of_place[i]);
+            switch.rate[i] = -load_effect.normal_force(damping);
             switch.square[i] = normal.square;
-            switch.force[i] = gain.grip * normal.square;
-            table.push[i] += gain.grip * switch.place[i];
-            table.damping[i] += gain.friction_torque(damping);
+            switch.force[i] = load_effect.grip * normal.square;
+            table.push[i] += load_effect.grip * switch.place[i];
+            table.damping[i] += load_effect.friction_torque(damping);
             if let Some(spot) = table.places.get_mut(i) {
-                spot.gain = gain;
+                spot.load_effect = load_effect;
             }
         }
         table.switch = Some(switch);

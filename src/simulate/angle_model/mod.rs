@@ -164,8 +164,8 @@ impl Dynamics for AngleModel<'_> {
             table.damping[i] = loads.damping(dx);
             of_place[i] = stored.plus(placed);
             if driven {
-                let gain = GuideLoadEffect::default();
-                table.places.push(PanelPlace { at: [x, dx], gain });
+                let load_effect = GuideLoadEffect::default();
+                table.places.push(PanelPlace { x, dx, load_effect });
             }
         }
         if let Some((guide, normals)) = guided {
@@ -197,8 +197,10 @@ impl Dynamics for AngleModel<'_> {
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
-            let PanelPlace { at: [_, dx], gain } = *at.place;
-            *force = load.generalized(dx) + gain.friction_torque(*load);
+            let PanelPlace {
+                dx, load_effect, ..
+            } = *at.place;
+            *force = load.generalized(dx) + load_effect.friction_torque(*load);
         }
         forces
     }
@@ -225,7 +227,7 @@ impl Dynamics for AngleModel<'_> {
             .equation
             .loads()
             .of_states(&PanelPlace::instants(&[*at]));
-        at.place.gain.normal_force(load)
+        at.place.load_effect.normal_force(load)
     }
 
     fn corners(&self) -> &[f64] {
