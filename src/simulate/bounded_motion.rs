@@ -25,7 +25,7 @@ impl BoundedMotion {
             return None;
         };
         // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
-        let least_count = if task.one_way {
+        let least_count = if task.stops_at_reversal {
             0
         } else if task.equation().loads().reads().has(Variable::T) {
             10_000

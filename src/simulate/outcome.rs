@@ -39,7 +39,7 @@ pub(super) struct Outcome {
 pub(super) struct Estimate {
     pub error: ErrorEstimate,
     /// Error of the worst state on the way, if known.
-    pub on_the_way: Option<ErrorEstimate>,
+    pub rows_error: Option<ErrorEstimate>,
     /// Cost of the second run; none without one.
     pub cost: Option<Cost>,
 }
@@ -49,7 +49,7 @@ impl Estimate {
     pub fn of_end(error: ErrorEstimate) -> Estimate {
         Estimate {
             error,
-            on_the_way: None,
+            rows_error: None,
             cost: None,
         }
     }
@@ -101,7 +101,7 @@ impl Outcome {
         if kept > 0 && total > kept as u64 {
             warnings.push(Warning::EventsLeftOut { total, kept });
         }
-        let mut pieces = record.engines;
+        let mut pieces = record.pieces;
         match pieces.last_mut() {
             Some(last) => last.to_s = last.to_s.min(at.t),
             None => pieces.push(Piece {
@@ -126,7 +126,7 @@ impl Outcome {
             last,
             revolutions: turned / TAU,
             error_estimate: self.estimate.map(|estimate| estimate.error),
-            rows_error: self.estimate.and_then(|estimate| estimate.on_the_way),
+            rows_error: self.estimate.and_then(|estimate| estimate.rows_error),
             energy_residual: match balance.largest {
                 0.0 => 0.0,
                 largest => balance.residual / largest,
@@ -149,7 +149,7 @@ impl Outcome {
         };
         Simulation {
             summary,
-            trajectory: record.pieces.map(Trajectory::joined),
+            trajectory: record.motion.map(Trajectory::joined),
             dense: DenseRows {
                 maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
                 curve: None,

@@ -30,11 +30,11 @@ pub(super) struct Record {
     /// Least and largest crank speed, rad/s.
     pub speed_range: (f64, f64),
     /// Pieces of the dense motion; none without room for all.
-    pub pieces: Option<Vec<Trajectory>>,
+    pub motion: Option<Vec<Trajectory>>,
     /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
     pub phases: Vec<PhaseInterval>,
     /// Engines that ran, in order, if they took turns.
-    pub engines: Vec<Piece>,
+    pub pieces: Vec<Piece>,
     /// States on the way, for the error estimate.
     pub checkpoints: Checkpoints,
     /// Wall time spent on rows.
@@ -75,11 +75,11 @@ impl<'a> Recorder<'a> {
         Recorder {
             task,
             writer: RowWriter::new(rows, schedule),
-            room: task.kept,
+            room: task.steps_kept,
             steps: Vec::new(),
             record: Record {
                 speed_range: (task.speed, task.speed),
-                pieces: (task.kept > 0).then(Vec::new),
+                motion: (task.steps_kept > 0).then(Vec::new),
                 ..Record::default()
             },
             error: None,
@@ -106,12 +106,12 @@ impl<'a> Recorder<'a> {
 
     /// Records that an engine takes over at a time, s.
     pub fn begins(&mut self, engine: Engine, from_s: f64, why: Cow<'static, str>) {
-        let engines = &mut self.record.engines;
-        if let Some(last) = engines.last_mut() {
+        let pieces = &mut self.record.pieces;
+        if let Some(last) = pieces.last_mut() {
             last.to_s = last.to_s.min(from_s);
         }
-        if engines.len() < self.task.options.events_kept {
-            engines.push(Piece {
+        if pieces.len() < self.task.options.events_kept {
+            pieces.push(Piece {
                 engine: engine.name(),
                 from_s,
                 to_s: f64::INFINITY,
@@ -142,7 +142,7 @@ impl<'a> Recorder<'a> {
     /// Keeps the motion of a piece over the crank angle, if there is room.
     pub fn keep(&mut self, piece: impl FnOnce() -> Trajectory) {
         if self.takes_room()
-            && let Some(pieces) = &mut self.record.pieces
+            && let Some(pieces) = &mut self.record.motion
         {
             pieces.push(piece());
         }
@@ -156,7 +156,7 @@ impl<'a> Recorder<'a> {
         along: &dyn Coordinate,
         phase: Option<StickSlipPhase>,
     ) -> bool {
-        self.record.checkpoints.pass(step);
+        self.record.checkpoints.add(step);
         let mut part = InStep {
             step,
             until,
@@ -166,7 +166,7 @@ impl<'a> Recorder<'a> {
         if self.rows(&mut part) {
             return true;
         }
-        if self.record.pieces.is_some() && self.takes_room() {
+        if self.record.motion.is_some() && self.takes_room() {
             step.refine(along.motion());
             self.steps.push(*step);
             if let Some(phase) = phase {
@@ -182,7 +182,7 @@ impl<'a> Recorder<'a> {
 
     /// Keeps a step of the motion as it stands, if there is room.
     pub fn keep_step(&mut self, step: Step) {
-        if self.record.pieces.is_some() && self.takes_room() {
+        if self.record.motion.is_some() && self.takes_room() {
             self.steps.push(step);
         }
     }
@@ -190,7 +190,7 @@ impl<'a> Recorder<'a> {
     /// Joins the steps since the last piece into one that ends at a time (s), or at the end of the last step.
     pub fn end_piece(&mut self, end: f64) {
         let steps = std::mem::take(&mut self.steps);
-        if let (Some(last), Some(pieces)) = (steps.last(), &mut self.record.pieces) {
+        if let (Some(last), Some(pieces)) = (steps.last(), &mut self.record.motion) {
             let end = end.min(last.end.t);
             pieces.push(Trajectory::from_steps(steps, end));
         }
@@ -211,7 +211,7 @@ impl<'a> Recorder<'a> {
         let room = self.room.checked_sub(1);
         self.room = room.unwrap_or(0);
         if room.is_none() {
-            self.record.pieces = None;
+            self.record.motion = None;
             self.steps = Vec::new();
         }
         room.is_some()

@@ -58,12 +58,12 @@ fn run(
     scene: &Scene,
     options: &Options,
     rows: &mut dyn RowSink,
-    kept: usize,
+    steps_kept: usize,
 ) -> Result<Simulation, Error> {
-    let mut task = RunSetup::new(scene, options, kept)?;
+    let mut task = RunSetup::new(scene, options, steps_kept)?;
     let searches_forces = options.reactions && task.plan.engine != Engine::Contact;
     if searches_forces {
-        task.kept = kept.max(MOST_FORCE_ROWS);
+        task.steps_kept = steps_kept.max(MOST_FORCE_ROWS);
     }
     if let Some(step) = row_step_of_open_run(&task)
         && rows.wants_rows()

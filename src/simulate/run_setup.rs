@@ -25,19 +25,23 @@ pub(super) struct RunSetup<'a> {
     /// Crank speed at the start, rad/s.
     pub speed: f64,
     /// Whether the run ends where the crank turns back.
-    pub one_way: bool,
+    pub stops_at_reversal: bool,
     /// Largest number of steps or pieces of the dense motion that are kept.
-    pub kept: usize,
+    pub steps_kept: usize,
     pub limits: Limits,
     pub maker: RowMaker,
 }
 
 impl<'a> RunSetup<'a> {
-    /// Plans a scene; the run keeps at most `kept` steps or pieces of its motion.
+    /// Plans a scene; the run keeps at most `steps_kept` steps or pieces of its motion.
     ///
     /// # Errors
     /// [`Error::Scene`] for impossible values, [`Error::Refused`] for what cannot be computed.
-    pub fn new(scene: &'a Scene, options: &'a Options, kept: usize) -> Result<RunSetup<'a>, Error> {
+    pub fn new(
+        scene: &'a Scene,
+        options: &'a Options,
+        steps_kept: usize,
+    ) -> Result<RunSetup<'a>, Error> {
         let plan = Plan::of_run(scene, options.method)?;
         let equation = Equation::new(scene);
         Ok(RunSetup {
@@ -49,8 +53,8 @@ impl<'a> RunSetup<'a> {
                 Some(extent) => extent,
             },
             speed: scene.motion.speed,
-            one_way: false,
-            kept,
+            stops_at_reversal: false,
+            steps_kept,
             limits: Limits::new(equation.linkage(), scene.motion.speed),
             maker: RowMaker {
                 reactor: match options.reactions {

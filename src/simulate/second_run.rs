@@ -44,7 +44,7 @@ pub(super) struct Checkpoints {
 
 impl Checkpoints {
     /// Takes a step of the first run.
-    pub fn pass(&mut self, step: &Step) {
+    pub fn add(&mut self, step: &Step) {
         // A megabyte of steps.
         let most_first = 4096;
         // When so many are kept, every other one is dropped.
@@ -85,7 +85,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// Compares states inside a step of the second run. `rate`: derivative of the crank angle at a coordinate.
-    pub fn pass(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
+    pub fn compare(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
         while let Some(first) = self.left.next_if(|first| first.end.t <= step.end.t) {
             let node = &first.end;
             if node.t >= step.start.t {

@@ -35,9 +35,9 @@ pub trait CycleMap {
     fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable>;
 
     /// Returns the largest kinetic energy in the last cycle, J.
-    fn largest(&self) -> f64;
+    fn largest_kinetic(&self) -> f64;
 
-    /// Returns the error of a gain, relative to [`Self::largest`].
+    /// Returns the error of a gain, relative to [`Self::largest_kinetic`].
     fn noise(&self) -> f64;
 }
 
@@ -118,7 +118,7 @@ fn slope_over(
         let way = times * part * kinetic;
         let ahead = map.gain(kinetic + way)?;
         *slope = (ahead - map.gain(kinetic - way)?) / (2.0 * way);
-        largest = largest.max(map.largest());
+        largest = largest.max(map.largest_kinetic());
     }
     // Richardson: the errors are of second and fourth order in the distance.
     let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);

@@ -81,7 +81,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             run.signs = run.signs_for(if speed < 0.0 { -1.0 } else { 1.0 });
             run.check_jam()
         };
-        run.piece.end = end.unwrap_or_else(|| run.pieces());
+        run.piece.end = end.unwrap_or_else(|| run.run_pieces());
         run.piece.evaluations = run.spent();
         run.piece
     }
@@ -103,7 +103,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         }
     }
 
-    fn pieces(&mut self) -> EndReason {
+    fn run_pieces(&mut self) -> EndReason {
         let in_time = self
             .curve_motion(StickSlipPhase::Sticking)
             .depends_on_time();
@@ -111,7 +111,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let mut forecast = WorkForecast::new(self.state.t, 0, settings.ends(), in_time);
         loop {
             let from = self.state.angle;
-            let end = self.slide().map_or_else(Some, |change| self.pass(change));
+            let end = self.slide().map_or_else(Some, |change| self.apply(change));
             if end.is_some() || self.state.t >= self.settings.t_end {
                 return end.unwrap_or(EndReason::Done);
             }
@@ -127,7 +127,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     }
 
     /// Passes the change at the end of a piece of sliding; returns the end of the run, if it ends there.
-    fn pass(&mut self, Change { t, index }: Change) -> Option<EndReason> {
+    fn apply(&mut self, Change { t, index }: Change) -> Option<EndReason> {
         match EventIndex::ALL[index] {
             TurnLimit => Some(EndReason::Done),
             JamDistance => Some(self.jam()),

@@ -140,7 +140,7 @@ impl PassSettings<'_> {
             other_evaluations: 0,
             resume_rotation: self.resume_rotation,
         };
-        pass.pieces()?;
+        pass.run_pieces()?;
         if !pass.result.is_one_piece() {
             pass.keep();
         }
@@ -164,7 +164,7 @@ impl<'a> Pass<'a, '_> {
         self.settings.time_settings.limit.after(self.spent())
     }
 
-    fn pieces(&mut self) -> Result<(), Error> {
+    fn run_pieces(&mut self) -> Result<(), Error> {
         let task = self.settings.task;
         let mut engine = self.settings.first_engine;
         let mut reason = task.plan.reason.clone();

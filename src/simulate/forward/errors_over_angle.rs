@@ -56,7 +56,7 @@ pub(super) fn by_energy(
     error.omega_rad_per_s += truncation_error(task, orbit, result.state, result.work);
     Estimate {
         error,
-        on_the_way: wants_rows
+        rows_error: wants_rows
             .then(|| worst_row_error(end, error, |t| row_error_by_energy(task, orbit, t))),
         cost: None,
     }

@@ -79,15 +79,15 @@ pub(super) fn estimate(
                 moves && first_engine == Engine::Time,
             ),
             curve: None,
-            compared: Comparison::with(&record.checkpoints),
+            comparison: Comparison::with(&record.checkpoints),
         };
         let best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
         let arrives = matches!(best.end, EndReason::Done);
-        arrives.then_some((best, observer.rounding.spread, observer.compared))
+        arrives.then_some((best, observer.rounding.spread, observer.comparison))
     };
     let mut settings = second_settings(pass, result, record).into_iter();
-    let (best, spread, compared) = settings.find_map(second)?;
+    let (best, spread, comparison) = settings.find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
@@ -100,11 +100,11 @@ pub(super) fn estimate(
             worst_row_error(one.run.end, error, |t| row_error(orbits, t, error))
         }),
         (Some(_), None) => None,
-        (None, _) => Some(compared.worst(error)),
+        (None, _) => Some(comparison.worst(error)),
     };
     Some(Estimate {
         error,
-        on_the_way: rows,
+        rows_error: rows,
         cost: Some(cost),
     })
 }
@@ -190,7 +190,7 @@ struct SecondRunObserver<'m, 'a> {
     rounding: RoundoffPropagation,
     /// Configuration curve of the last piece in time, if it follows one.
     curve: Option<Arc<CurveEquation>>,
-    compared: Comparison<'a>,
+    comparison: Comparison<'a>,
 }
 
 impl SecondRunObserver<'_, '_> {
@@ -258,16 +258,18 @@ impl PassObserver for SecondRunObserver<'_, '_> {
 impl StepObserver for SecondRunObserver<'_, '_> {
     fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
         let SecondRunObserver {
-            rounding, compared, ..
+            rounding,
+            comparison,
+            ..
         } = self;
         match self.curve.as_deref().zip(phase) {
             Some((equation, phase)) => {
-                compared.pass(step, |q| equation.curve().pose(q).dtheta);
+                comparison.compare(step, |q| equation.curve().pose(q).dtheta);
                 rounding.step_on_curve(equation, step, phase);
             }
             None => {
                 rounding.step(self.equation, self.motion, step);
-                compared.pass(step, |_| 1.0);
+                comparison.compare(step, |_| 1.0);
             }
         }
         false

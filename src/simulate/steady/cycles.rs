@@ -25,9 +25,9 @@ pub(super) struct CycleRun {
     /// Gain of kinetic energy over the cycle, J.
     pub gain: f64,
     /// Largest kinetic energy, J.
-    pub largest: f64,
+    pub largest_kinetic: f64,
     /// Uncertainty of the energies, relative to them.
-    pub uncertain: f64,
+    pub relative_error: f64,
 }
 
 impl CycleRun {
@@ -54,7 +54,7 @@ pub(super) struct SceneCycleMap<'a> {
     model: &'a AngleModel<'a>,
     /// Inertia at the start, kg m².
     inertia: f64,
-    largest: f64,
+    largest_kinetic: f64,
     noise: f64,
     /// Refusal of a run, for another reason than a crank that does not complete the cycle.
     pub refused: Option<Error>,
@@ -67,7 +67,7 @@ impl<'a> SceneCycleMap<'a> {
             task,
             model,
             inertia: task.equation().terms(task.start().rest).inertia.m,
-            largest: 0.0,
+            largest_kinetic: 0.0,
             noise: task.scene.run.tolerance,
             refused: None,
         }
@@ -91,8 +91,8 @@ impl<'a> SceneCycleMap<'a> {
         };
         let task = RunSetup {
             speed: self.speed(kinetic),
-            one_way: true,
-            kept: if keep { usize::MAX } else { 0 },
+            stops_at_reversal: true,
+            steps_kept: if keep { usize::MAX } else { 0 },
             options: &options,
             ..self.task.clone()
         };
@@ -102,7 +102,7 @@ impl<'a> SceneCycleMap<'a> {
         })?;
         let summary = &run.summary;
         let fastest = summary.omega_max.abs().max(summary.omega_min.abs());
-        self.largest = self.energy(fastest);
+        self.largest_kinetic = self.energy(fastest);
         let turned = TAU * summary.revolutions * self.task.speed.signum();
         let whole = task.extent.angle().unwrap_or_default();
         let complete = summary.stopped.is_none() && turned > whole - PI;
@@ -124,8 +124,8 @@ impl<'a> SceneCycleMap<'a> {
             period: summary.last.t_s,
             speed: self.speed(kinetic),
             gain: self.energy(last) - kinetic,
-            largest: self.largest,
-            uncertain: self.noise * self.largest / self.energy(slowest),
+            largest_kinetic: self.largest_kinetic,
+            relative_error: self.noise * self.largest_kinetic / self.energy(slowest),
             trajectory: run.trajectory.ok_or(NotApplicable::NotFinite)?,
         })
     }
@@ -141,8 +141,8 @@ impl CycleMap for SceneCycleMap<'_> {
         Ok(self.energy(run.summary.last.omega_rad_per_s) - kinetic)
     }
 
-    fn largest(&self) -> f64 {
-        self.largest
+    fn largest_kinetic(&self) -> f64 {
+        self.largest_kinetic
     }
 
     fn noise(&self) -> f64 {

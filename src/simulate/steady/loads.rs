@@ -13,14 +13,15 @@ use crate::scene::{Load, LoadOf, Scene};
 
 /// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
-    let Verified { found, check, .. } = verified;
+    let (found, check, relative_error) =
+        (&verified.found, &verified.check, verified.relative_error);
     let linkage = &Linkage::new(&scene.geometry);
     let mut works = Vec::new();
     let mut add = |name: String, load: Option<&Load>, torque: &Torque<'_>| {
         let cuts = cuts(load, linkage, found);
-        let work = work(&cuts, torque, verified.relative, found);
-        let error = MARGIN * (work - self::work(&cuts, torque, verified.relative, check)).abs()
-            + 4.0 * verified.relative * size(&cuts, torque, found);
+        let work = work(&cuts, torque, relative_error, found);
+        let error = MARGIN * (work - self::work(&cuts, torque, relative_error, check)).abs()
+            + 4.0 * relative_error * size(&cuts, torque, found);
         let over = |span: f64| Estimated {
             value: work / span,
             error: error / span.abs(),
@@ -28,7 +29,7 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
         works.push(LoadWork {
             name,
             power_w: over(found.cycle.period),
-            torque_nm: over(found.cycle.speed.signum() * found.way()),
+            torque_nm: over(found.cycle.speed.signum() * found.rotation()),
         });
     };
     for of in scene.loads() {
@@ -62,7 +63,7 @@ fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) ->
 fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f64> {
     let sense = found.cycle.speed.signum();
     let begin = found.start.radians();
-    let end = begin + sense * found.way();
+    let end = begin + sense * found.rotation();
     let turned = |theta: f64| sense * (theta - begin);
     let corners = load.map(|load| load.corners_between(begin.min(end), begin.max(end)));
     let corners = corners.into_iter().flatten();
@@ -76,7 +77,7 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
     let of_turn = (0..parts).map(|i| f64::from(i) / f64::from(parts) * TAU);
     let of_turn: Vec<f64> = dead_centres.chain(of_turn).collect();
     cuts.extend(angle::in_turns(&of_turn, 0..found.turns.into()));
-    cuts.push(found.way());
+    cuts.push(found.rotation());
     cuts.sort_by(f64::total_cmp);
     cuts
 }
@@ -94,7 +95,7 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit)
         };
         // A load may be steep on a part of the piece only.
         let open = open(from).min(open(0.5 * (from + to))).min(open(to));
-        let tolerance = (1e-15 * found.cycle.largest).max(open * (to - from));
+        let tolerance = (1e-15 * found.cycle.largest_kinetic).max(open * (to - from));
         gauss::adaptive(&force, from, to, tolerance)
     };
     cuts.windows(2).map(piece).sum()

@@ -151,7 +151,7 @@ struct Verified {
     found: PeriodicOrbit,
     check: PeriodicOrbit,
     /// Relative uncertainty of the speeds: half that of the energies, and rounding.
-    relative: f64,
+    relative_error: f64,
 }
 
 impl Verified {
@@ -159,7 +159,7 @@ impl Verified {
         let rounding = 8.0 * f64::EPSILON;
         Ok(Verified {
             check: periodic_orbit::again(scene, found.cycle.speed, options)?,
-            relative: 0.5 * found.cycle.uncertain + rounding,
+            relative_error: 0.5 * found.cycle.relative_error + rounding,
             found,
         })
     }
@@ -176,17 +176,17 @@ impl Verified {
     /// Estimates a speed or a time.
     fn relative(&self, value: impl Fn(&PeriodicOrbit) -> f64) -> Estimated {
         let size = value(&self.found).abs();
-        self.of(value, self.relative * size)
+        self.of(value, self.relative_error * size)
     }
 
     fn mean_speed(&self) -> Estimated {
-        self.relative(|f| f.cycle.speed.signum() * f.way() / f.cycle.period)
+        self.relative(|f| f.cycle.speed.signum() * f.rotation() / f.cycle.period)
     }
 
     fn fluctuation(&self) -> Estimated {
         self.of(
             PeriodicOrbit::fluctuation,
-            self.relative * (2.0 + self.found.fluctuation()),
+            self.relative_error * (2.0 + self.found.fluctuation()),
         )
     }
 
@@ -238,11 +238,12 @@ impl Verified {
         let Verified { found, check, .. } = self;
         let [here, there] = [found, check].map(|f| f.extremes[which].turned);
         let apart = (here - there).abs();
-        let apart = apart.min((found.way() - apart).abs());
+        let apart = apart.min((found.rotation() - apart).abs());
         let angle = found.start.plus(found.cycle.speed.signum() * here);
         Estimated {
-            value: angle.radians().rem_euclid(found.way()),
-            error: MARGIN * apart + self.relative * TAU / found.fluctuation().clamp(1e-12, 1.0),
+            value: angle.radians().rem_euclid(found.rotation()),
+            error: MARGIN * apart
+                + self.relative_error * TAU / found.fluctuation().clamp(1e-12, 1.0),
         }
     }
 
@@ -251,14 +252,15 @@ impl Verified {
         let turns = self.found.turns;
         let count = fourier::SAMPLES_PER_TURN * turns;
         let speed = |k: u32| {
-            [&self.found, &self.check].map(|f| f.omega(f64::from(k) * f.way() / f64::from(count)))
+            [&self.found, &self.check]
+                .map(|f| f.omega(f64::from(k) * f.rotation() / f64::from(count)))
         };
         let speeds: Vec<[f64; 2]> = (0..count).map(speed).collect();
         let every_other: Vec<[f64; 2]> = speeds.iter().step_by(2).copied().collect();
         let amplitudes = |speeds: &[[f64; 2]], k: u32| {
             fourier::coefficients(speeds, k).map(|[cos, sin]| 2.0 * cos.hypot(sin))
         };
-        let rounding = self.relative * self.found.cycle.speed.abs();
+        let rounding = self.relative_error * self.found.cycle.speed.abs();
         let order = |k: u32| {
             let [value, other] = amplitudes(&speeds, k);
             // Corners of the speed alias higher orders onto this one.

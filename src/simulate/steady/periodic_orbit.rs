@@ -43,11 +43,11 @@ impl PeriodicOrbit {
     /// Returns the coefficient of fluctuation: range of the speed over its mean.
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
-        (fast.omega - slow.omega).abs() * self.cycle.period / self.way()
+        (fast.omega - slow.omega).abs() * self.cycle.period / self.rotation()
     }
 
     /// Returns the rotation of the crank in a period, rad.
-    pub fn way(&self) -> f64 {
+    pub fn rotation(&self) -> f64 {
         f64::from(self.turns) * TAU
     }
 
@@ -119,7 +119,7 @@ impl OrbitSearch<'_> {
             let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
             // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
             let no_gain = 1e-12;
-            if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest {
+            if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest_kinetic {
                 let (what, load) = match cycle.gain > 0.0 {
                     true => ("gains", "brakes"),
                     false => ("loses", "drives the crank"),
@@ -146,7 +146,7 @@ impl OrbitSearch<'_> {
         fixed: Option<(FixedPoint, f64)>,
     ) -> Result<PeriodicOrbit, Error> {
         if let Some((fixed, noise)) = fixed {
-            cycle.uncertain /= fixed.slope.abs().max(noise);
+            cycle.relative_error /= fixed.slope.abs().max(noise);
         }
         let fixed = fixed.map(|(fixed, _)| fixed);
         let mut found = PeriodicOrbit {
@@ -173,7 +173,7 @@ impl OrbitSearch<'_> {
 
     /// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
     fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
-        let (sense, whole) = (found.cycle.speed.signum(), found.way());
+        let (sense, whole) = (found.cycle.speed.signum(), found.rotation());
         let grid = self.task.equation().linkage().turn_grid(false).into_iter();
         let since = |theta: f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
         let grid: Vec<f64> = grid.map(since).collect();
