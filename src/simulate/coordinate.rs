@@ -10,47 +10,45 @@ use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
 
-/// Equation of motion with the crank angle as the coordinate, as the integrators see it.
-pub(super) struct CrankMotion<'a>(pub &'a Equation);
-
-impl Motion for CrankMotion<'_> {
+/// Motion with the crank angle as the coordinate.
+impl Motion for Equation {
     fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
-        self.0.acceleration(t, angle, speed)
+        Equation::acceleration(self, t, angle, speed)
     }
 
     fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
-        self.0.acceleration_and_power(t, angle, speed)
+        Equation::acceleration_and_power(self, t, angle, speed)
     }
 
     fn depends_on_time(&self) -> bool {
-        self.0.loads().reads().has(Variable::T)
+        self.loads().reads().has(Variable::T)
     }
 
     fn has_power(&self) -> bool {
-        !self.0.loads().have_potential()
+        !self.loads().have_potential()
     }
 
     fn next_corner(&self, t: f64) -> f64 {
-        self.0.loads().next_corner(t)
+        self.loads().next_corner(t)
     }
 
     fn varies_between_nodes(&self) -> bool {
-        self.0.loads().vary_between_nodes()
+        self.loads().vary_between_nodes()
     }
 
     fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
-        let loads = self.0.loads();
-        let seen = self.0.linkage().enclosed_state(reach, loads.meet_slider());
+        let loads = self.loads();
+        let seen = self.linkage().enclosed_state(reach, loads.meet_slider());
         let force = loads.variation(&seen, seen.unit_load_effects(), ellipse);
-        force.times(1.0 / self.0.terms(reach.angle.middle()).inertia.m)
+        force.times(1.0 / self.terms(reach.angle.middle()).inertia.m)
     }
 
     fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {
-        self.0.loads().row_on_way(from, to)
+        self.loads().row_on_way(from, to)
     }
 
     fn of_time(&self, t: f64) -> [f64; 2] {
-        let LoadValue { torque, force } = self.0.loads().of_time(t);
+        let LoadValue { torque, force } = self.loads().of_time(t);
         [torque, force]
     }
 
@@ -65,8 +63,7 @@ impl Motion for CrankMotion<'_> {
             theta: &batch.theta,
             omega: &batch.omega,
         };
-        self.0
-            .accelerations(&at, &mut batch.alpha, &mut batch.power);
+        self.accelerations(&at, &mut batch.alpha, &mut batch.power);
     }
 }
 

@@ -191,7 +191,6 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::coordinate::CrankMotion;
     use super::*;
     use crate::engine::Counted;
     use crate::engine::WorkLimit;
@@ -216,7 +215,7 @@ mod tests {
     }
 
     /// Steps of a run from a start to a time.
-    fn steps(motion: &CrankMotion<'_>, start: Start, t_end: f64) -> Vec<Step> {
+    fn steps(motion: &Equation, start: Start, t_end: f64) -> Vec<Step> {
         let settings = Settings {
             method: Method::Picard,
             tolerance: 1e-14,
@@ -241,18 +240,17 @@ mod tests {
         let aside = 1e-4;
         for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
             let equation = pendulum(push);
-            let motion = CrankMotion(&equation);
             let start = |t: f64, angle: f64, speed: f64| Start {
                 t,
                 angle: Angle::from(angle),
                 speed,
             };
-            for step in steps(&motion, start(0.0, angle, speed), 3.0) {
-                let found = AccelerationSlopes::of(&motion, &step).transition(&step);
+            for step in steps(&equation, start(0.0, angle, speed), 3.0) {
+                let found = AccelerationSlopes::of(&equation, &step).transition(&step);
                 let from = step.start;
                 let end = |part: [f64; 2]| {
                     let beside = start(from.t, from.theta + part[0], from.omega + part[1]);
-                    let last = *steps(&motion, beside, step.end.t).last().expect("a step");
+                    let last = *steps(&equation, beside, step.end.t).last().expect("a step");
                     [
                         last.end.theta + std::f64::consts::TAU * last.turns,
                         last.end.omega,

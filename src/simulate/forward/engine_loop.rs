@@ -165,56 +165,53 @@ impl<'a> Pass<'a, '_> {
     }
 
     fn run_pieces(&mut self) -> Result<(), Error> {
-        let task = self.settings.task;
+        let PassSettings { task, .. } = *self.settings;
         let mut engine = self.settings.first_engine;
         let mut reason = task.plan.reason.clone();
         // Rotation, rad, before the angle engine resumes; infinite unless that engine stopped at low speed.
         let mut rotation = f64::INFINITY;
         loop {
-            let why = match engine {
+            let end = match engine {
                 Engine::Energy => self.run_energy_engine(reason)?,
                 Engine::Angle => self.run_angle_engine(reason)?,
                 _ => self.run_time_engine(rotation, reason)?,
             };
-            let Some(next) = self.next(engine, why)? else {
-                return Ok(());
-            };
-            rotation = match why {
-                PieceEnd::NotApplicable(NotApplicable::TooSlow)
-                    if task.plan.has(Engine::Angle) && task.turns_fully() =>
-                {
-                    self.resume_rotation
+            (rotation, reason) = (f64::INFINITY, "the crank turns".into());
+            engine = match end {
+                PieceEnd::Ended => return Ok(()),
+                PieceEnd::ClearOfRest => Engine::Angle,
+                PieceEnd::NotApplicable(why) => {
+                    let Some(next) = self.successor(engine, why)? else {
+                        return Ok(());
+                    };
+                    let resumes = task.plan.has(Engine::Angle) && task.turns_fully();
+                    if why == NotApplicable::TooSlow && resumes {
+                        rotation = self.resume_rotation;
+                    }
+                    if next == Engine::Time {
+                        reason = stop_reason::not_applicable(task, why).into();
+                    }
+                    next
                 }
-                _ => f64::INFINITY,
             };
-            reason = match why {
-                PieceEnd::NotApplicable(why) if next == Engine::Time => {
-                    stop_reason::not_applicable(task, why).into()
-                }
-                _ => "the crank turns".into(),
-            };
-            engine = next;
         }
     }
 
-    /// Returns the next engine; none at the end of the run.
-    fn next(&mut self, engine: Engine, why: PieceEnd) -> Result<Option<Engine>, Error> {
+    /// Returns the engine after one that is not applicable; none at the end of the run.
+    fn successor(&mut self, engine: Engine, why: NotApplicable) -> Result<Option<Engine>, Error> {
         use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
-        let why = match why {
-            PieceEnd::Ended => return Ok(None),
-            PieceEnd::ClearOfRest => return Ok(Some(Engine::Angle)),
-            PieceEnd::NotApplicable(why) => why,
-        };
-        let plan = &self.settings.task.plan;
+        let PassSettings { task, model, .. } = *self.settings;
         if !self.has_begun() {
-            if self.settings.task.options.method != Method::Auto && !self.settings.is_second {
-                return Err(stop_reason::refusal(self.settings.task, why));
+            if task.options.method != Method::Auto && !self.settings.is_second {
+                return Err(stop_reason::refusal(task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.positions_before = self.settings.model.evaluations();
+            self.positions_before = model.evaluations();
         }
         Ok(match (engine, why) {
-            (Engine::Energy, TooLong | TooSlow) if plan.has(Engine::Angle) => Some(Engine::Angle),
+            (Engine::Energy, TooLong | TooSlow) if task.plan.has(Engine::Angle) => {
+                Some(Engine::Angle)
+            }
             (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
             (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
                 self.result.end = EndReason::Integrator(match why {

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
-use super::super::coordinate::CrankMotion;
 use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
@@ -65,8 +64,7 @@ pub(super) fn estimate(
             resume_rotation: 1.4 * TAU,
             ..pass.clone()
         };
-        let forward = CrankMotion(pass.task.equation());
-        let motion = Counted::new(&forward);
+        let motion = Counted::new(pass.task.equation());
         let Start { t, angle, speed } = pass.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;

@@ -20,7 +20,6 @@ use forward_recorder::ForwardRecorder;
 use super::angle_model::AngleModel;
 use super::balance::Balance;
 use super::configuration_curve::{self, CurveProblem, EndReason, crank_state};
-use super::coordinate::CrankMotion;
 use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
@@ -53,11 +52,10 @@ pub(super) fn run(
         resume_rotation: TAU,
         curve: OnceCell::new(),
     };
-    let forward = CrankMotion(task.equation());
     // Evaluations for rows and events are counted apart: they do not change how far a run goes.
-    let looked_at = Counted::new(&forward);
+    let looked_at = Counted::new(task.equation());
     let mut recorder = ForwardRecorder::new(task, &looked_at, rows);
-    let result = pass.run(&Counted::new(&forward), &mut recorder)?;
+    let result = pass.run(&Counted::new(task.equation()), &mut recorder)?;
     if matches!(result.end, EndReason::Integrator(Finish::NoStart)) && result.pieces_over_angle == 0
     {
         return Err(stop_reason::no_start(task));
