@@ -13,19 +13,14 @@ pub struct Trajectory {
     motion: Stored,
     begin: f64,
     end: f64,
-    view: Option<View>,
+    /// Map of the stored coordinate to the crank, if it is another one.
+    map: Option<Arc<dyn CrankMap>>,
 }
 
-type CrankOf = dyn Fn(Angle, f64) -> (Angle, f64) + Send + Sync;
-
-/// Map of angle and speed of another coordinate to those of the crank.
-#[derive(Clone)]
-struct View(Arc<CrankOf>);
-
-impl fmt::Debug for View {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("View")
-    }
+/// Map of another coordinate to the crank.
+pub(crate) trait CrankMap: fmt::Debug + Send + Sync {
+    /// Returns crank angle and crank speed (rad/s) from angle and speed (rad/s) of the coordinate.
+    fn crank(&self, angle: Angle, speed: f64) -> (Angle, f64);
 }
 
 #[derive(Clone, Debug)]
@@ -46,7 +41,7 @@ impl Trajectory {
             motion,
             begin,
             end,
-            view: None,
+            map: None,
         }
     }
 
@@ -81,9 +76,9 @@ impl Trajectory {
         Trajectory::new(Stored::Pieces(pieces), begin, end)
     }
 
-    /// Maps a trajectory of another coordinate to the crank; `view` gives crank angle and speed.
-    pub fn mapped_to_crank(mut self, view: Arc<CrankOf>) -> Trajectory {
-        self.view = Some(View(view));
+    /// Maps a trajectory of another coordinate to the crank.
+    pub(crate) fn mapped_to_crank(mut self, map: Arc<dyn CrankMap>) -> Trajectory {
+        self.map = Some(map);
         self
     }
 
@@ -95,8 +90,8 @@ impl Trajectory {
     /// Returns the crank angle, as turns and rest, and speed (rad/s) at time `t` (s); none outside the run.
     pub fn state(&self, t: f64) -> Option<(Angle, f64)> {
         let (angle, speed) = self.coordinate(t)?;
-        Some(match &self.view {
-            Some(View(crank)) => crank(angle, speed),
+        Some(match &self.map {
+            Some(map) => map.crank(angle, speed),
             None => (angle, speed),
         })
     }
@@ -120,7 +115,7 @@ impl Trajectory {
     /// Returns the motion over the crank angle if it is the whole trajectory.
     pub(crate) fn as_orbit(&self) -> Option<&Orbit> {
         match &self.motion {
-            Stored::Orbit(orbit) if self.view.is_none() && self.begin == 0.0 => Some(orbit),
+            Stored::Orbit(orbit) if self.map.is_none() && self.begin == 0.0 => Some(orbit),
             _ => None,
         }
     }

@@ -4,11 +4,13 @@
 use super::row::{Row, RowMaker};
 use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
+use crate::engine::time::Start;
 use crate::engine::{Batch, Counted, Motion};
 use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue, Reactor};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
+use crate::trajectory::CrankMap;
 
 /// Motion with the crank angle as the coordinate.
 impl Motion for Equation {
@@ -100,6 +102,19 @@ impl Coordinate for Crank<'_> {
     }
 }
 
+impl CrankMap for CurveEquation {
+    fn crank(&self, angle: Angle, speed: f64) -> (Angle, f64) {
+        let dtheta = self.curve().pose(angle.rest).dtheta;
+        (self.curve().crank_angle(angle), dtheta * speed)
+    }
+}
+
+/// Converts a state of the coordinate to time, crank angle and crank speed (rad/s).
+pub(super) fn crank_state(equation: &CurveEquation, at: Start) -> Start {
+    let (angle, speed) = equation.crank(at.angle, at.speed);
+    Start { angle, speed, ..at }
+}
+
 /// Coordinate of the configuration curve in one phase.
 pub(super) struct AlongCurve<'a> {
     motion: CurveMotion<'a>,
@@ -134,9 +149,7 @@ impl Coordinate for AlongCurve<'_> {
 
     fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
         let (q, speed) = step.at(t);
-        let curve = self.motion.equation.curve();
-        let angle = curve.crank_angle(step.angle(q));
-        (angle, curve.pose(q).dtheta * speed)
+        self.motion.equation.crank(step.angle(q), speed)
     }
 
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {

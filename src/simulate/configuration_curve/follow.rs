@@ -2,12 +2,13 @@
 
 use std::cell::Cell;
 
+use super::super::coordinate::crank_state;
 use super::super::stick_slip::EventIndex::{
     self, CrankRate, DeadCentre, JamDistance, Limit, NormalForce, Speed, TurnLimit,
 };
 use super::super::stick_slip::{CurveEvents, CurveMotion, Signs, StickSlipPhase, sliding};
 use super::super::stop::Why;
-use super::{EndReason, StepObserver, TimePiece, crank_state, newton_time};
+use super::{EndReason, StepObserver, TimePiece, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
@@ -211,7 +212,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         self.piece.steps += steps;
         self.piece.singular_state = motion
             .singular_state()
-            .map(|(t, angle, speed)| crank_state(equation.curve(), Start { t, angle, speed }));
+            .map(|(t, angle, speed)| crank_state(equation, Start { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();
             self.arrive(match beyond {

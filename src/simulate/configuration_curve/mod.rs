@@ -135,12 +135,3 @@ pub(super) fn newton_time(
     }
     t
 }
-
-/// Converts a state of the coordinate to time, crank angle and crank speed (rad/s).
-pub(super) fn crank_state(curve: &Curve, at: Start) -> Start {
-    Start {
-        t: at.t,
-        angle: curve.crank_angle(at.angle),
-        speed: curve.pose(at.angle.rest).dtheta * at.speed,
-    }
-}

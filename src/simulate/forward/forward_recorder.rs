@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::super::angle_model::SAME_CORNER;
 use super::super::bounded_motion::BoundedMotion;
-use super::super::configuration_curve::{CurveProblem, StepObserver, crank_state, newton_time};
-use super::super::coordinate::{AlongCurve, Coordinate, Crank};
+use super::super::configuration_curve::{CurveProblem, StepObserver, newton_time};
+use super::super::coordinate::{AlongCurve, Coordinate, Crank, crank_state};
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
@@ -242,7 +242,7 @@ impl StepObserver for ForwardRecorder<'_> {
             bounded_motion.add_turning_point(angle);
         }
         let at = Start { t, angle, speed };
-        let crank = |equation: &Arc<CurveEquation>| crank_state(equation.curve(), at);
+        let crank = |equation: &Arc<CurveEquation>| crank_state(equation, at);
         let at = self.curve.as_ref().map_or(at, crank);
         self.recorder.event(Event::new(kind, at));
     }

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use super::super::configuration_curve::{
     self, CurveProblem, CurveRun, EndReason, StepObserver, TimePiece,
 };
+use super::super::coordinate::crank_state;
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::StickSlipPhase;
 use super::super::stop;
@@ -87,9 +88,8 @@ impl Pass<'_, '_> {
             speed: end.omega,
         };
         let result = &mut self.result;
-        result.state = curve.map_or(coordinate, |curve| {
-            configuration_curve::crank_state(curve.equation.curve(), coordinate)
-        });
+        let crank = |curve: &CurveProblem| crank_state(&curve.equation, coordinate);
+        result.state = curve.map_or(coordinate, crank);
         result.steps += piece.steps;
         result.pieces_in_time += 1;
         result.work += piece.work;

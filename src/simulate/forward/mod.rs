@@ -11,7 +11,6 @@ mod stop_reason;
 
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
-use std::sync::Arc;
 use std::time::Instant;
 
 use engine_loop::{PassResult, PassSettings};
@@ -19,7 +18,7 @@ use forward_recorder::ForwardRecorder;
 
 use super::angle_model::AngleModel;
 use super::balance::Balance;
-use super::configuration_curve::{self, CurveProblem, EndReason, crank_state};
+use super::configuration_curve::{self, CurveProblem, EndReason};
 use super::outcome::Outcome;
 use super::recorder::Record;
 use super::row::RowSink;
@@ -27,9 +26,8 @@ use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::warning::Warning;
 use crate::engine::Counted;
-use crate::engine::time::{Finish, Start};
+use crate::engine::time::Finish;
 use crate::error::Error;
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
@@ -124,18 +122,8 @@ fn with_motion(mut run: Simulation, result: PassResult) -> Simulation {
         run.trajectory = Some(Trajectory::orbit(piece.run.orbit, 0.0, piece.to.t));
     }
     if let Some(CurveProblem { equation, .. }) = result.curve {
-        let on = equation.clone();
-        let to_crank = move |angle: Angle, speed: f64| {
-            let at = Start {
-                t: 0.0,
-                angle,
-                speed,
-            };
-            let Start { angle, speed, .. } = crank_state(on.curve(), at);
-            (angle, speed)
-        };
         let motion = run.trajectory;
-        run.trajectory = motion.map(|motion| motion.mapped_to_crank(Arc::new(to_crank)));
+        run.trajectory = motion.map(|motion| motion.mapped_to_crank(equation.clone()));
         run.dense.curve = Some(equation);
     }
     run
