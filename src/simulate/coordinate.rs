@@ -6,7 +6,7 @@ use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::time::Start;
 use crate::engine::{Batch, Counted, Motion};
-use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue, Reactor};
+use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
@@ -79,6 +79,11 @@ pub(super) trait Coordinate {
 
     /// Makes the row at a time (s), an angle of the coordinate and a rate of the coordinate (rad/s).
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
+
+    /// Returns the phase of the slider in its guide; none for a smooth coordinate.
+    fn phase(&self) -> Option<StickSlipPhase> {
+        None
+    }
 }
 
 /// Crank angle as the coordinate.
@@ -117,22 +122,11 @@ pub(super) fn crank_state(equation: &CurveEquation, at: Start) -> Start {
 
 /// Coordinate of the configuration curve in one phase.
 pub(super) struct AlongCurve<'a> {
-    motion: CurveMotion<'a>,
-    reactor: Option<&'a Reactor>,
+    pub maker: &'a RowMaker,
+    pub motion: CurveMotion<'a>,
 }
 
-impl<'a> AlongCurve<'a> {
-    pub fn new(
-        equation: &'a CurveEquation,
-        phase: StickSlipPhase,
-        maker: &'a RowMaker,
-    ) -> AlongCurve<'a> {
-        AlongCurve {
-            motion: CurveMotion { equation, phase },
-            reactor: maker.reactor.as_deref(),
-        }
-    }
-
+impl AlongCurve<'_> {
     /// Returns the crank speed (rad/s) and the crank acceleration (rad/s²) at a time (s) of a step.
     pub fn crank_speed(&self, step: &Step, t: f64) -> (f64, f64) {
         let (q, speed) = step.at(t);
@@ -152,12 +146,16 @@ impl Coordinate for AlongCurve<'_> {
         self.motion.equation.crank(step.angle(q), speed)
     }
 
+    fn phase(&self) -> Option<StickSlipPhase> {
+        Some(self.motion.phase)
+    }
+
     fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
         let motion = &self.motion;
         let curve = motion.equation.curve();
         let place = curve.pose(angle.rest);
         let (acceleration, touch, _) = motion.state(t, angle, speed);
-        let reactions = self.reactor.map(|reactor| {
+        let reactions = self.maker.reactor.as_ref().map(|reactor| {
             let load = motion.load(&place, t, angle, speed);
             let force = load.force + touch.friction;
             reactor.on_curve(&place, speed, acceleration, force, touch.normal)

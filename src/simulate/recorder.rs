@@ -12,7 +12,6 @@ use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::second_run::Checkpoints;
 use super::simulation::PhaseInterval;
-use super::stick_slip::StickSlipPhase;
 use crate::engine::PIECES;
 use crate::engine::step::Step;
 use crate::error::Error;
@@ -148,14 +147,8 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Records a step until a time (s) inside it, in a phase of the curve or none; true if a row failed: the run ends.
-    pub fn step(
-        &mut self,
-        step: &mut Step,
-        until: f64,
-        along: &dyn Coordinate,
-        phase: Option<StickSlipPhase>,
-    ) -> bool {
+    /// Records a step until a time (s) inside it; true if a row failed, which ends the run.
+    pub fn step(&mut self, step: &mut Step, until: f64, along: &dyn Coordinate) -> bool {
         self.record.checkpoints.add(step);
         let mut part = InStep {
             step,
@@ -169,7 +162,7 @@ impl<'a> Recorder<'a> {
         if self.record.motion.is_some() && self.takes_room() {
             step.refine(along.motion());
             self.steps.push(*step);
-            if let Some(phase) = phase {
+            if let Some(phase) = along.phase() {
                 let (phases, from, until) = (&mut self.record.phases, step.start.t, step.end.t);
                 match phases.last_mut() {
                     Some(last) if last.until == from && last.phase == phase => last.until = until,

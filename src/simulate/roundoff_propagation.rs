@@ -5,7 +5,7 @@ use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
-use crate::mechanism::{CurveEquation, Equation};
+use crate::mechanism::Equation;
 
 /// Standard deviation of one rounding, in units of the last place: about 1/√12, for errors spread evenly over half a
 /// unit on either side.
@@ -70,7 +70,8 @@ impl RoundoffPropagation {
     }
 
     /// Carries the spread over a step on the configuration curve in one phase and adds the roundoff of the step.
-    pub fn step_on_curve(&mut self, equation: &CurveEquation, step: &Step, phase: StickSlipPhase) {
+    pub fn step_on_curve(&mut self, motion: CurveMotion<'_>, step: &Step) {
+        let phase = motion.phase;
         let before = self.before.take();
         if phase == StickSlipPhase::Sticking {
             // At rest an error of the speed is lost.
@@ -90,7 +91,6 @@ impl RoundoffPropagation {
             spread = spread.plus_error(late * start.omega, late * start.alpha);
         }
         self.before = Some((end.alpha, phase));
-        let motion = CurveMotion { equation, phase };
         let motion = Counted::new(&motion);
         let slopes = AccelerationSlopes::of(&motion, step);
         self.evaluations += motion.evaluations();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::coordinate::{AlongCurve, Coordinate};
 use super::result::Summary;
 use super::row::{Row, RowMaker};
-use super::stick_slip::StickSlipPhase;
+use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::mechanism::CurveEquation;
 use crate::trajectory::Trajectory;
 
@@ -53,7 +53,9 @@ impl Simulation {
             Some(interval) => {
                 let guide = maker.guide.as_deref().map(|guide| &guide.equation);
                 let equation = curve.as_deref().or(guide)?;
-                AlongCurve::new(equation, interval.phase, maker).row(t, angle, speed)
+                let phase = interval.phase;
+                let motion = CurveMotion { equation, phase };
+                AlongCurve { maker, motion }.row(t, angle, speed)
             }
             None => {
                 let alpha = trajectory.as_uniform().map(|_| 0.0);

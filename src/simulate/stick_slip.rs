@@ -71,6 +71,7 @@ impl StickSlipPhase {
 }
 
 /// Equation of motion on the configuration curve in one phase.
+#[derive(Clone, Copy)]
 pub(super) struct CurveMotion<'a> {
     pub equation: &'a CurveEquation,
     pub phase: StickSlipPhase,

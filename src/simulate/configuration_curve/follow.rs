@@ -153,10 +153,9 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let equation = self.equation;
         let friction = equation.friction();
         let [on_crank, on_slider] = equation.loads().dry_on();
-        let phase = sliding(equation, &self.signs);
-        let curve_motion = self.curve_motion(phase);
-        let motion = Counted::new(&curve_motion);
-        let looked_at = Counted::new(&curve_motion);
+        let along = self.curve_motion(sliding(equation, &self.signs));
+        let motion = Counted::new(&along);
+        let looked_at = Counted::new(&along);
         let settings = Settings {
             limit: self.settings.limit.after(self.spent()),
             ..self.settings
@@ -200,7 +199,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                     observer.event(kind, change.t, step.angle(theta), speed);
                 }
             }
-            reason = match observer.step(&step, Some(phase)) {
+            reason = match observer.step(&step, Some(along)) {
                 true => Some(EndReason::Stopped),
                 false => {
                     let vanishes = vanishing && equation.vanishes_at(step.end.theta);
@@ -225,7 +224,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 finish => EndReason::Integrator(finish),
             }));
         };
-        let last = self.shorten(&motion, &step, change, phase);
+        let last = self.shorten(&motion, &step, change, along);
         self.piece.evaluations += motion.evaluations();
         self.arrive(last);
         Ok(change)
@@ -237,7 +236,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         motion: &Counted<'_>,
         step: &Step,
         change: Change,
-        phase: StickSlipPhase,
+        along: CurveMotion<'_>,
     ) -> Step {
         let settings = &self.settings;
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
@@ -263,7 +262,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             step
         };
         rested(&until(t, &mut |step| {
-            observer.step(&rested(step), Some(phase));
+            observer.step(&rested(step), Some(along));
             false
         }))
     }

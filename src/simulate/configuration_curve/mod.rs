@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::balance::Balance;
 use super::run_setup::RunSetup;
-use super::stick_slip::StickSlipPhase;
+use super::stick_slip::CurveMotion;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
@@ -83,8 +83,9 @@ impl CurveProblem {
 
 /// Receiver of motion in time, step by step.
 pub(super) trait StepObserver {
-    /// Takes a step in a phase of the curve, or in none with the crank angle as a smooth coordinate; true ends the run.
-    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool;
+    /// Takes a step along the configuration curve, or of none with the crank angle as a smooth coordinate; true ends the
+    /// run.
+    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool;
 
     /// Takes an event on the curve.
     fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}

@@ -74,7 +74,8 @@ impl CurveRun<'_, '_> {
             ..Node::default()
         };
         let still = Step::new(angle.turns, node(t), node(until));
-        self.observer.step(&still, Some(StickSlipPhase::Sticking));
+        let along = self.curve_motion(StickSlipPhase::Sticking);
+        self.observer.step(&still, Some(along));
         self.arrive(still);
         if let Some(end) = ends {
             return Err(end);

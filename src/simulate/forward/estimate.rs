@@ -5,7 +5,6 @@
 //! balance; independent errors add up by their squares.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
@@ -16,7 +15,7 @@ use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
-use super::super::stick_slip::StickSlipPhase;
+use super::super::stick_slip::CurveMotion;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
@@ -27,7 +26,7 @@ use crate::engine::step::Step;
 use crate::engine::time::{Method, Settings, Start};
 use crate::engine::{Counted, Motion, WorkLimit};
 use crate::error::Error;
-use crate::mechanism::{CurveEquation, Equation};
+use crate::mechanism::Equation;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
@@ -76,7 +75,6 @@ pub(super) fn estimate(
                 time_settings.method,
                 moves && first_engine == Engine::Time,
             ),
-            curve: None,
             comparison: Comparison::with(&record.checkpoints),
         };
         let best = finer.run(&motion, &mut observer).ok()?;
@@ -186,8 +184,6 @@ struct SecondRunObserver<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
     rounding: RoundoffPropagation,
-    /// Configuration curve of the last piece in time, if it follows one.
-    curve: Option<Arc<CurveEquation>>,
     comparison: Comparison<'a>,
 }
 
@@ -246,7 +242,6 @@ impl PassObserver for SecondRunObserver<'_, '_> {
     }
 
     fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>) {
-        self.curve = curve.map(|curve| curve.equation.clone());
         if curve.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }
@@ -254,16 +249,16 @@ impl PassObserver for SecondRunObserver<'_, '_> {
 }
 
 impl StepObserver for SecondRunObserver<'_, '_> {
-    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
+    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
         let SecondRunObserver {
             rounding,
             comparison,
             ..
         } = self;
-        match self.curve.as_deref().zip(phase) {
-            Some((equation, phase)) => {
-                comparison.compare(step, |q| equation.curve().pose(q).dtheta);
-                rounding.step_on_curve(equation, step, phase);
+        match along {
+            Some(along) => {
+                comparison.compare(step, |q| along.equation.curve().pose(q).dtheta);
+                rounding.step_on_curve(along, step);
             }
             None => {
                 rounding.step(self.equation, self.motion, step);

@@ -12,7 +12,7 @@ use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
 use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
-use super::super::stick_slip::StickSlipPhase;
+use super::super::stick_slip::{CurveMotion, StickSlipPhase};
 use super::super::stop::Why;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult};
 use crate::engine::Counted;
@@ -88,7 +88,9 @@ impl<'a> ForwardRecorder<'a> {
         self.recorder.finish(|| {
             Some(match (result.last_step, &result.curve) {
                 (Some(last), Some(curve)) => {
-                    let along = AlongCurve::new(&curve.equation, phase, &task.maker);
+                    let (equation, maker) = (&*curve.equation, &task.maker);
+                    let motion = CurveMotion { equation, phase };
+                    let along = AlongCurve { maker, motion };
                     along.row(t, last.angle(last.end.theta), last.end.omega)
                 }
                 _ => task.maker.row(t, angle, speed, None),
@@ -108,25 +110,21 @@ impl<'a> ForwardRecorder<'a> {
             maker: &self.task.maker,
             motion: self.motion,
         };
-        self.recorder.step(&mut step, until, &crank, None) || self.ends_at.is_some()
+        self.recorder.step(&mut step, until, &crank) || self.ends_at.is_some()
     }
 
     /// Records a step along the configuration curve; true ends the run.
-    fn step_on_curve(
-        &mut self,
-        mut step: Step,
-        equation: &CurveEquation,
-        phase: StickSlipPhase,
-    ) -> bool {
-        self.phase = phase;
-        let along = AlongCurve::new(equation, phase, &self.task.maker);
-        if phase != StickSlipPhase::Sticking {
+    fn step_on_curve(&mut self, mut step: Step, motion: CurveMotion<'_>) -> bool {
+        self.phase = motion.phase;
+        let maker = &self.task.maker;
+        let along = AlongCurve { maker, motion };
+        if motion.phase != StickSlipPhase::Sticking {
             let speed = self.recorder.speed();
             let crank = |step: &Step, t: f64| along.crank_speed(step, t);
             *speed = events::follow(&mut step, along.motion(), *speed, crank);
         }
         let until = step.end.t;
-        let fails = self.recorder.step(&mut step, until, &along, Some(phase));
+        let fails = self.recorder.step(&mut step, until, &along);
         fails
             || self
                 .bounded_motion
@@ -228,9 +226,9 @@ impl<'a> ForwardRecorder<'a> {
 }
 
 impl StepObserver for ForwardRecorder<'_> {
-    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
-        match self.curve.clone().zip(phase) {
-            Some((equation, phase)) => self.step_on_curve(*step, &equation, phase),
+    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
+        match along {
+            Some(along) => self.step_on_curve(*step, along),
             None => self.step_of_crank(*step),
         }
     }

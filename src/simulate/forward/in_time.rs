@@ -10,7 +10,7 @@ use super::super::configuration_curve::{
 };
 use super::super::coordinate::crank_state;
 use super::super::guide_friction::NEARBY_ANGLE;
-use super::super::stick_slip::StickSlipPhase;
+use super::super::stick_slip::CurveMotion;
 use super::super::stop;
 use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd};
 use super::stop_reason;
@@ -166,8 +166,8 @@ struct ResumeCondition<'a, 'o> {
 }
 
 impl StepObserver for ResumeCondition<'_, '_> {
-    fn step(&mut self, step: &Step, phase: Option<StickSlipPhase>) -> bool {
-        let ends = self.observer.step(step, phase);
+    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
+        let ends = self.observer.step(step, along);
         self.is_met = !ends && self.is_met_at_end(step);
         ends || self.is_met
     }
