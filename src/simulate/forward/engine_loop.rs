@@ -35,17 +35,19 @@ pub(super) struct PassSettings<'a> {
 
 /// Receiver of the pieces of a pass.
 pub(super) trait PassObserver: StepObserver {
-    /// Takes note that an engine takes over at a time, s.
-    fn begins(&mut self, _engine: Engine, _from: f64, _why: Cow<'static, str>) {}
-
-    /// Takes a piece over the angle.
-    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error>;
+    /// Takes a piece over the angle, with the reason for its engine.
+    fn over_angle(&mut self, piece: &AnglePiece, reason: Cow<'static, str>) -> Result<(), Error>;
 
     /// Keeps the motion of a piece over the angle that is one of several.
     fn keep(&mut self, _piece: AnglePiece) {}
 
-    /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate.
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>);
+    /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate, for a reason.
+    fn begin_in_time(
+        &mut self,
+        from: Start,
+        curve: Option<&CurveProblem>,
+        reason: Cow<'static, str>,
+    );
 
     /// Ends a piece in time; returns the shortened last step if the run ends inside it.
     fn end_in_time(

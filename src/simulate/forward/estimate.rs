@@ -4,6 +4,7 @@
 //! angle changes the acceleration. The linearised motion carries these errors to the end, as they grow with it near a
 //! balance; independent errors add up by their squares.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -221,7 +222,7 @@ impl SecondRunObserver<'_, '_> {
 }
 
 impl PassObserver for SecondRunObserver<'_, '_> {
-    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece, _: Cow<'static, str>) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
         let to = Start {
@@ -241,7 +242,7 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         Ok(())
     }
 
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>) {
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, _: Cow<'static, str>) {
         if curve.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }

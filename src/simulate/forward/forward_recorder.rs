@@ -124,11 +124,13 @@ impl<'a> ForwardRecorder<'a> {
             *speed = events::follow(&mut step, along.motion(), *speed, crank);
         }
         let until = step.end.t;
-        let fails = self.recorder.step(&mut step, until, &along);
-        fails
-            || self
-                .bounded_motion
-                .is_some_and(|bounded_motion| bounded_motion.is_bounded())
+        self.recorder.step(&mut step, until, &along) || self.is_bounded()
+    }
+
+    /// Whether the crank swings to and fro, and its swing no longer grows.
+    fn is_bounded(&self) -> bool {
+        self.bounded_motion
+            .is_some_and(|motion| motion.is_bounded())
     }
 
     fn follow_speed(&mut self, step: &mut Step) {
@@ -215,11 +217,7 @@ impl<'a> ForwardRecorder<'a> {
             Crossing::Angle(_) => self.event("dead-centre", t, at, omega),
             Crossing::Turning => self.event("turning-point", t, at, 0.0),
         }
-        if what == Crossing::Turning
-            && self
-                .bounded_motion
-                .is_some_and(|bounded_motion| bounded_motion.is_bounded())
-        {
+        if what == Crossing::Turning && self.is_bounded() {
             self.ends_at = Some((t, EndsBy::BoundedMotion));
         }
     }
@@ -247,11 +245,8 @@ impl StepObserver for ForwardRecorder<'_> {
 }
 
 impl PassObserver for ForwardRecorder<'_> {
-    fn begins(&mut self, engine: Engine, from: f64, why: Cow<'static, str>) {
-        self.recorder.begins(engine, from, why);
-    }
-
-    fn over_angle(&mut self, piece: &AnglePiece) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece, reason: Cow<'static, str>) -> Result<(), Error> {
+        self.recorder.begins(piece.engine, piece.from.t, reason);
         self.recorder.orbit_piece(&mut OrbitPiece {
             orbit: &piece.run.orbit,
             begin: piece.from.t,
@@ -266,7 +261,13 @@ impl PassObserver for ForwardRecorder<'_> {
             .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>) {
+    fn begin_in_time(
+        &mut self,
+        from: Start,
+        curve: Option<&CurveProblem>,
+        reason: Cow<'static, str>,
+    ) {
+        self.recorder.begins(Engine::Time, from.t, reason);
         self.curve = curve.map(|curve| curve.equation.clone());
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
         self.passed = again.then_some(from);

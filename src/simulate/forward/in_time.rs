@@ -20,7 +20,6 @@ use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
-use crate::plan::Engine;
 use crate::scene::Extent;
 
 impl Pass<'_, '_> {
@@ -33,7 +32,6 @@ impl Pass<'_, '_> {
         self.keep();
         let pass = self.settings;
         let from = self.result.state;
-        self.observer.begins(Engine::Time, from.t, reason);
         let curve = match configuration_curve::is_followed(pass.task) {
             true => Some(pass.curve_through_start()?),
             false => None,
@@ -51,7 +49,7 @@ impl Pass<'_, '_> {
             },
             ..pass.time_settings
         };
-        self.observer.begin_in_time(start, curve);
+        self.observer.begin_in_time(start, curve, reason);
         let mut resume = ResumeCondition {
             pass,
             observer: &mut *self.observer,

@@ -119,8 +119,7 @@ impl Pass<'_, '_> {
             from,
             to,
         };
-        self.observer.begins(engine, from.t, reason);
-        self.observer.over_angle(&piece)?;
+        self.observer.over_angle(&piece, reason)?;
         result.angle_piece = Some(piece);
         Ok(())
     }

@@ -48,9 +48,9 @@ impl CycleRun {
     }
 }
 
-/// CycleRun map of a scene: runs from any energy with one set-up, which share their panels.
+/// Cycle map of a scene: runs from any energy with one set-up, which share their panels.
 pub(super) struct SceneCycleMap<'a> {
-    task: &'a RunSetup<'a>,
+    pub task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
     /// Inertia at the start, kg m².
     inertia: f64,

@@ -97,115 +97,106 @@ fn search(
     }
     let model = AngleModel::of(&task).with_shared_panels();
     let mut cycles = SceneCycleMap::new(&task, &model);
-    let seeker = OrbitSearch { task: &task, turns };
-    match (seeker.solve(&mut cycles, step), cycles.refused) {
+    match (solve(&mut cycles, turns, step), cycles.refused) {
         (Err(_), Some(why)) => Err(why),
         (found, _) => found,
     }
 }
 
-/// Search for the periodic motion of a scene.
-struct OrbitSearch<'a> {
-    task: &'a RunSetup<'a>,
-    /// Number of turns after which the loads repeat.
-    turns: u32,
+/// Solves for the periodic motion over a number of turns, after which the loads repeat.
+fn solve(cycles: &mut SceneCycleMap<'_>, turns: u32, step: f64) -> Result<PeriodicOrbit, Error> {
+    let task = cycles.task;
+    let reads = task.equation().loads().reads();
+    let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
+    if !by_speed && task.maker.guide.is_none() {
+        let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
+        // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
+        let no_gain = 1e-12;
+        if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest_kinetic {
+            let (what, load) = match cycle.gain > 0.0 {
+                true => ("gains", "brakes"),
+                false => ("loses", "drives the crank"),
+            };
+            return Err(Error::refused(
+                format!(
+                    "no steady state: no load depends on the speed, and every cycle {what} {:.6e} J",
+                    cycle.gain.abs()
+                ),
+                format!("add a load that {load} and depends on the speed"),
+            ));
+        }
+        return found(task, turns, cycle, None);
+    }
+    let fixed = fixed_point(cycles, step).map_err(no_cycle)?;
+    let cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
+    found(task, turns, cycle, Some((fixed, cycles.noise())))
 }
 
-impl OrbitSearch<'_> {
-    fn solve(&self, cycles: &mut SceneCycleMap<'_>, step: f64) -> Result<PeriodicOrbit, Error> {
-        let reads = self.task.equation().loads().reads();
-        let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
-        if !by_speed && self.task.maker.guide.is_none() {
-            let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
-            // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
-            let no_gain = 1e-12;
-            if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest_kinetic {
-                let (what, load) = match cycle.gain > 0.0 {
-                    true => ("gains", "brakes"),
-                    false => ("loses", "drives the crank"),
-                };
-                return Err(Error::refused(
-                    format!(
-                        "no steady state: no load depends on the speed, and every cycle {what} {:.6e} J",
-                        cycle.gain.abs()
-                    ),
-                    format!("add a load that {load} and depends on the speed"),
-                ));
-            }
-            return self.found(cycle, None);
-        }
-        let fixed = fixed_point(cycles, step).map_err(no_cycle)?;
-        let cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
-        self.found(cycle, Some((fixed, cycles.noise())))
+/// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
+fn found(
+    task: &RunSetup<'_>,
+    turns: u32,
+    mut cycle: CycleRun,
+    fixed: Option<(FixedPoint, f64)>,
+) -> Result<PeriodicOrbit, Error> {
+    if let Some((fixed, noise)) = fixed {
+        cycle.relative_error /= fixed.slope.abs().max(noise);
     }
+    let fixed = fixed.map(|(fixed, _)| fixed);
+    let mut found = PeriodicOrbit {
+        start: task.start(),
+        turns,
+        extremes: [Extreme {
+            turned: 0.0,
+            omega: cycle.speed,
+        }; 2],
+        // Motions do not cross: a negative multiplier is rounding.
+        multiplier: fixed.map_or(1.0, |fixed| (1.0 + fixed.slope).max(0.0)),
+        multiplier_error: fixed.map_or(0.0, |fixed| fixed.slope_error),
+        approached: fixed.is_none_or(|fixed| fixed.approached),
+        any_speed: fixed.is_none(),
+        cycle,
+    };
+    found.extremes = [-1.0, 1.0].map(|sign| extreme(task, &found, sign));
+    let known = found
+        .extremes
+        .iter()
+        .all(|extreme| extreme.omega.is_finite());
+    if known { Ok(found) } else { Err(unbounded()) }
+}
 
-    /// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
-    fn found(
-        &self,
-        mut cycle: CycleRun,
-        fixed: Option<(FixedPoint, f64)>,
-    ) -> Result<PeriodicOrbit, Error> {
-        if let Some((fixed, noise)) = fixed {
-            cycle.relative_error /= fixed.slope.abs().max(noise);
-        }
-        let fixed = fixed.map(|(fixed, _)| fixed);
-        let mut found = PeriodicOrbit {
-            start: self.task.start(),
-            turns: self.turns,
-            extremes: [Extreme {
-                turned: 0.0,
-                omega: cycle.speed,
-            }; 2],
-            // Motions do not cross: a negative multiplier is rounding.
-            multiplier: fixed.map_or(1.0, |fixed| (1.0 + fixed.slope).max(0.0)),
-            multiplier_error: fixed.map_or(0.0, |fixed| fixed.slope_error),
-            approached: fixed.is_none_or(|fixed| fixed.approached),
-            any_speed: fixed.is_none(),
-            cycle,
-        };
-        found.extremes = [-1.0, 1.0].map(|sign| self.extreme(&found, sign));
-        let known = found
-            .extremes
-            .iter()
-            .all(|extreme| extreme.omega.is_finite());
-        if known { Ok(found) } else { Err(unbounded()) }
-    }
-
-    /// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
-    fn extreme(&self, found: &PeriodicOrbit, sign: f64) -> Extreme {
-        let (sense, whole) = (found.cycle.speed.signum(), found.rotation());
-        let grid = self.task.equation().linkage().turn_grid(false).into_iter();
-        let since = |theta: f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
-        let grid: Vec<f64> = grid.map(since).collect();
-        let mut ways: Vec<f64> = angle::in_turns(&grid, 0..self.turns.into()).collect();
-        ways.push(0.0);
-        ways.sort_by(f64::total_cmp);
-        ways.dedup();
-        let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
-        let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
-        let best = best.unwrap_or(0);
-        let before = match best {
-            0 => ways[ways.len() - 1] - whole,
-            _ => ways[best - 1],
-        };
-        let after = ways.get(best + 1).copied().unwrap_or(whole);
-        let slope = |way: f64| {
-            let way = way.rem_euclid(whole);
-            // Any time but the start, at which the guide takes its sign from ahead.
-            let forward = |omega| {
-                let maker = &self.task.maker;
-                maker.forward(f64::MIN_POSITIVE, found.angle(way), omega).0
-            };
-            forward(found.omega(way))
-        };
-        let way = root::bracketed(slope, before, after)
-            .filter(|way| value(*way) > value(ways[best]))
-            .unwrap_or(ways[best])
-            .rem_euclid(whole);
-        Extreme {
-            turned: way,
-            omega: found.omega(way),
-        }
+/// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
+fn extreme(task: &RunSetup<'_>, found: &PeriodicOrbit, sign: f64) -> Extreme {
+    let (sense, whole) = (found.cycle.speed.signum(), found.rotation());
+    let grid = task.equation().linkage().turn_grid(false).into_iter();
+    let since = |theta: f64| (sense * (theta - found.start.rest)).rem_euclid(TAU);
+    let grid: Vec<f64> = grid.map(since).collect();
+    let mut ways: Vec<f64> = angle::in_turns(&grid, 0..found.turns.into()).collect();
+    ways.push(0.0);
+    ways.sort_by(f64::total_cmp);
+    ways.dedup();
+    let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
+    let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
+    let best = best.unwrap_or(0);
+    let before = match best {
+        0 => ways[ways.len() - 1] - whole,
+        _ => ways[best - 1],
+    };
+    let after = ways.get(best + 1).copied().unwrap_or(whole);
+    let slope = |way: f64| {
+        let way = way.rem_euclid(whole);
+        // Any time but the start, at which the guide takes its sign from ahead.
+        let t = f64::MIN_POSITIVE;
+        let (alpha, _) = task.maker.forward(t, found.angle(way), found.omega(way));
+        alpha
+    };
+    let way = root::bracketed(slope, before, after)
+        .filter(|way| value(*way) > value(ways[best]))
+        .unwrap_or(ways[best])
+        .rem_euclid(whole);
+    Extreme {
+        turned: way,
+        omega: found.omega(way),
     }
 }
 
