@@ -15,7 +15,7 @@ const ROUNDING_DEVIATION: f64 = 0.3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RoundoffPropagation {
     /// Standard deviations at the last step, in units of the last place.
-    pub spread: CovarianceFactor,
+    pub covariance: CovarianceFactor,
     /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
     rounds_states: bool,
     /// Number of evaluations for slopes on the configuration curve.
@@ -30,7 +30,7 @@ impl RoundoffPropagation {
     pub fn new(method: Method, moves: bool) -> RoundoffPropagation {
         let angle = if moves { ROUNDING_DEVIATION } else { 0.0 };
         RoundoffPropagation {
-            spread: CovarianceFactor::default().plus_independent(angle, 0.0),
+            covariance: CovarianceFactor::default().plus_independent(angle, 0.0),
             rounds_states: !matches!(method, Method::Picard),
             evaluations: 0,
             before: None,
@@ -40,10 +40,10 @@ impl RoundoffPropagation {
     /// Adds the rounding of a state: angle, rad, and speed, rad/s.
     pub fn round(&mut self, theta: f64, omega: f64) {
         let [angle, speed] = [theta, omega].map(|size| ROUNDING_DEVIATION * size.abs());
-        self.spread = self.spread.plus_independent(angle, speed);
+        self.covariance = self.covariance.plus_independent(angle, speed);
     }
 
-    /// Carries the spread over a step of the crank angle; adds one unit of the end acceleration and the rounded angle.
+    /// Carries the covariance over a step of the crank angle; adds a unit of the end acceleration and the rounded angle.
     pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
         let slopes = AccelerationSlopes::of(motion, step);
         let transition = slopes.transition(step);
@@ -61,34 +61,34 @@ impl RoundoffPropagation {
             let correlation = 2.0;
             size = size.max(correlation * terms / inertia);
         }
-        let carried = self.spread.propagated(&transition);
-        self.spread =
+        let carried = self.covariance.propagated(&transition);
+        self.covariance =
             carried.plus_acceleration_error(place.hypot(size), &transition, step.length());
         if self.rounds_states {
             self.round(end.theta, end.omega);
         }
     }
 
-    /// Carries the spread over a step on the configuration curve in one phase and adds the roundoff of the step.
+    /// Carries the covariance over a step on the configuration curve in one phase and adds the roundoff of the step.
     pub fn step_on_curve(&mut self, motion: CurveMotion<'_>, step: &Step) {
         let phase = motion.phase;
         let before = self.before.take();
         if phase == StickSlipPhase::Sticking {
             // At rest an error of the speed is lost.
-            self.spread = self.spread.with_speed_times(0.0);
+            self.covariance = self.covariance.with_speed_times(0.0);
             return;
         }
-        let mut spread = self.spread;
+        let mut covariance = self.covariance;
         let (start, end) = (&step.start, &step.end);
         let turned = start.omega == 0.0;
         if let Some((before, _)) = before.filter(|(before, _)| turned && *before != 0.0) {
             // An early or late turning point: the acceleration before and after it differs by the friction.
-            spread = spread.with_speed_times(start.alpha / before);
+            covariance = covariance.with_speed_times(start.alpha / before);
         }
         if turned || before.is_none_or(|(_, before)| before != phase) {
             // A piece begins at a rounded time.
             let late = ROUNDING_DEVIATION * start.t.abs();
-            spread = spread.plus_error(late * start.omega, late * start.alpha);
+            covariance = covariance.plus_error(late * start.omega, late * start.alpha);
         }
         self.before = Some((end.alpha, phase));
         let motion = Counted::new(&motion);
@@ -101,9 +101,9 @@ impl RoundoffPropagation {
         let within = place.abs() + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
-        let carried = spread.propagated(&transition);
+        let carried = covariance.propagated(&transition);
         let pushed = carried.plus_acceleration_error(within, &transition, step.length());
-        self.spread = pushed.plus_independent(angle, speed);
+        self.covariance = pushed.plus_independent(angle, speed);
     }
 }
 
@@ -114,19 +114,19 @@ impl RoundoffPropagation {
 pub(super) struct CovarianceFactor([[f64; 2]; 2]);
 
 impl CovarianceFactor {
-    /// Returns this spread, or the one before if a number overflowed.
+    /// Returns this covariance, or the one before if a number overflowed.
     fn or(self, before: &CovarianceFactor) -> CovarianceFactor {
         let finite = self.0.iter().flatten().all(|size| size.is_finite());
         if finite { self } else { *before }
     }
 
     /// Returns the standard deviation of the angle, rad.
-    pub fn angle(&self) -> f64 {
+    pub fn angle_deviation(&self) -> f64 {
         self.0[0][0].hypot(self.0[1][0])
     }
 
     /// Returns the standard deviation of the speed, rad/s.
-    pub fn speed(&self) -> f64 {
+    pub fn speed_deviation(&self) -> f64 {
         self.0[0][1].hypot(self.0[1][1])
     }
 
@@ -191,24 +191,24 @@ mod tests {
 
     #[test]
     fn independent_errors_add_up_by_their_squares() {
-        let spread = CovarianceFactor::default()
+        let covariance = CovarianceFactor::default()
             .plus_independent(3.0, 5.0)
             .plus_error(4.0, 12.0);
-        assert_close(spread.angle(), 5.0);
-        assert_close(spread.speed(), 13.0);
-        let faster = spread.with_speed_times(2.0);
-        assert_close(faster.speed(), 26.0);
+        assert_close(covariance.angle_deviation(), 5.0);
+        assert_close(covariance.speed_deviation(), 13.0);
+        let faster = covariance.with_speed_times(2.0);
+        assert_close(faster.speed_deviation(), 26.0);
     }
 
     /// A limit that is passed fast changes the speed much with the angle, and back again.
     #[test]
     fn what_is_small_beside_a_large_spread_is_kept() {
         let steep = |slope: f64| [[1.0, 0.0], [slope, 1.0]];
-        let spread = CovarianceFactor::default()
+        let covariance = CovarianceFactor::default()
             .plus_independent(1.0, 3.0)
             .propagated(&steep(1e12));
-        let back = spread.plus_error(1e-3, 1e9).propagated(&steep(-1e12));
-        assert!((back.speed() - 3.0).abs() < 1e-3, "{back:?}");
-        assert_close(back.angle(), 1f64.hypot(1e-3));
+        let back = covariance.plus_error(1e-3, 1e9).propagated(&steep(-1e12));
+        assert!((back.speed_deviation() - 3.0).abs() < 1e-3, "{back:?}");
+        assert_close(back.angle_deviation(), 1f64.hypot(1e-3));
     }
 }

@@ -97,7 +97,7 @@ fn run(
     Ok(run)
 }
 
-/// Returns the time between rows, s, of a run of turns: its duration, and with it their number, is known only at its end.
+/// Returns the time between rows, s, of a run of turns whose duration, and with it their number, only its end tells.
 fn row_step_of_open_run(task: &RunSetup<'_>) -> Option<f64> {
     let is_free = task.scene.motion.kind == MotionKind::Free;
     match (task.schedule(), task.extent) {

@@ -83,8 +83,7 @@ impl CurveProblem {
 
 /// Receiver of motion in time, step by step.
 pub(super) trait StepObserver {
-    /// Takes a step along the configuration curve, or of none with the crank angle as a smooth coordinate; true ends the
-    /// run.
+    /// Takes a step along the configuration curve, or with the crank angle as a smooth coordinate; true ends the run.
     fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool;
 
     /// Takes an event on the curve.

@@ -1,4 +1,4 @@
-//! Loop of a free motion: the engines of the plan take turns until the goal is met, and hand their pieces to an observer.
+//! Loop of a free motion: the engines of the plan take turns until the goal is met, and an observer takes their pieces.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;

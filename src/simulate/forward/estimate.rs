@@ -81,15 +81,15 @@ pub(super) fn estimate(
         let best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
         let arrives = matches!(best.end, EndReason::Done);
-        arrives.then_some((best, observer.rounding.spread, observer.comparison))
+        arrives.then_some((best, observer.rounding.covariance, observer.comparison))
     };
     let mut settings = second_settings(pass, result, record).into_iter();
-    let (best, spread, comparison) = settings.find_map(second)?;
+    let (best, covariance, comparison) = settings.find_map(second)?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    let error = distance(pass.task, result, &best, spread);
+    let error = distance(pass.task, result, &best, covariance);
     let rows = match (&result.angle_piece, &best.angle_piece) {
         _ if !result.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
@@ -146,11 +146,11 @@ fn distance(
     task: &RunSetup<'_>,
     result: &PassResult,
     best: &PassResult,
-    spread: CovarianceFactor,
+    covariance: CovarianceFactor,
 ) -> ErrorEstimate {
     let Start { t, angle, speed } = result.state;
     let [angle_noise, speed_noise] =
-        of_crank(result, spread).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
+        of_crank(result, covariance).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
     // Of the angle engine, relative to the time.
     let time_rounding = 2.5 * f64::EPSILON;
     let floor = match result.pieces_over_angle {
@@ -168,9 +168,9 @@ fn distance(
     }
 }
 
-/// Converts the spread of a coordinate at the end to that of crank angle and crank speed.
-fn of_crank(result: &PassResult, spread: CovarianceFactor) -> [f64; 2] {
-    let (angle, speed) = (spread.angle(), spread.speed());
+/// Converts the covariance of a coordinate at the end to that of crank angle and crank speed.
+fn of_crank(result: &PassResult, covariance: CovarianceFactor) -> [f64; 2] {
+    let (angle, speed) = (covariance.angle_deviation(), covariance.speed_deviation());
     let (Some(Step { end, .. }), Some(curve)) = (result.last_step, &result.curve) else {
         return [angle, speed];
     };
@@ -235,8 +235,8 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         // The roundoff of the piece is a stated error, no standard deviation.
         let unit = STATED_DEVIATIONS * f64::EPSILON;
         let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
-        let carried = self.rounding.spread.propagated(&transition);
-        self.rounding.spread = carried
+        let carried = self.rounding.covariance.propagated(&transition);
+        self.rounding.covariance = carried
             .plus_error(speed * late, self.acceleration(&to) * late)
             .plus_independent(0.0, off / (self.inertia(&to) * speed));
         Ok(())
