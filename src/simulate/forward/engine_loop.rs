@@ -33,21 +33,19 @@ pub(super) struct PassSettings<'a> {
     pub curve: OnceCell<CurveProblem>,
 }
 
+/// Reason for an engine, in words.
+pub(super) type Reason = Cow<'static, str>;
+
 /// Receiver of the pieces of a pass.
 pub(super) trait PassObserver: StepObserver {
     /// Takes a piece over the angle, with the reason for its engine.
-    fn over_angle(&mut self, piece: &AnglePiece, reason: Cow<'static, str>) -> Result<(), Error>;
+    fn over_angle(&mut self, piece: &AnglePiece, reason: Reason) -> Result<(), Error>;
 
     /// Keeps the motion of a piece over the angle that is one of several.
     fn keep(&mut self, _piece: AnglePiece) {}
 
     /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate, for a reason.
-    fn begin_in_time(
-        &mut self,
-        from: Start,
-        curve: Option<&CurveProblem>,
-        reason: Cow<'static, str>,
-    );
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, reason: Reason);
 
     /// Ends a piece in time; returns the shortened last step if the run ends inside it.
     fn end_in_time(

@@ -4,7 +4,6 @@
 //! angle changes the acceleration. The linearised motion carries these errors to the end, as they grow with it near a
 //! balance; independent errors add up by their squares.
 
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -17,7 +16,7 @@ use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
-use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings};
+use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
 };
@@ -222,7 +221,7 @@ impl SecondRunObserver<'_, '_> {
 }
 
 impl PassObserver for SecondRunObserver<'_, '_> {
-    fn over_angle(&mut self, piece: &AnglePiece, _: Cow<'static, str>) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece, _: Reason) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
         let to = Start {
@@ -242,7 +241,7 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         Ok(())
     }
 
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, _: Cow<'static, str>) {
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, _: Reason) {
         if curve.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }

@@ -1,6 +1,5 @@
 //! Recording of a free motion, whatever engine computes it: rows, events, speeds, and an end inside a step.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::angle_model::SAME_CORNER;
@@ -14,7 +13,7 @@ use super::super::row::RowSink;
 use super::super::run_setup::RunSetup;
 use super::super::stick_slip::{CurveMotion, StickSlipPhase};
 use super::super::stop::Why;
-use super::engine_loop::{AnglePiece, PassObserver, PassResult};
+use super::engine_loop::{AnglePiece, PassObserver, PassResult, Reason};
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
@@ -245,7 +244,7 @@ impl StepObserver for ForwardRecorder<'_> {
 }
 
 impl PassObserver for ForwardRecorder<'_> {
-    fn over_angle(&mut self, piece: &AnglePiece, reason: Cow<'static, str>) -> Result<(), Error> {
+    fn over_angle(&mut self, piece: &AnglePiece, reason: Reason) -> Result<(), Error> {
         self.recorder.begins(piece.engine, piece.from.t, reason);
         self.recorder.orbit_piece(&mut OrbitPiece {
             orbit: &piece.run.orbit,
@@ -261,12 +260,7 @@ impl PassObserver for ForwardRecorder<'_> {
             .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
-    fn begin_in_time(
-        &mut self,
-        from: Start,
-        curve: Option<&CurveProblem>,
-        reason: Cow<'static, str>,
-    ) {
+    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, reason: Reason) {
         self.recorder.begins(Engine::Time, from.t, reason);
         self.curve = curve.map(|curve| curve.equation.clone());
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);

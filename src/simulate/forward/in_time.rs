@@ -2,7 +2,6 @@
 //! configuration curve, past the limits of a crank and where friction or a dry load may hold it. Such a piece ends with
 //! the run, or where a crank that was near to rest turns safely again.
 
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::super::configuration_curve::{
@@ -12,7 +11,7 @@ use super::super::coordinate::crank_state;
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::CurveMotion;
 use super::super::stop;
-use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd};
+use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd, Reason};
 use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::angle::Dynamics;
@@ -24,11 +23,7 @@ use crate::scene::Extent;
 
 impl Pass<'_, '_> {
     /// Runs a piece in time, to the end or until the crank has turned by `rotation` (rad) in one direction.
-    pub fn run_time_engine(
-        &mut self,
-        rotation: f64,
-        reason: Cow<'static, str>,
-    ) -> Result<PieceEnd, Error> {
+    pub fn run_time_engine(&mut self, rotation: f64, reason: Reason) -> Result<PieceEnd, Error> {
         self.keep();
         let pass = self.settings;
         let from = self.result.state;

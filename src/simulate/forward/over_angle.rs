@@ -1,6 +1,5 @@
 //! Pieces over the crank angle, by the energy engine, which computes a whole run or none, and by the angle engine.
 
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
@@ -8,7 +7,7 @@ use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
-use super::engine_loop::{AnglePiece, Pass, PieceEnd};
+use super::engine_loop::{AnglePiece, Pass, PieceEnd, Reason};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
@@ -20,7 +19,7 @@ use crate::scene::Extent;
 
 impl Pass<'_, '_> {
     /// Computes the whole run from its energy.
-    pub fn run_energy_engine(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+    pub fn run_energy_engine(&mut self, reason: Reason) -> Result<PieceEnd, Error> {
         let (task, model) = (self.settings.task, self.settings.model);
         // A tenth of the tolerance, but no more than the last digits, as the series cost little.
         let (share, most_tail) = (0.1, 1e-14);
@@ -40,7 +39,7 @@ impl Pass<'_, '_> {
     }
 
     /// Runs a piece of the angle engine to the goal or to where the engine cannot go on.
-    pub fn run_angle_engine(&mut self, reason: Cow<'static, str>) -> Result<PieceEnd, Error> {
+    pub fn run_angle_engine(&mut self, reason: Reason) -> Result<PieceEnd, Error> {
         let pass = self.settings;
         let from = self.result.state;
         let run = self.run_over_angle().and_then(|run| match run.early_end {
@@ -98,7 +97,7 @@ impl Pass<'_, '_> {
     fn add_angle_piece(
         &mut self,
         engine: Engine,
-        reason: Cow<'static, str>,
+        reason: Reason,
         run: AngleRun,
         to: Start,
     ) -> Result<(), Error> {
