@@ -70,14 +70,12 @@ impl<'a> Evaluator<'a> {
     /// Computes and ranks a design; returns one without figures after a request to stop.
     pub fn evaluate(&self, at: Vec<f64>) -> EvaluatedPoint {
         if self.stop.is_requested() {
-            return self.candidate(at, None, Vec::new());
+            return self.ranked_point(at, None, Vec::new());
         }
         self.computed.fetch_add(1, Memory::Relaxed);
         let design = self.sweep.design_of(0, self.values(&at));
-        let Problem {
-            goal, constraints, ..
-        } = self.problem;
-        let margins = constraints.iter().map(|constraint| {
+        let goal = self.problem.goal;
+        let margins = self.problem.constraints.iter().map(|constraint| {
             let value = constraint.figure.number(&design)?;
             Some(constraint.margin(value)).filter(|margin| margin.is_finite())
         });
@@ -86,10 +84,15 @@ impl<'a> Evaluator<'a> {
         let value = goal.figure.number(&design);
         let value = value.filter(|value| value.is_finite() && is_whole);
         let objective = value.map(|value| if goal.maximise { -value } else { value });
-        self.candidate(at, objective, margins.unwrap_or_default())
+        self.ranked_point(at, objective, margins.unwrap_or_default())
     }
 
-    fn candidate(&self, at: Vec<f64>, objective: Option<f64>, margins: Vec<f64>) -> EvaluatedPoint {
+    fn ranked_point(
+        &self,
+        at: Vec<f64>,
+        objective: Option<f64>,
+        margins: Vec<f64>,
+    ) -> EvaluatedPoint {
         let scaled = margins.iter().zip(&self.scales);
         let missed = scaled.map(|(margin, scale)| -margin / scale);
         let violation = match objective {
@@ -114,7 +117,7 @@ impl<'a> Evaluator<'a> {
         self.scales = constraints.map(|i| of(&|one| one.margins[i])).collect();
         self.goal_scale = of(&|one| one.objective.unwrap_or_default());
         let sample = sample.into_iter();
-        let ranked = sample.map(|one| self.candidate(one.at, one.objective, one.margins));
+        let ranked = sample.map(|one| self.ranked_point(one.at, one.objective, one.margins));
         ranked.collect()
     }
 

@@ -39,20 +39,16 @@ impl Simulation {
     /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
     /// ```
     pub fn row(&self, t: f64) -> Option<Row> {
-        let DenseRows {
-            maker,
-            curve,
-            phases,
-        } = &self.dense;
-        let maker = maker.as_ref()?;
+        let maker = self.dense.maker.as_ref()?;
         let trajectory = self.trajectory.as_ref()?;
         let (angle, speed) = trajectory.coordinate(t)?;
+        let phases = &self.dense.phases;
         let after = phases.partition_point(|interval| interval.until < t);
         let interval = phases.get(after).filter(|interval| interval.from <= t);
         let row = match interval {
             Some(interval) => {
                 let guide = maker.guide.as_deref().map(|guide| &guide.equation);
-                let equation = curve.as_deref().or(guide)?;
+                let equation = self.dense.curve.as_deref().or(guide)?;
                 let phase = interval.phase;
                 let motion = CurveMotion { equation, phase };
                 AlongCurve { maker, motion }.row(t, angle, speed)

@@ -241,12 +241,8 @@ pub struct Torques {
 
 impl fmt::Display for Torques {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Torques {
-            by_motor,
-            drive,
-            load,
-        } = self;
-        let what = if *by_motor { "motor" } else { "crank" };
+        let what = if self.by_motor { "motor" } else { "crank" };
+        let (drive, load) = (self.drive, self.load);
         write!(f, "{what} torque {drive} N m, load {load} N m")
     }
 }

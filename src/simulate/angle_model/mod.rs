@@ -197,10 +197,8 @@ impl Dynamics for AngleModel<'_> {
         let mut forces = [0.0; N];
         let loads = self.equation.loads().of_states(&now);
         for ((force, load), at) in forces.iter_mut().zip(&loads).zip(at) {
-            let PanelPlace {
-                dx, load_effect, ..
-            } = *at.place;
-            *force = load.generalized(dx) + load_effect.friction_torque(*load);
+            let place = at.place;
+            *force = load.generalized(place.dx) + place.load_effect.friction_torque(*load);
         }
         forces
     }

@@ -250,19 +250,15 @@ impl PassObserver for SecondRunObserver<'_, '_> {
 
 impl StepObserver for SecondRunObserver<'_, '_> {
     fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
-        let SecondRunObserver {
-            rounding,
-            comparison,
-            ..
-        } = self;
         match along {
             Some(along) => {
-                comparison.compare(step, |q| along.equation.curve().pose(q).dtheta);
-                rounding.step_on_curve(along, step);
+                let rate = |q: f64| along.equation.curve().pose(q).dtheta;
+                self.comparison.compare(step, rate);
+                self.rounding.step_on_curve(along, step);
             }
             None => {
-                rounding.step(self.equation, self.motion, step);
-                comparison.compare(step, |_| 1.0);
+                self.comparison.compare(step, |_| 1.0);
+                self.rounding.step(self.equation, self.motion, step);
             }
         }
         false

@@ -62,11 +62,7 @@ impl Pass<'_, '_> {
             }
             None => of_crank(self.motion, from, &settings, &mut resume),
         };
-        let ResumeCondition {
-            is_met,
-            largest_kinetic,
-            ..
-        } = resume;
+        let (is_met, largest_kinetic) = (resume.is_met, resume.largest_kinetic);
         self.other_evaluations += piece.evaluations;
         if let Some(last) = self
             .observer
