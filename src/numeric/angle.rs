@@ -60,6 +60,12 @@ pub fn in_turn(theta: f64) -> f64 {
     theta.rem_euclid(TAU) % TAU
 }
 
+/// Returns the distance of two angles on the circle, rad.
+pub fn circular_distance(theta: f64, other: f64) -> f64 {
+    let ahead = (theta - other).rem_euclid(TAU);
+    ahead.min(TAU - ahead)
+}
+
 /// Iterates over angles of a turn, rad, repeated in each of several turns.
 pub fn in_turns(angles: &[f64], turns: impl Iterator<Item = i64>) -> impl Iterator<Item = f64> {
     turns.flat_map(move |turn| {

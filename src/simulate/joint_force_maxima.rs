@@ -9,6 +9,7 @@ use super::driving_torque::ConstantSpeedMotion;
 use super::result::{FORCES, Peak, Peaks, Summary};
 use super::simulation::Simulation;
 use crate::mechanism::{Linkage, Reactions};
+use crate::numeric::angle::circular_distance;
 use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
@@ -181,8 +182,7 @@ fn first_step(scene: &Scene, summary: &Summary) -> f64 {
 fn narrowest_peak_width(linkage: &Linkage, angle: f64, way: f64) -> f64 {
     let Linkage { r, l, e, .. } = *linkage;
     let width = |side: f64| {
-        let apart = (angle - side * FRAC_PI_2).rem_euclid(TAU);
-        let distance = apart.min(TAU - apart) - way;
+        let distance = circular_distance(angle, side * FRAC_PI_2) - way;
         ((l - (e + side * r).abs()) / r).abs().sqrt().max(distance)
     };
     width(1.0).min(width(-1.0))

@@ -9,7 +9,7 @@ use super::row_writer::RowSource;
 use super::run_setup::RunSetup;
 use crate::engine::energy::Orbit;
 use crate::engine::time::Start;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, circular_distance};
 use crate::numeric::root;
 
 /// Motion over the crank angle, or a piece of one, placed in the time of the run.
@@ -210,8 +210,7 @@ impl RowSource for OrbitPiece<'_> {
 
 /// True if a crank angle, rad, is that of a dead centre.
 pub(super) fn is_dead_centre(task: &RunSetup<'_>, theta: f64) -> bool {
-    task.limits.dead_centres.iter().any(|dead_centre| {
-        let apart = (theta - dead_centre.theta).rem_euclid(TAU);
-        apart.min(TAU - apart) <= dead_centre_tolerance(theta.abs())
-    })
+    let mut dead_centres = task.limits.dead_centres.iter();
+    let tolerance = dead_centre_tolerance(theta.abs());
+    dead_centres.any(|dead_centre| circular_distance(theta, dead_centre.theta) <= tolerance)
 }

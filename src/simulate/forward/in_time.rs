@@ -2,8 +2,6 @@
 //! configuration curve, past the limits of a crank and where friction or a dry load may hold it. Such a piece ends with
 //! the run, or where a crank that was near to rest turns safely again.
 
-use std::f64::consts::TAU;
-
 use super::super::configuration_curve::{
     self, CurveProblem, CurveRun, EndReason, StepObserver, TimePiece,
 };
@@ -18,7 +16,7 @@ use crate::engine::angle::Dynamics;
 use crate::engine::step::Step;
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, circular_distance};
 use crate::scene::Extent;
 
 impl Pass<'_, '_> {
@@ -190,9 +188,7 @@ impl ResumeCondition<'_, '_> {
 
     /// Whether an angle is apart from all corners, as they may be events.
     fn is_apart(&self, angle: Angle) -> bool {
-        let corners = self.pass.model.corners_if_light().iter();
-        corners
-            .map(|corner| (angle.rest - corner).rem_euclid(TAU))
-            .all(|ahead| ahead.min(TAU - ahead) > NEARBY_ANGLE)
+        let mut corners = self.pass.model.corners_if_light().iter();
+        corners.all(|corner| circular_distance(angle.rest, *corner) > NEARBY_ANGLE)
     }
 }
