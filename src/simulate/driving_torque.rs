@@ -68,14 +68,14 @@ impl ConstantSpeedMotion<'_> {
             let known = torque.is_finite().then_some(range);
             return known.ok_or_else(|| self.not_finite(0.0));
         }
-        let (times, whole) = self.sample_times()?;
-        let span = if whole { self.turn() } else { self.end };
+        let (times, is_one_turn) = self.sample_times()?;
+        let span = if is_one_turn { self.turn() } else { self.end };
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
         }
         // The two ends of the range have one neighbour only and are left out.
-        let ends = usize::from(whole);
+        let ends = usize::from(is_one_turn);
         let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
             let value = |i: usize| sign * torques[i];
@@ -97,7 +97,7 @@ impl ConstantSpeedMotion<'_> {
         Ok(TorqueRange {
             min_nm: -largest(-1.0),
             max_nm: largest(1.0),
-            mean_nm: self.mean(span, whole).ok_or(NoRange::Mean)?,
+            mean_nm: self.mean(span, is_one_turn).ok_or(NoRange::Mean)?,
         })
     }
 
@@ -111,19 +111,19 @@ impl ConstantSpeedMotion<'_> {
         let turn = self.turn();
         let reads = self.equation().loads().reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
-        let whole = repeats && self.end >= turn;
+        let is_one_turn = repeats && self.end >= turn;
         // Bounds the work: turns that differ are all searched.
         let most_turns = 100.0;
-        if !whole && self.end > most_turns * turn {
+        if !is_one_turn && self.end > most_turns * turn {
             return Err(NoRange::TooManyTurns(most_turns));
         }
         // A quarter more than a turn: each place of the turn has two neighbours.
-        let turned = if whole {
+        let turned = if is_one_turn {
             1.25 * TAU
         } else {
             self.speed.abs() * self.end
         };
-        Ok((self.times(turned), whole))
+        Ok((self.times(turned), is_one_turn))
     }
 
     /// Returns the times, s, of angles that resolve the loads, until the crank has turned by `until` (rad), with both
@@ -142,8 +142,8 @@ impl ConstantSpeedMotion<'_> {
     }
 
     /// Computes the mean torque over time, N m; none if not finite. Over whole turns inertia and gravity do no work.
-    fn mean(&self, span: f64, whole: bool) -> Option<f64> {
-        if whole && self.equation().loads().are_none() && self.maker.guide.is_none() {
+    fn mean(&self, span: f64, is_one_turn: bool) -> Option<f64> {
+        if is_one_turn && self.equation().loads().are_none() && self.maker.guide.is_none() {
             return Some(0.0);
         }
         if span == 0.0 {

@@ -117,13 +117,13 @@ fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
         speed,
         end: run.summary.last.t_s,
     };
-    let (parameters, whole) = drive.sample_times().ok()?;
+    let (parameters, is_one_turn) = drive.sample_times().ok()?;
     let turn = TAU / speed.abs();
     let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
     Some(Parametrization {
         parameters,
         sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
-        time: Box::new(move |t| if whole { t.rem_euclid(turn) } else { t }),
+        time: Box::new(move |t| if is_one_turn { t.rem_euclid(turn) } else { t }),
     })
 }
 

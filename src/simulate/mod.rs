@@ -1,4 +1,8 @@
 //! Forward dynamics: a scene in; trajectory, rows and summary out; engines of the plan take turns between events.
+//!
+//! A free run goes through `run`, `run_setup`, `forward` and its `engine_loop`, to the engines by `over_angle` and
+//! `in_time`; `forward_recorder` and `recorder` take rows, events and motion; `estimate` states the error; `outcome`
+//! makes the result, a `simulation`.
 
 mod angle_model;
 mod balance;

@@ -150,7 +150,7 @@ impl<'a> Recorder<'a> {
     /// Records a step until a time (s) inside it; true if a row failed, which ends the run.
     pub fn step(&mut self, step: &mut Step, until: f64, along: &dyn Coordinate) -> bool {
         self.record.checkpoints.add(step);
-        let mut part = InStep {
+        let mut part = StepRows {
             step,
             until,
             along,
@@ -212,7 +212,7 @@ impl<'a> Recorder<'a> {
 }
 
 /// Step until a time inside it, refined where it is read between its ends.
-struct InStep<'a> {
+struct StepRows<'a> {
     step: &'a mut Step,
     /// Last time, s.
     until: f64,
@@ -221,7 +221,7 @@ struct InStep<'a> {
     start: Angle,
 }
 
-impl RowSource for InStep<'_> {
+impl RowSource for StepRows<'_> {
     fn times(&self) -> [f64; 2] {
         [self.step.start.t, self.until]
     }

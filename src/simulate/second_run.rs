@@ -70,31 +70,31 @@ impl Checkpoints {
 
 /// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
 pub(super) struct Comparison<'a> {
-    left: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
+    remaining: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
     /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
-    farthest: [f64; 2],
+    largest_difference: [f64; 2],
 }
 
 impl<'a> Comparison<'a> {
     pub fn with(checkpoints: &'a Checkpoints) -> Comparison<'a> {
         let Checkpoints { first, later, .. } = checkpoints;
         Comparison {
-            left: first.iter().chain(later).peekable(),
-            farthest: [0.0; 2],
+            remaining: first.iter().chain(later).peekable(),
+            largest_difference: [0.0; 2],
         }
     }
 
     /// Compares states inside a step of the second run. `rate`: derivative of the crank angle at a coordinate.
     pub fn compare(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
-        while let Some(first) = self.left.next_if(|first| first.end.t <= step.end.t) {
+        while let Some(first) = self.remaining.next_if(|first| first.end.t <= step.end.t) {
             let node = &first.end;
             if node.t >= step.start.t {
                 let (theta, omega) = step.at(node.t);
                 let way = step.angle(theta).minus(first.angle(node.theta));
                 let apart = [way, omega - node.omega];
                 let rate = rate(node.theta);
-                for (farthest, apart) in self.farthest.iter_mut().zip(apart) {
-                    *farthest = farthest.max((rate * apart).abs());
+                for (largest, apart) in self.largest_difference.iter_mut().zip(apart) {
+                    *largest = largest.max((rate * apart).abs());
                 }
             }
         }
@@ -102,7 +102,7 @@ impl<'a> Comparison<'a> {
 
     /// Returns the larger of the known error at the end and the errors at the checkpoints.
     pub fn worst(&self, end: ErrorEstimate) -> ErrorEstimate {
-        let [angle, speed] = self.farthest.map(|farthest| MARGIN * farthest);
+        let [angle, speed] = self.largest_difference.map(|largest| MARGIN * largest);
         end.max(ErrorEstimate {
             theta_rad: angle,
             omega_rad_per_s: speed,

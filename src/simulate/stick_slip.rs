@@ -161,7 +161,7 @@ impl Motion for CurveMotion<'_> {
 pub(super) struct CurveEvents<'a> {
     pub equation: &'a CurveEquation,
     /// Crank angle at the start and largest rotation of the crank from there, rad.
-    pub turning: Option<(Angle, f64)>,
+    pub turn_limit: Option<(Angle, f64)>,
     pub evaluations: Cell<u64>,
     /// Signs of the speeds that dry loads oppose.
     pub opposed: Cell<Sense>,
@@ -180,7 +180,7 @@ impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
             }
             None => (1.0, 1.0),
         };
-        let turned = self.turning.map_or(1.0, |(start, limit)| {
+        let turned = self.turn_limit.map_or(1.0, |(start, limit)| {
             limit - curve.crank_angle(angle).minus(start).abs()
         });
         // In the order of `EventIndex`.

@@ -39,13 +39,13 @@ fn event(index: EventIndex) -> Option<&'static str> {
 }
 
 impl<'a, 'o> CurveRun<'a, 'o> {
-    /// Runs a piece from a state of the coordinate. `turning`: crank angle at the start of the turns, and the largest
+    /// Runs a piece from a state of the coordinate. `turn_limit`: crank angle at the start of the turns, and the largest
     /// rotation from there (rad); none without a turn limit.
     pub fn run(
         equation: &'a CurveEquation,
         settings: Settings<'a>,
         start: Start,
-        turning: Option<(Angle, f64)>,
+        turn_limit: Option<(Angle, f64)>,
         observer: &'o mut dyn StepObserver,
     ) -> TimePiece {
         let Start { t, angle, speed } = start;
@@ -60,7 +60,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             settings,
             events: CurveEvents {
                 equation,
-                turning,
+                turn_limit,
                 evaluations: Cell::new(0),
                 opposed: Cell::default(),
             },
@@ -138,7 +138,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             }
             of => {
                 self.signs[index] = -self.signs[index];
-                self.oppose(of);
+                self.update_dry_signs(of);
                 if let Some(kind) = event(of) {
                     let Start { angle, speed, .. } = self.state;
                     self.observer.event(kind, t, angle, speed);

@@ -42,7 +42,7 @@ impl CurveRun<'_, '_> {
     fn rest(&mut self, mu_static: f64) -> Result<f64, EndReason> {
         let Start { t, angle, .. } = self.state;
         let equation = self.equation;
-        let is_open = self.events.turning.is_some();
+        let is_open = self.events.turn_limit.is_some();
         // A run of turns has no last time: it seeks a release for this many times its time up to now, or this many s.
         let search_span = 1e3;
         let end = match is_open {
@@ -127,13 +127,13 @@ impl CurveRun<'_, '_> {
         let equation = self.equation;
         if equation.loads().are_dry() {
             // The signs of the speeds determine the sign of N.
-            let seen = self.seen(direction);
-            self.events.opposed.set(opposed(equation, &seen));
+            let signs_ahead = self.signs_ahead(direction);
+            self.events.opposed.set(opposed(equation, &signs_ahead));
         }
-        self.seen(direction)
+        self.signs_ahead(direction)
     }
 
-    fn seen(&self, direction: f64) -> Signs {
+    fn signs_ahead(&self, direction: f64) -> Signs {
         let Start { t, angle, speed } = self.state;
         let values = self.events.values(t, angle, speed);
         let ahead = self
@@ -151,12 +151,12 @@ impl CurveRun<'_, '_> {
     }
 
     /// Updates the signs where dry loads reverse and the normal force jumps.
-    pub fn oppose(&mut self, index: EventIndex) {
+    pub fn update_dry_signs(&mut self, index: EventIndex) {
         let equation = self.equation;
         if equation.loads().are_dry() && matches!(index, DeadCentre | CrankRate) {
             self.events.opposed.set(opposed(equation, &self.signs));
             let direction = self.signs[Speed as usize];
-            self.signs[NormalForce as usize] = self.seen(direction)[NormalForce as usize];
+            self.signs[NormalForce as usize] = self.signs_ahead(direction)[NormalForce as usize];
         }
     }
 }

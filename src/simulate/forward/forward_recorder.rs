@@ -36,7 +36,7 @@ pub(super) struct ForwardRecorder<'a> {
     /// Time (s) and reason of an end inside the last step.
     ends_at: Option<(f64, EndsBy)>,
     /// Start of a piece at a dead centre that is already recorded.
-    passed: Option<Start>,
+    recorded_dead_centre: Option<Start>,
     crossings: Vec<(f64, Crossing)>,
     /// Configuration curve of the last piece in time, if it follows one.
     curve: Option<Arc<CurveEquation>>,
@@ -66,7 +66,7 @@ impl<'a> ForwardRecorder<'a> {
             dead_centres: task.dead_centres(),
             bounded_motion: BoundedMotion::new(task, task.start()),
             ends_at: None,
-            passed: None,
+            recorded_dead_centre: None,
             crossings: Vec::new(),
             curve: None,
             phase: StickSlipPhase::Sticking,
@@ -194,7 +194,7 @@ impl<'a> ForwardRecorder<'a> {
             if t > end * (1.0 + 8.0 * f64::EPSILON) {
                 break;
             }
-            self.happens(step, t.min(end), what);
+            self.record_crossing(step, t.min(end), what);
             if matches!(self.ends_at, Some((_, EndsBy::BoundedMotion))) {
                 break;
             }
@@ -203,12 +203,12 @@ impl<'a> ForwardRecorder<'a> {
     }
 
     /// Records a crossing at a time (s) of a step, and the end of the run if the crank is caught.
-    fn happens(&mut self, step: &Step, t: f64, what: Crossing) {
+    fn record_crossing(&mut self, step: &Step, t: f64, what: Crossing) {
         let (theta, omega) = step.at(t);
         let at = step.angle(theta);
-        if let Some(passed) = self.passed.take()
-            && at.minus(passed.angle).abs() < SAME_CORNER
-            && omega * passed.speed > 0.0
+        if let Some(known) = self.recorded_dead_centre.take()
+            && at.minus(known.angle).abs() < SAME_CORNER
+            && omega * known.speed > 0.0
         {
             return;
         }
@@ -264,7 +264,7 @@ impl PassObserver for ForwardRecorder<'_> {
         self.recorder.begins(Engine::Time, from.t, reason);
         self.curve = curve.map(|curve| curve.equation.clone());
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);
-        self.passed = again.then_some(from);
+        self.recorded_dead_centre = again.then_some(from);
         if curve.is_some() && !self.task.turns_fully() {
             self.bounded_motion = BoundedMotion::new(self.task, from.angle);
         }

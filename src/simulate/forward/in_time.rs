@@ -55,8 +55,8 @@ impl Pass<'_, '_> {
         let mut piece = match curve {
             Some(curve) => {
                 let limit = pass.extent.angle();
-                let turning = limit.map(|limit| (pass.task.start(), limit));
-                CurveRun::run(&curve.equation, settings, start, turning, &mut resume)
+                let turn_limit = limit.map(|limit| (pass.task.start(), limit));
+                CurveRun::run(&curve.equation, settings, start, turn_limit, &mut resume)
             }
             None => of_crank(self.motion, from, &settings, &mut resume),
         };
