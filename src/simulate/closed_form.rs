@@ -62,6 +62,7 @@ pub(super) fn run<'a>(
     // The limit itself has no finite velocity.
     let mut record = recorder.finish(|| blocked.is_none().then(|| motion.row(end)))?;
     (record.events, record.events_total) = passages::at_constant_speed(task, end);
+    record.trajectory = Some(Trajectory::uniform(start, speed, end));
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
         Some(_) => Why::Locked,
         None => Why::DrivenToLimit,
@@ -88,7 +89,6 @@ pub(super) fn run<'a>(
     };
     let mut run = outcome.conclude(task);
     run.summary.driving_torque = torque;
-    run.trajectory = Some(Trajectory::uniform(start, speed, end));
     Ok(run)
 }
 

@@ -13,7 +13,6 @@ use super::warning::Warning;
 use crate::engine::time::Start;
 use crate::plan::Engine;
 use crate::scene::Extent;
-use crate::trajectory::Trajectory;
 
 /// End of a run, as input of its result.
 pub(super) struct Outcome {
@@ -149,10 +148,10 @@ impl Outcome {
         };
         Simulation {
             summary,
-            trajectory: record.motion.map(Trajectory::joined),
+            trajectory: record.trajectory,
             dense: DenseRows {
                 maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
-                curve: None,
+                curve: record.curve,
                 phases: record.phases,
             },
         }

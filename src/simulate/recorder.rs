@@ -1,6 +1,7 @@
 //! Recorder of a run: rows, events, extreme speeds and the dense motion, whatever engine computes the pieces.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::coordinate::Coordinate;
@@ -15,6 +16,7 @@ use super::simulation::PhaseInterval;
 use crate::engine::PIECES;
 use crate::engine::step::Step;
 use crate::error::Error;
+use crate::mechanism::CurveEquation;
 use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::plan::Engine;
@@ -28,8 +30,10 @@ pub(super) struct Record {
     pub events_total: u64,
     /// Least and largest crank speed, rad/s.
     pub speed_range: (f64, f64),
-    /// Pieces of the dense motion; none without room for all.
-    pub motion: Option<Vec<Trajectory>>,
+    /// Dense motion; none without room for all of it.
+    pub trajectory: Option<Trajectory>,
+    /// Configuration curve whose coordinate the whole motion has; none for the crank angle.
+    pub curve: Option<Arc<CurveEquation>>,
     /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
     pub phases: Vec<PhaseInterval>,
     /// Engines that ran, in order, if they took turns.
@@ -60,6 +64,8 @@ pub(super) struct Recorder<'a> {
     room: usize,
     /// Refined steps of the current piece.
     steps: Vec<Step>,
+    /// Pieces of the dense motion; none without room for all.
+    motion: Option<Vec<Trajectory>>,
     record: Record,
     /// First error of the row sink.
     error: Option<Error>,
@@ -76,9 +82,9 @@ impl<'a> Recorder<'a> {
             writer: RowWriter::new(rows, schedule),
             room: task.steps_kept,
             steps: Vec::new(),
+            motion: (task.steps_kept > 0).then(Vec::new),
             record: Record {
                 speed_range: (task.speed, task.speed),
-                motion: (task.steps_kept > 0).then(Vec::new),
                 ..Record::default()
             },
             error: None,
@@ -141,7 +147,7 @@ impl<'a> Recorder<'a> {
     /// Keeps the motion of a piece over the crank angle, if there is room.
     pub fn keep(&mut self, piece: impl FnOnce() -> Trajectory) {
         if self.takes_room()
-            && let Some(pieces) = &mut self.record.motion
+            && let Some(pieces) = &mut self.motion
         {
             pieces.push(piece());
         }
@@ -159,7 +165,7 @@ impl<'a> Recorder<'a> {
         if self.rows(&mut part) {
             return true;
         }
-        if self.record.motion.is_some() && self.takes_room() {
+        if self.motion.is_some() && self.takes_room() {
             step.refine(along.motion());
             self.steps.push(*step);
             if let Some(phase) = along.phase() {
@@ -175,7 +181,7 @@ impl<'a> Recorder<'a> {
 
     /// Keeps a step of the motion as it stands, if there is room.
     pub fn keep_step(&mut self, step: Step) {
-        if self.record.motion.is_some() && self.takes_room() {
+        if self.motion.is_some() && self.takes_room() {
             self.steps.push(step);
         }
     }
@@ -183,7 +189,7 @@ impl<'a> Recorder<'a> {
     /// Joins the steps since the last piece into one that ends at a time (s), or at the end of the last step.
     pub fn end_piece(&mut self, end: f64) {
         let steps = std::mem::take(&mut self.steps);
-        if let (Some(last), Some(pieces)) = (steps.last(), &mut self.record.motion) {
+        if let (Some(last), Some(pieces)) = (steps.last(), &mut self.motion) {
             let end = end.min(last.end.t);
             pieces.push(Trajectory::from_steps(steps, end));
         }
@@ -195,6 +201,7 @@ impl<'a> Recorder<'a> {
             return Err(error);
         }
         self.record.row_time = self.writer.spent;
+        self.record.trajectory = self.motion.map(Trajectory::joined);
         self.writer.finish(last)?;
         Ok(self.record)
     }
@@ -204,7 +211,7 @@ impl<'a> Recorder<'a> {
         let room = self.room.checked_sub(1);
         self.room = room.unwrap_or(0);
         if room.is_none() {
-            self.record.motion = None;
+            self.motion = None;
             self.steps = Vec::new();
         }
         room.is_some()

@@ -69,13 +69,13 @@ pub(super) fn run(
         estimate = estimate::estimate(&pass, &result, &record, wants_rows);
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
     }
-    let at = result.state;
+    let (at, over_angle) = (result.state, result.pieces_over_angle > 0);
     let outcome = Outcome {
         at,
         // An engine over the angle names the run, if any piece was over the angle.
         engine: match &result.angle_piece {
             Some(piece) => piece.engine,
-            None if result.pieces_over_angle > 0 => Engine::Angle,
+            None if over_angle => Engine::Angle,
             None => Engine::Time,
         },
         turned: at.angle.minus(task.start()),
@@ -86,13 +86,13 @@ pub(super) fn run(
         wall_s,
         warnings,
         stopped,
-        record,
+        record: with_motion(record, result),
     };
-    let outcome = match result.pieces_over_angle {
-        0 => outcome,
-        _ => outcome.with_bounded_speeds(task),
+    let outcome = match over_angle {
+        true => outcome.with_bounded_speeds(task),
+        false => outcome,
     };
-    Ok(with_motion(outcome.conclude(task), result))
+    Ok(outcome.conclude(task))
 }
 
 fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> Balance {
@@ -114,17 +114,17 @@ fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> 
 }
 
 /// Adds the dense motion of a run in one piece: over the angle as it stands, along a curve converted to the crank.
-fn with_motion(mut run: Simulation, result: PassResult) -> Simulation {
+fn with_motion(mut record: Record, result: PassResult) -> Record {
     if !result.is_one_piece() {
-        return run;
+        return record;
     }
     if let Some(piece) = result.angle_piece {
-        run.trajectory = Some(Trajectory::orbit(piece.run.orbit, 0.0, piece.to.t));
+        record.trajectory = Some(Trajectory::orbit(piece.run.orbit, 0.0, piece.to.t));
     }
     if let Some(CurveProblem { equation, .. }) = result.curve {
-        let motion = run.trajectory;
-        run.trajectory = motion.map(|motion| motion.mapped_to_crank(equation.clone()));
-        run.dense.curve = Some(equation);
+        let motion = record.trajectory;
+        record.trajectory = motion.map(|motion| motion.mapped_to_crank(equation.clone()));
+        record.curve = Some(equation);
     }
-    run
+    record
 }
