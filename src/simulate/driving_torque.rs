@@ -40,12 +40,8 @@ impl ConstantSpeedMotion<'_> {
 
     /// Returns the reason that the torque has no finite value at a time, s.
     fn not_finite(&self, t: f64) -> NoRange {
-        let angle = self.start.plus(self.speed * t);
-        let at = Start {
-            t,
-            angle,
-            speed: self.speed,
-        };
+        let (angle, speed) = (self.start.plus(self.speed * t), self.speed);
+        let at = Start { t, angle, speed };
         NoRange::NotFinite {
             at_limit: !self.equation().linkage().pose(angle.rest).is_regular(),
             load: self.maker.without_value(at).map(Box::new),

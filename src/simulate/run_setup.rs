@@ -44,6 +44,7 @@ impl<'a> RunSetup<'a> {
     ) -> Result<RunSetup<'a>, Error> {
         let plan = Plan::of_run(scene, options.method)?;
         let equation = Equation::new(scene);
+        let reactor = options.reactions.then(|| Reactor::new(scene));
         Ok(RunSetup {
             scene,
             options,
@@ -57,10 +58,7 @@ impl<'a> RunSetup<'a> {
             steps_kept,
             limits: Limits::new(equation.linkage(), scene.motion.speed),
             maker: RowMaker {
-                reactor: match options.reactions {
-                    true => Some(Arc::new(Reactor::new(scene)?)),
-                    false => None,
-                },
+                reactor: reactor.transpose()?.map(Arc::new),
                 driving_torque: options.driving_torque,
                 guide: GuideFriction::new(scene, &equation).map(Arc::new),
                 equation: Arc::new(equation),
@@ -97,8 +95,7 @@ impl<'a> RunSetup<'a> {
 
     /// Lists the dead centres, rad in [0, 2π).
     pub fn dead_centres(&self) -> Vec<f64> {
-        let dead_centres = self.limits.dead_centres.iter();
-        dead_centres.map(|dc| dc.theta).collect()
+        self.limits.dead_centres.iter().map(|dc| dc.theta).collect()
     }
 
     /// True if the inertia vanishes at a dead centre, where the speed of a crank without inertia has no bound.

@@ -13,7 +13,7 @@ const MOST_DECIMALS: i32 = 300;
 
 impl Digits {
     /// Decimals and digits of an empty list.
-    pub const NONE: Digits = Digits {
+    pub const EMPTY: Digits = Digits {
         decimals: -MOST_DECIMALS,
         significant: 1,
     };

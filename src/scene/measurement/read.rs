@@ -98,7 +98,7 @@ impl Samples {
     fn with_room_for(count: usize, columns: usize) -> Samples {
         Samples {
             columns: vec![Vec::with_capacity(count); columns],
-            digits: Digits::NONE,
+            digits: Digits::EMPTY,
             wrong: Listed::default(),
         }
     }

@@ -48,11 +48,8 @@ impl CurveProblem {
             0.0 => 0.0,
             speed => speed / curve.pose(angle.rest).dtheta,
         };
-        let start = Start {
-            t: 0.0,
-            angle,
-            speed,
-        };
+        let t = 0.0;
+        let start = Start { t, angle, speed };
         let equation = Arc::new(CurveEquation::new(task.scene, curve));
         Some(CurveProblem { equation, start })
     }

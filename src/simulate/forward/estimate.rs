@@ -224,11 +224,8 @@ impl PassObserver for SecondRunObserver<'_, '_> {
     fn over_angle(&mut self, piece: &AnglePiece, _: Reason) -> Result<(), Error> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
-        let to = Start {
-            t: to.t,
-            angle,
-            speed,
-        };
+        let t = to.t;
+        let to = Start { t, angle, speed };
         let errors = &run.errors;
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.

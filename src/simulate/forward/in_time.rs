@@ -13,7 +13,7 @@ use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd, Reason};
 use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::angle::Dynamics;
-use crate::engine::step::Step;
+use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, Settings, Start};
 use crate::error::Error;
 use crate::numeric::angle::{Angle, circular_distance};
@@ -68,12 +68,11 @@ impl Pass<'_, '_> {
         {
             (piece.last, piece.work, piece.end) = (last, last.end.work, EndReason::Done);
         }
-        let end = &piece.last.end;
-        let coordinate = Start {
-            t: end.t,
-            angle: piece.last.angle(end.theta),
-            speed: end.omega,
-        };
+        let Node {
+            t, theta, omega, ..
+        } = piece.last.end;
+        let (angle, speed) = (piece.last.angle(theta), omega);
+        let coordinate = Start { t, angle, speed };
         let result = &mut self.result;
         let crank = |curve: &CurveProblem| crank_state(&curve.equation, coordinate);
         result.state = curve.map_or(coordinate, crank);
@@ -141,7 +140,7 @@ impl PassSettings<'_> {
 struct ResumeCondition<'a, 'o> {
     pass: &'a PassSettings<'a>,
     observer: &'o mut dyn PassObserver,
-    /// Rotation in one direction that is waited for, rad.
+    /// Rotation in one direction, rad, after which the angle engine may resume.
     rotation: f64,
     /// Crank angle at the last turning point.
     turning_point: Angle,
