@@ -25,10 +25,9 @@ impl Pass<'_, '_> {
         self.keep();
         let pass = self.settings;
         let from = self.result.state;
-        let curve = match configuration_curve::is_followed(pass.task) {
-            true => Some(pass.curve_through_start()?),
-            false => None,
-        };
+        let is_followed = configuration_curve::is_followed(pass.task);
+        let curve = is_followed.then(|| pass.curve_through_start());
+        let curve = curve.transpose()?;
         // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
         let start = match curve {
             Some(curve) if !self.has_begun() => curve.start,
