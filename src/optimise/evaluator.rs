@@ -24,7 +24,7 @@ pub(super) struct Evaluator<'a> {
 
 /// A design with its goal and its violation of the limits.
 #[derive(Clone, Debug)]
-pub(super) struct EvaluatedPoint {
+pub(super) struct Evaluation {
     /// Point of the unit box, one coordinate per key.
     pub at: Vec<f64>,
     /// Goal, to be minimised (sign reversed for a maximum); none if the design or a figure could not be computed.
@@ -35,7 +35,7 @@ pub(super) struct EvaluatedPoint {
     pub violation: f64,
 }
 
-impl EvaluatedPoint {
+impl Evaluation {
     /// Returns the goal figure with its own sign.
     pub fn value(&self, goal: Goal) -> Option<f64> {
         self.objective
@@ -43,8 +43,8 @@ impl EvaluatedPoint {
     }
 
     /// Orders by Deb's rules, better designs first: by violation, then by goal.
-    pub fn order(&self, other: &EvaluatedPoint) -> Ordering {
-        let objective = |one: &EvaluatedPoint| one.objective.unwrap_or(f64::INFINITY);
+    pub fn order(&self, other: &Evaluation) -> Ordering {
+        let objective = |one: &Evaluation| one.objective.unwrap_or(f64::INFINITY);
         let violation = self.violation.total_cmp(&other.violation);
         violation.then(objective(self).total_cmp(&objective(other)))
     }
@@ -68,9 +68,9 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Computes and ranks a design; returns one without figures after a request to stop.
-    pub fn evaluate(&self, at: Vec<f64>) -> EvaluatedPoint {
+    pub fn evaluate(&self, at: Vec<f64>) -> Evaluation {
         if self.stop.is_requested() {
-            return self.ranked_point(at, None, Vec::new());
+            return self.ranked(at, None, Vec::new());
         }
         self.computed.fetch_add(1, Memory::Relaxed);
         let design = self.sweep.design_of(0, self.values(&at));
@@ -84,22 +84,17 @@ impl<'a> Evaluator<'a> {
         let value = goal.figure.number(&design);
         let value = value.filter(|value| value.is_finite() && is_whole);
         let objective = value.map(|value| if goal.maximise { -value } else { value });
-        self.ranked_point(at, objective, margins.unwrap_or_default())
+        self.ranked(at, objective, margins.unwrap_or_default())
     }
 
-    fn ranked_point(
-        &self,
-        at: Vec<f64>,
-        objective: Option<f64>,
-        margins: Vec<f64>,
-    ) -> EvaluatedPoint {
+    fn ranked(&self, at: Vec<f64>, objective: Option<f64>, margins: Vec<f64>) -> Evaluation {
         let scaled = margins.iter().zip(&self.scales);
         let missed = scaled.map(|(margin, scale)| -margin / scale);
         let violation = match objective {
             Some(_) => missed.fold(0.0, f64::max),
             None => f64::INFINITY,
         };
-        EvaluatedPoint {
+        Evaluation {
             at,
             objective,
             margins,
@@ -108,8 +103,8 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Sets the scales from a sample and ranks the sample again with them.
-    pub fn calibrate(&mut self, sample: Vec<EvaluatedPoint>) -> Vec<EvaluatedPoint> {
-        let of = |value: &dyn Fn(&EvaluatedPoint) -> f64| {
+    pub fn calibrate(&mut self, sample: Vec<Evaluation>) -> Vec<Evaluation> {
+        let of = |value: &dyn Fn(&Evaluation) -> f64| {
             let computed = sample.iter().filter(|one| one.objective.is_some());
             interquartile_range(computed.map(value).collect())
         };
@@ -117,17 +112,17 @@ impl<'a> Evaluator<'a> {
         self.scales = constraints.map(|i| of(&|one| one.margins[i])).collect();
         self.goal_scale = of(&|one| one.objective.unwrap_or_default());
         let sample = sample.into_iter();
-        let ranked = sample.map(|one| self.ranked_point(one.at, one.objective, one.margins));
+        let ranked = sample.map(|one| self.ranked(one.at, one.objective, one.margins));
         ranked.collect()
     }
 
     /// Returns the scaled goal, `worst` for a design without goal.
-    pub fn scaled_objective(&self, one: &EvaluatedPoint, worst: f64) -> f64 {
+    pub fn scaled_objective(&self, one: &Evaluation, worst: f64) -> f64 {
         one.objective.map_or(worst, |value| value / self.goal_scale)
     }
 
     /// Returns the scaled margin to a limit, positive if met; -1, a violation by one scale, without figures.
-    pub fn scaled_margin(&self, one: &EvaluatedPoint, constraint: usize) -> f64 {
+    pub fn scaled_margin(&self, one: &Evaluation, constraint: usize) -> f64 {
         let margin = one.margins.get(constraint).copied();
         margin.map_or(-1.0, |margin| margin / self.scales[constraint])
     }
@@ -139,7 +134,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Whether goals (scaled) and violations of two designs agree to [`AGREEMENT`].
-    pub fn agree(&self, one: &EvaluatedPoint, other: &EvaluatedPoint) -> bool {
+    pub fn agree(&self, one: &Evaluation, other: &Evaluation) -> bool {
         let objectives = one.objective.zip(other.objective);
         let near = objectives.is_some_and(|(a, b)| (a - b).abs() <= AGREEMENT * self.goal_scale);
         near && (one.violation - other.violation).abs() <= AGREEMENT
@@ -147,7 +142,7 @@ impl<'a> Evaluator<'a> {
 
     /// Returns the least significant difference of the goal: |goal| times the relative error of the motion (speed error
     /// to fastest speed, angle error to angle travelled) or of the steady fluctuation; at least [`LEAST_IMPROVEMENT`] of the scale.
-    pub fn resolution(&self, one: &EvaluatedPoint) -> f64 {
+    pub fn resolution(&self, one: &Evaluation) -> f64 {
         let objective = one.objective.map_or(0.0, f64::abs);
         let least = LEAST_IMPROVEMENT * self.goal_scale;
         if self.problem.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
@@ -171,7 +166,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Whether `one` beats `other`: by more than `resolution` in goal at equal violation, else [`LEAST_IMPROVEMENT`] in violation.
-    pub fn improves(&self, one: &EvaluatedPoint, other: &EvaluatedPoint, resolution: f64) -> bool {
+    pub fn improves(&self, one: &Evaluation, other: &Evaluation, resolution: f64) -> bool {
         if one.order(other) != Ordering::Less {
             return false;
         }

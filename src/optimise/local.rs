@@ -4,33 +4,33 @@ use std::cell::RefCell;
 
 use cobyla::{RhoBeg, StopTols, minimize};
 
-use super::evaluator::{EvaluatedPoint, Evaluator};
+use super::evaluator::{Evaluation, Evaluator};
 
 /// Result of one local search.
 #[derive(Clone, Debug)]
-pub(super) struct LocalSearchResult {
+pub(super) struct LocalOptimum {
     /// Start, in the unit box.
     pub from: Vec<f64>,
     /// Best design of the search.
-    pub end: EvaluatedPoint,
+    pub end: Evaluation,
     /// Number of designs computed.
     pub designs: u64,
 }
 
 /// Last design of a search, cached because COBYLA asks for goal and limits one by one, and the best design.
-struct SearchHistory {
-    last: EvaluatedPoint,
-    best: EvaluatedPoint,
+struct Incumbent {
+    last: Evaluation,
+    best: Evaluation,
     designs: u64,
 }
 
 /// Runs COBYLA from a design, initial trust radius `step` in parts of the ranges; `worst` replaces a missing goal.
 pub(super) fn search(
     evaluator: &Evaluator,
-    from: EvaluatedPoint,
+    from: Evaluation,
     step: f64,
     worst: f64,
-) -> LocalSearchResult {
+) -> LocalOptimum {
     let start = from.at.clone();
     let keys = start.len();
     // COBYLA needs a few dozen designs per key where no valley is curved.
@@ -39,7 +39,7 @@ pub(super) fn search(
     // to meet limits.
     let last_step = 1e-10;
     let safety_margin = 10.0 * last_step;
-    let seen = RefCell::new(SearchHistory {
+    let seen = RefCell::new(Incumbent {
         last: from.clone(),
         best: from,
         designs: 0,
@@ -78,8 +78,8 @@ pub(super) fn search(
         RhoBeg::All(step),
         Some(tolerances),
     );
-    let SearchHistory { best, designs, .. } = seen.into_inner();
-    LocalSearchResult {
+    let Incumbent { best, designs, .. } = seen.into_inner();
+    LocalOptimum {
         from: start,
         end: best,
         designs,

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use statrs::function::gamma::gamma;
 
 use super::FinalSweeps;
-use super::evaluator::{EvaluatedPoint, Evaluator};
-use super::local::{LocalSearchResult, search};
+use super::evaluator::{Evaluation, Evaluator};
+use super::local::{LocalOptimum, search};
 use crate::error::Error;
 use crate::numeric::parallel;
 use crate::sweep::LatinHypercube;
@@ -19,8 +19,8 @@ const HALF_WIDTHS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Result of the global search, in the unit box.
 pub(super) struct SearchResult {
-    pub best: EvaluatedPoint,
-    pub starts: Vec<LocalSearchResult>,
+    pub best: Evaluation,
+    pub starts: Vec<LocalOptimum>,
     pub proof: FinalSweeps,
     /// Least significant difference of the goal.
     pub resolution: f64,
@@ -37,7 +37,7 @@ pub(super) fn run(
     let explored = explore(evaluator, sample)?;
     evaluator.stop.reach(0.2);
     let mut sorted = evaluator.calibrate(explored);
-    sorted.sort_by(EvaluatedPoint::order);
+    sorted.sort_by(Evaluation::order);
     let computed = sorted.iter().filter(|one| one.objective.is_some());
     let scaled = computed.map(|one| evaluator.scaled_objective(one, 0.0));
     let worst = scaled.fold(f64::NEG_INFINITY, f64::max);
@@ -64,7 +64,7 @@ pub(super) fn run(
 }
 
 /// Computes the designs of a sample, at least one of them with all figures.
-fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<EvaluatedPoint>, Error> {
+fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluation>, Error> {
     let keys = evaluator.sweep.varied().len() as u64;
     let at = |index| (0..keys).map(|key| sample.at(key, index)).collect();
     let found = parallel::map(0..sample.count, |index| evaluator.evaluate(at(index)));
@@ -87,13 +87,13 @@ fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluate
 }
 
 /// Returns the designs of a sorted sample with no better one in the critical distance of multi-level single linkage.
-fn starts(sorted: &[EvaluatedPoint]) -> Vec<EvaluatedPoint> {
+fn starts(sorted: &[Evaluation]) -> Vec<Evaluation> {
     let keys = sorted[0].at.len() as f64;
     // sigma = 4 keeps the number of searches finite for any sample size (Rinnooy Kan and Timmer, theorem 8).
     let count = sorted.len() as f64;
     let volume = gamma(1.0 + 0.5 * keys) * 4.0 * count.ln() / count;
     let critical = volume.powf(1.0 / keys) / PI.sqrt();
-    let near = |one: &EvaluatedPoint, other: &EvaluatedPoint| {
+    let near = |one: &Evaluation, other: &Evaluation| {
         let squares = one.at.iter().zip(&other.at).map(|(a, b)| (a - b).powi(2));
         squares.sum::<f64>() < critical * critical
     };
@@ -110,7 +110,7 @@ fn starts(sorted: &[EvaluatedPoint]) -> Vec<EvaluatedPoint> {
 fn final_sweeps(
     evaluator: &Evaluator,
     seed: u64,
-    best: &mut EvaluatedPoint,
+    best: &mut Evaluation,
     worst: f64,
 ) -> FinalSweeps {
     let keys = best.at.len() as u64;
@@ -140,7 +140,7 @@ fn final_sweeps(
             if evaluator.stop.is_requested() {
                 return sweeps;
             }
-            let better = found.into_iter().min_by(EvaluatedPoint::order);
+            let better = found.into_iter().min_by(Evaluation::order);
             if let Some(better) = better.filter(|one| evaluator.improves(one, best, resolution)) {
                 *best = search(evaluator, better, width, worst).end;
                 sweeps.improvements += 1;
