@@ -3,7 +3,7 @@
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
-use crate::numeric::interpolate::quintic;
+use crate::numeric::interpolate::Quintic;
 use crate::numeric::root;
 
 /// State at one end of a step.
@@ -193,7 +193,7 @@ impl Step {
             // The difference of the angles is mere rounding.
             0.5 * (v0 + v1) + (c0 - c1) / 6.0
         };
-        let [way, rate, bend] = quintic([v0, c0], [v1, c1], travel, s);
+        let [way, rate, bend] = Quintic::new([v0, c0], [v1, c1], travel).at(s);
         [a.theta + way, rate, bend]
     }
 

@@ -246,18 +246,32 @@ fn end_slope(h0: f64, h1: f64, rise0: f64, rise1: f64) -> f64 {
     }
 }
 
-/// Evaluates quintic Hermite interpolation at s in [0, 1]: the change from the start, and first and second derivative
-/// with respect to s. Each end has a rate and half a second derivative; `apart` is the change between the ends.
-pub fn quintic([v0, c0]: [f64; 2], [v1, c1]: [f64; 2], apart: f64, s: f64) -> [f64; 3] {
-    let rise = apart - v0 - c0;
-    let slope = v1 - v0 - 2.0 * c0;
-    let bend = 2.0 * (c1 - c0);
-    let k3 = 10.0 * rise - 4.0 * slope + 0.5 * bend;
-    let k4 = -15.0 * rise + 7.0 * slope - bend;
-    let k5 = 6.0 * rise - 3.0 * slope + 0.5 * bend;
-    [
-        s * (v0 + s * (c0 + s * (k3 + s * (k4 + s * k5)))),
-        v0 + s * (2.0 * c0 + s * (3.0 * k3 + s * (4.0 * k4 + s * 5.0 * k5))),
-        2.0 * c0 + s * (6.0 * k3 + s * (12.0 * k4 + s * 20.0 * k5)),
-    ]
+/// Quintic Hermite interpolation over s in [0, 1], as the change from the start.
+#[derive(Clone, Copy, Debug)]
+pub struct Quintic([f64; 5]);
+
+impl Quintic {
+    /// Interpolates between ends with a rate and half a second derivative each; `apart` is the change between the ends.
+    pub fn new([v0, c0]: [f64; 2], [v1, c1]: [f64; 2], apart: f64) -> Quintic {
+        let rise = apart - v0 - c0;
+        let slope = v1 - v0 - 2.0 * c0;
+        let bend = 2.0 * (c1 - c0);
+        Quintic([
+            v0,
+            c0,
+            10.0 * rise - 4.0 * slope + 0.5 * bend,
+            -15.0 * rise + 7.0 * slope - bend,
+            6.0 * rise - 3.0 * slope + 0.5 * bend,
+        ])
+    }
+
+    /// Returns the change from the start, and first and second derivative over s.
+    pub fn at(&self, s: f64) -> [f64; 3] {
+        let [v0, c0, k3, k4, k5] = self.0;
+        [
+            s * (v0 + s * (c0 + s * (k3 + s * (k4 + s * k5)))),
+            v0 + s * (2.0 * c0 + s * (3.0 * k3 + s * (4.0 * k4 + s * 5.0 * k5))),
+            2.0 * c0 + s * (6.0 * k3 + s * (12.0 * k4 + s * 20.0 * k5)),
+        ]
+    }
 }

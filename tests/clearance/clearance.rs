@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::support::machines::engine;
 use proptest::prelude::*;
 use slider_crank::error::Error;
-use slider_crank::mechanism::{JointTouch, LooseMechanism, LooseState, NormalForce};
+use slider_crank::mechanism::{JointTouch, LooseMechanism, LooseState, NormalForce, Turned};
 use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Clearance, ContactLaw, Crank, Every, Friction, Gravity, Joint, Load, Rod, Scene, Slider,
@@ -201,19 +201,27 @@ fn lagrange(scene: &Scene, clearance: Clearance, s: LooseState) -> Result<(), Te
         v: s.v + dv[2],
         ..*s
     };
-    // For a journal ε off the centre the gap is (c² − ε²)/2c, and the gap rate is its derivative.
+    // For a journal ε off the centre the gap is (c² − ε²)/2c, and its rates are its derivatives along the motion.
     let [across, up] = mechanism.journal(&s);
     let c = clearance.radial;
-    let (gap, gap_rate) = mechanism.gap(&s);
+    let gap_at = |s: &LooseState| mechanism.gap(&Turned::new(s.theta, s.psi), s, &rates);
+    let [gap, gap_rate, gap_bend] = gap_at(&s);
     let expected = (c * c - across * across - up * up) / (2.0 * c);
     prop_assert!((gap - expected).abs() < 1e-15, "{gap} {expected}");
     let short = 1e-7;
     let near = |sign: f64| {
         let dq = [s.omega, s.spin, s.v].map(|rate| sign * short * rate);
-        mechanism.gap(&moved(&s, dq, none)).0
+        let dv = [rates.alpha, rates.spin_rate, rates.a].map(|rate| sign * short * rate);
+        gap_at(&moved(&s, dq, dv))
     };
-    let rate = (near(1.0) - near(-1.0)) / (2.0 * short);
-    prop_assert!((gap_rate - rate).abs() < 1e-6, "{gap_rate} {rate}");
+    let rate = |i: usize| (near(1.0)[i] - near(-1.0)[i]) / (2.0 * short);
+    prop_assert!((gap_rate - rate(0)).abs() < 1e-6, "{gap_rate} {}", rate(0));
+    let off = (gap_bend - rate(1)).abs();
+    prop_assert!(
+        off < 1e-6 * (1.0 + gap_bend.abs()),
+        "{gap_bend} {}",
+        rate(1)
+    );
     let lagrangian = |s: &LooseState| 2.0 * mechanism.kinetic(s) - mechanism.energy(s);
     let unit = |i: usize, size: f64| std::array::from_fn(|k| if k == i { size } else { 0.0 });
     // Kinetic energy is quadratic in the speeds, so that a difference over a large step is exact.

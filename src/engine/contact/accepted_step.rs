@@ -39,12 +39,14 @@ impl<const N: usize> AcceptedStep<'_, N> {
         }
         let (stages, rates) = (self.stages, &mut self.rates);
         let dense = self.dense.get_or_insert_with(|| stages.dense(rates));
-        let linear = (t - self.start[0]) / (self.end[0] - self.start[0]);
-        let u = if (dense.at(linear)[0] - t).abs() <= 1e-12 * (self.end[0] - self.start[0]) {
+        let length = self.end[0] - self.start[0];
+        let linear = (t - self.start[0]) / length;
+        let off = |u: f64| dense.number(0, u) - t;
+        let u = if off(linear).abs() <= 1e-12 * length {
             linear
         } else {
             // The independent variable of this step is not time.
-            root::bracketed(|u| dense.at(u)[0] - t, 0.0, 1.0).unwrap_or(linear)
+            root::bracketed(off, 0.0, 1.0).unwrap_or(linear)
         };
         let mut y = dense.at(u);
         y[0] = t;

@@ -28,7 +28,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
         }
         while self.y[0] < self.until {
-            if self.now.depth_rate < 0.0 && self.now.depth <= self.model.rounding(&self.y) {
+            let recedes = self.now.depth_rate < 0.0 && !self.is_pressed_at_rest();
+            if recedes && self.now.depth <= self.model.rounding(&self.y) {
                 self.part();
                 return Ok(());
             }
@@ -122,7 +123,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 let s = s0 + c * length;
                 let sample = model.sample(&near, phase, Some(s * s), y);
                 let slope = 2.0 * s / sample.depth_rate;
-                sample.rates.map(|each| each * slope)
+                let mut rates = sample.rates;
+                for rate in &mut rates {
+                    *rate *= slope;
+                }
+                rates
             };
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;

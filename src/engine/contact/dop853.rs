@@ -29,8 +29,11 @@ fn moved<const N: usize>(
     k: &[[f64; N]],
     terms: &[Term],
 ) -> [f64; N] {
-    let slope = sum(k, terms);
-    std::array::from_fn(|i| start[i] + length * slope[i])
+    let mut end = sum(k, terms);
+    for i in 0..N {
+        end[i] = start[i] + length * end[i];
+    }
+    end
 }
 
 /// Node of a stage: the sum of its coefficients.
@@ -102,10 +105,17 @@ impl<const N: usize> Stages<N> {
         let mut k = [[0.0; N]; 16];
         k[..13].copy_from_slice(&self.k);
         let (start, h) = (&self.start, self.length);
-        for (stage, terms) in DENSE_STAGES.into_iter().enumerate() {
-            k[13 + stage] = rates(node(terms), &moved(start, h, &k, terms));
+        macro_rules! stages {
+            ($($index:literal)*) => {$(
+                let terms = const { DENSE_STAGES[$index] };
+                k[13 + $index] = rates(const { node(DENSE_STAGES[$index]) }, &moved(start, h, &k, terms));
+            )*};
         }
-        let higher = DENSE.map(|terms| sum(&k, terms));
+        stages!(0 1 2);
+        macro_rules! higher {
+            ($($index:literal)*) => {[$(sum(&k, const { DENSE[$index] }),)*]};
+        }
+        let higher = higher!(0 1 2 3);
         let mut terms = [[0.0; N]; 7];
         for i in 0..N {
             let rise = self.end[i] - start[i];
@@ -133,12 +143,19 @@ pub(super) struct Dense<const N: usize> {
 impl<const N: usize> Dense<N> {
     /// Returns the state at u.
     pub fn at(&self, u: f64) -> [f64; N] {
-        let rest = 1.0 - u;
-        std::array::from_fn(|i| {
-            let t = &self.terms;
-            let inner = t[3][i] + u * (t[4][i] + rest * (t[5][i] + u * t[6][i]));
-            self.start[i] + u * (t[0][i] + rest * (t[1][i] + u * (t[2][i] + rest * inner)))
-        })
+        let mut y = [0.0; N];
+        for (i, y) in y.iter_mut().enumerate() {
+            *y = self.number(i, u);
+        }
+        y
+    }
+
+    /// Returns one number of the state at u.
+    #[inline(always)]
+    pub fn number(&self, i: usize, u: f64) -> f64 {
+        let (t, rest) = (&self.terms, 1.0 - u);
+        let inner = t[3][i] + u * (t[4][i] + rest * (t[5][i] + u * t[6][i]));
+        self.start[i] + u * (t[0][i] + rest * (t[1][i] + u * (t[2][i] + rest * inner)))
     }
 }
 

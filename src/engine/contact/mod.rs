@@ -9,6 +9,7 @@ mod accepted_step;
 mod contact_phase;
 mod discontinuities;
 mod dop853;
+mod first_zero;
 mod flight;
 mod run;
 
@@ -84,8 +85,9 @@ pub trait Contact<const N: usize> {
         y: &[f64; N],
     ) -> Sample<N>;
 
-    /// Returns a smooth measure of the gap, m, positive in flight and zero where contact begins, and its rate, m/s.
-    fn gap(&self, y: &[f64; N]) -> (f64, f64);
+    /// Returns a smooth measure of the gap, m, positive in flight and zero where contact begins, with its first two
+    /// derivatives in time.
+    fn gap(&self, near: &Self::Near, y: &[f64; N], rates: &[f64; N]) -> [f64; 3];
 
     /// Returns a value that is positive while a contact whose depth changes at this rate, m/s, transmits force.
     fn pressing(&self, approach: f64, rate: f64) -> f64;

@@ -117,19 +117,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     /// Begins in contact where the bodies touch at rest and are pressed together, and sets the first step.
     fn begin(&mut self) {
-        let Sample {
-            depth,
-            depth_rate: rate,
-            depth_acceleration,
-            ..
-        } = self.now;
-        let at_rest = rate.abs() <= self.model.approach(0.0);
-        if self.phase == Phase::Flight
-            && depth >= -self.model.rounding(&self.y)
-            && at_rest
-            && depth_acceleration > 0.0
-        {
-            let approach = self.model.approach(rate);
+        if self.phase == Phase::Flight && self.is_pressed_at_rest() {
+            let approach = self.model.approach(self.now.depth_rate);
             self.enter(Phase::Contact { approach });
         }
         let fastest = (0..self.counted).fold(0.0, |most: f64, i| {
@@ -142,6 +131,14 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             Phase::Contact { .. } => first * self.flight_h,
             _ => self.flight_h,
         };
+    }
+
+    /// True if the bodies touch at rest and are pressed together.
+    pub fn is_pressed_at_rest(&self) -> bool {
+        let now = &self.now;
+        now.depth >= -self.model.rounding(&self.y)
+            && now.depth_rate.abs() <= self.model.approach(0.0)
+            && now.depth_acceleration > 0.0
     }
 
     /// Enters a phase at the present state.
@@ -167,11 +164,13 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
             _ => 0.0,
         };
-        std::array::from_fn(|i| {
-            self.settings.tolerance * self.sizes[i]
+        let mut scale = [0.0; N];
+        for (i, each) in scale.iter_mut().enumerate() {
+            *each = self.settings.tolerance * self.sizes[i]
                 + f64::EPSILON * self.y[i].abs()
-                + doubt * (h * self.now.rates[i]).abs()
-        })
+                + doubt * (h * self.now.rates[i]).abs();
+        }
+        scale
     }
 
     /// Computes a step in time of this length, s, not yet accepted.

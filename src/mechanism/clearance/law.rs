@@ -46,6 +46,12 @@ impl NormalForce {
         self.stiffness * depth * depth.sqrt()
     }
 
+    /// Returns a value with the sign of the derivative of a positive force in time, at a penetration (m) with its first
+    /// two derivatives in time.
+    pub fn growth(&self, [depth, rate, acceleration]: [f64; 3], approach: f64) -> f64 {
+        1.5 * rate * self.factor(rate, approach) + depth * self.damping * acceleration / approach
+    }
+
     /// Returns the energy stored at a penetration (m), J.
     pub fn stored(&self, depth: f64) -> f64 {
         0.4 * self.stiffness * depth * depth * depth.max(0.0).sqrt()

@@ -140,15 +140,18 @@ impl LooseMechanism {
         (distance - c, dot(f.offset, f.rate) * (1.0 / distance))
     }
 
-    /// Returns (c² − ε²)/2c, m, and its rate, m/s: about the gap where it is small, and smooth everywhere.
-    pub fn gap(&self, s: &LooseState) -> (f64, f64) {
-        let f = self.frame(s);
+    /// Returns (c² − ε²)/2c, m: about the gap where it is small, and smooth everywhere; with its first two derivatives in
+    /// time at given accelerations. `near`: directions of the links at a state nearby.
+    pub fn gap(&self, near: &Turned, s: &LooseState, rates: &LooseRates) -> [f64; 3] {
+        let f = self.frame_from(s, near.crank(s.theta), near.rod(s.psi));
         let c = self.clearance.radial;
         let distance = dot(f.offset, f.offset).sqrt();
-        (
+        let bend = dot(f.rate, f.rate) + dot(f.offset, self.second(&f, s, rates));
+        [
             (c - distance) * (c + distance) / (2.0 * c),
             -dot(f.offset, f.rate) / c,
-        )
+            -bend / c,
+        ]
     }
 
     /// Returns δ̈, m/s², for given accelerations.

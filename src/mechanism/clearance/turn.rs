@@ -38,13 +38,14 @@ impl Turned {
 fn turned([from, sin, cos]: &[f64; 3], angle: f64) -> (f64, f64) {
     let turn = angle - from;
     // Up to here the series is exact to rounding.
-    let largest = 0.02;
+    let largest = 0.1;
     if turn.abs() > largest {
         return angle.sin_cos();
     }
     let q = turn * turn;
-    let odd = turn - turn * q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0)));
-    let even = -q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0)));
+    let odd = turn
+        - turn * q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0 - q * (1.0 / 362_880.0))));
+    let even = -q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q * (1.0 / 40_320.0))));
     (
         sin + (sin * even + cos * odd),
         cos + (cos * even - sin * odd),

@@ -4,7 +4,9 @@ use super::super::row::{LooseRow, Row};
 use super::super::run_setup::RunSetup;
 use crate::engine::contact::{Contact, Phase, Sample};
 use crate::engine::time::Start;
-use crate::mechanism::{JointTouch, LooseMechanism, LooseState, Rubbing, SpeedSizes, Turned};
+use crate::mechanism::{
+    JointTouch, LooseMechanism, LooseRates, LooseState, Rubbing, SpeedSizes, Turned,
+};
 use crate::numeric::enclosure::{Interval, Variation};
 
 /// Length of the state of a free crank: t, θ, ψ, x, the rates of θ, ψ and x, the work of the loads, and the energy lost
@@ -109,7 +111,11 @@ impl<const N: usize> Loose<'_, N> {
     #[inline(always)]
     fn packed(free: &[f64; FREE]) -> [f64; N] {
         const KEPT: [usize; DRIVEN] = [0, 2, 3, 5, 6, 7, 8];
-        std::array::from_fn(|i| free[if N == DRIVEN { KEPT[i] } else { i }])
+        let mut packed = [0.0; N];
+        for (i, each) in packed.iter_mut().enumerate() {
+            *each = free[if N == DRIVEN { KEPT[i] } else { i }];
+        }
+        packed
     }
 }
 
@@ -205,8 +211,16 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
         }
     }
 
-    fn gap(&self, y: &[f64; N]) -> (f64, f64) {
-        self.mechanism.gap(&self.state(y))
+    fn gap(&self, near: &Near, y: &[f64; N], rates: &[f64; N]) -> [f64; 3] {
+        // The accelerations stand where the state has the speeds.
+        let LooseState { omega, spin, v, .. } = self.state(rates);
+        let rates = LooseRates {
+            alpha: if N == DRIVEN { 0.0 } else { omega },
+            spin_rate: spin,
+            a: v,
+            ..LooseRates::default()
+        };
+        self.mechanism.gap(&near.turned, &self.state(y), &rates)
     }
 
     fn pressing(&self, approach: f64, rate: f64) -> f64 {

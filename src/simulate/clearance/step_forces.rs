@@ -7,8 +7,8 @@ use super::journal_record::Tally;
 use super::motion::touch;
 use crate::engine::PIECES;
 use crate::engine::contact::{AcceptedStep, Phase, Sample};
-use crate::numeric::interpolate::quintic;
-use crate::numeric::maximum;
+use crate::numeric::interpolate::Quintic;
+use crate::numeric::{maximum, root};
 
 impl<const N: usize> ContactFollower<'_, N> {
     /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
@@ -37,37 +37,44 @@ impl<const N: usize> ContactFollower<'_, N> {
             let bend = 0.5 * length * length * s.depth_acceleration;
             [length * s.depth_rate, bend]
         };
-        let (from, to, deeper) = (end(before), end(after), after.depth - before.depth);
-        let begun = before.depth;
+        let along = Quintic::new(end(before), end(after), after.depth - before.depth);
         let law = self.model.mechanism.force();
+        let depth = |u: f64| {
+            let [deeper, rate, bend] = along.at(u);
+            let (rate, bend) = (rate / length, bend / (length * length));
+            [(before.depth + deeper).max(0.0), rate, bend]
+        };
         let at = |u: f64| {
-            let [deeper, rate, _] = quintic(from, to, deeper, u);
-            let (depth, rate) = (begun + deeper, rate / length);
-            let force = law.elastic(depth.max(0.0)) * law.factor(rate, approach).max(0.0);
-            (force, depth)
+            let [depth, rate, _] = depth(u);
+            (
+                law.elastic(depth) * law.factor(rate, approach).max(0.0),
+                depth,
+            )
         };
         let part = h / length;
         let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
         let mut tally = simpson([first.0, middle.0, last.0], h);
         tally.deepest = first.1.max(middle.1).max(last.1);
-        // A peak inside the step is sought only where it could be the largest, 5 % above the three points.
-        let peak_over_points = 1.05;
-        if peak_over_points * tally.peak > self.seen.total.peak {
-            let samples = 32u32;
-            let places = (0..=samples).map(|i| part * f64::from(i) / f64::from(samples));
-            let top = |value: &dyn Fn(f64) -> f64| {
-                let known: Vec<_> = places.clone().map(|u| (u, value(u))).collect();
-                maximum::beside_best(value, &known)
-            };
-            let (u, force) = top(&|u| at(u).0);
-            // The quintic gives the place, the motion the force there.
-            let s = self.model.state(&accepted.at(begin + u * length));
-            let phase = Phase::Contact { approach };
-            let moved = self.model.mechanism.rates(&s, touch(phase, None)).normal;
-            tally.peak = tally
-                .peak
-                .max(if moved.is_finite() { moved } else { force });
-            tally.deepest = tally.deepest.max(top(&|u| at(u).1).1);
+        // A maximum inside the step lies where the derivative falls through zero.
+        let top = |derivative: &dyn Fn(f64) -> f64| {
+            let falls = derivative(0.0) > 0.0 && derivative(part) < 0.0;
+            falls
+                .then(|| root::bracketed(derivative, 0.0, part))
+                .flatten()
+        };
+        if let Some(u) = top(&|u| depth(u)[1]) {
+            tally.deepest = tally.deepest.max(at(u).1);
+        }
+        if let Some(u) = top(&|u| law.growth(depth(u), approach)) {
+            let mut force = at(u).0;
+            // The quintic gives the place, the motion a force that may be the largest, 5 % above that of the quintic.
+            let peak_over_quintic = 1.05;
+            if peak_over_quintic * force > self.seen.total.peak {
+                let s = self.model.state(&accepted.at(begin + u * length));
+                let touch = touch(Phase::Contact { approach }, None);
+                force = self.model.mechanism.rates(&s, touch).normal;
+            }
+            tally.peak = tally.peak.max(force);
         }
         tally
     }
