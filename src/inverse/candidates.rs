@@ -6,15 +6,11 @@ use super::grid::Path;
 use super::harmonics::Increments;
 use super::likelihood::{Linear, Stretch};
 use super::maximum::ENOUGH_RISE;
-use super::prior::{LADDERS, Prior, TORQUE};
+use super::prior::{LADDERS, Prior, SMOOTH, TORQUE};
 use super::problem::{Problem, ways};
 use super::scales::{Autoregression, Noise, Scales};
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
-
-/// Crank-angle noise below which a record was computed, rad: no instrument resolves the root of double rounding.
-/// Computed records err smoothly, which a prior of order three would take for force.
-const COMPUTED_ANGLE_NOISE: f64 = 1.5e-8;
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
@@ -98,29 +94,24 @@ impl Problem<'_> {
         }
     }
 
-    /// Whether samples with this noise were computed.
-    pub fn is_computed(&self, noise: &Noise) -> bool {
-        noise.sigma < COMPUTED_ANGLE_NOISE * self.record.sensor.size()
-    }
-
     /// Priors about a path, the likeliest first.
     pub fn tried(&self, kinematic: &Smoothed, correlated: &[Autoregression]) -> Vec<Candidate> {
-        // What repeats is noise that comes down: of what was computed there is none.
-        let turns = match self.is_computed(&kinematic.noise) {
-            true => 0.0,
-            false => self.turns(kinematic),
-        };
+        let is_computed = self.record.is_computed();
         let tried = parallel::map(LADDERS.iter(), |ladder| {
             let about = self.about(ladder[0], kinematic);
             let first = Noise::white(about.corner);
             let of = |prior: &Prior| about.candidate(*prior, first, f64::NEG_INFINITY, correlated);
-            (ladder.iter().filter_map(of).collect::<Vec<_>>(), about)
+            let some = ladder
+                .iter()
+                .filter(|prior| is_computed || **prior != SMOOTH);
+            (some.filter_map(of).collect::<Vec<_>>(), about)
         });
         let (tried, abouts): (Vec<_>, Vec<_>) = tried.into_iter().unzip();
         let mut tried: Vec<_> = tried.into_iter().flatten().collect();
-        tried.retain(|one| one.prior.order < 3 || !self.is_computed(&one.noise));
-        let repeating = self.repeating(turns, &tried, &abouts, correlated);
-        tried.extend(repeating);
+        // What repeats is noise that comes down: of what was computed there is none.
+        if !is_computed {
+            tried.extend(self.repeating(self.turns(kinematic), &tried, &abouts, correlated));
+        }
         tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
         tried
     }
@@ -157,7 +148,7 @@ impl Problem<'_> {
                 ..*about
             };
             let next = about.candidate(prior, before, least, correlated)?;
-            (!self.is_computed(&next.noise)).then_some(next)
+            (next.noise.sigma > self.record.instrument_noise()).then_some(next)
         };
         let first = Prior {
             cycle: 1,

@@ -140,9 +140,9 @@ impl Problem<'_> {
         kinematic: &Smoothed,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         let mut best = self.likeliest_of_all(kinematic);
-        // Periodic priors, computed records and long records represented by stretches have no intensities.
+        // Periodic priors, noise below that of instruments and long records represented by stretches have no intensities.
         while best.0.prior.cycle == 0
-            && !self.is_computed(&best.0.noise)
+            && best.0.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
         {
             let sites = self.sites();

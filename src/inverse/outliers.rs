@@ -2,6 +2,7 @@
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
 use super::problem::Problem;
+use super::residual_tests::NORMAL;
 use super::smoother::Smoothed;
 use crate::numeric::median::median;
 
@@ -13,9 +14,6 @@ const TIED: f64 = 0.5;
 
 /// Fraction of the samples above which far ones are no outliers.
 const MOST_OUTLIERS: f64 = 0.1;
-
-/// Standard deviation of normal noise over the median of its absolute values.
-const NORMAL: f64 = 1.4826;
 
 /// Weight below which a sample is left out.
 const LEAST_WEIGHT: f64 = 1e-6;

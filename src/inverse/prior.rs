@@ -69,6 +69,7 @@ impl Prior {
             (0, false) => match (self.unknown, self.order) {
                 (Unknown::Acceleration, 3) => "angle with white crackle, without mechanics",
                 (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
+                (Unknown::Torque, 3) => "torque as a twice integrated Wiener process",
                 (Unknown::Torque, 1) => "torque as a Wiener process",
                 (Unknown::Torque, _) => "torque as an integrated Wiener process",
                 (Unknown::Force, 1) => "force as a Wiener process",
@@ -93,6 +94,9 @@ pub(super) const KINEMATIC: Prior = Prior::new(Unknown::Acceleration, 2);
 /// A torque as a Wiener process.
 pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
 
+/// The torque of computed samples, in which a force is smoother than its prior.
+pub(super) const SMOOTH: Prior = Prior::new(Unknown::Torque, 3);
+
 /// A torque in proportion to the speed, and a Wiener process.
 const FOLLOWING: Prior = Prior {
     follows_speed: true,
@@ -102,7 +106,7 @@ const FOLLOWING: Prior = Prior {
 /// All priors without a part that repeats, in lists of one unknown.
 pub(super) const LADDERS: [&[Prior]; 4] = [
     &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
-    &[TORQUE, Prior::new(Unknown::Torque, 2)],
+    &[TORQUE, Prior::new(Unknown::Torque, 2), SMOOTH],
     &[FOLLOWING],
     &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
 ];

@@ -6,9 +6,13 @@ use std::ops::Range;
 use super::grid::{Grid, Piece};
 use super::measurement_model::{Sensor, Shown};
 use super::quantised::{Codes, Interval};
+use super::residual_tests;
 use super::state_space::Observed;
 use crate::mechanism::Linkage;
 use crate::scene::Measured;
+
+/// Least noise of an instrument, rad: none resolves the root of double rounding.
+const INSTRUMENT_NOISE: f64 = 1.5e-8;
 
 /// Samples of a sensor with their weights, and of the sensors beside it.
 #[derive(Clone, Debug)]
@@ -105,6 +109,17 @@ impl Record<'_> {
     /// True if the crank angle itself was measured, and nothing else.
     pub fn is_linear(&self) -> bool {
         self.sensor.measured == Measured::Theta && self.beside.is_empty()
+    }
+
+    /// Returns the noise, rad or m, below which samples were computed.
+    pub fn instrument_noise(&self) -> f64 {
+        INSTRUMENT_NOISE * self.sensor.size()
+    }
+
+    /// True if the samples were computed: their noise is below that of any instrument.
+    pub fn is_computed(&self) -> bool {
+        let noise = residual_tests::noise(&self.times, &self.values).max(self.floor);
+        self.codes.is_none() && noise < self.instrument_noise()
     }
 
     /// Returns the crank angle of a path at a sample of a node, rad.

@@ -89,7 +89,7 @@ impl Problem<'_> {
         };
         let mut tried = listed(&white);
         let innovations = found.estimates.iter().map(|e| e.innovation);
-        let is_noise = found.noise.sigma > 1.5 * self.record.floor && self.record.codes.is_none();
+        let is_noise = self.record.codes.is_none() && !self.record.is_computed();
         if is_noise && Whiteness::of(innovations).is_violated() {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
@@ -208,16 +208,13 @@ impl Path {
     }
 }
 
-/// Returns the root mean square change of the crank angles in their standard errors.
+/// Returns the root mean square change of the crank angles in their standard errors, or the rounding of the largest.
 pub(super) fn change(estimates: &[Estimate], path: &Path) -> f64 {
-    let changes = estimates
-        .iter()
-        .zip(&path.states)
-        .map(|(estimate, before)| {
-            let variance = estimate.covariance[0]
-                .max((1e-14 * estimate.state[0]).powi(2))
-                .max(f64::MIN_POSITIVE);
-            (estimate.state[0] - before[0]).powi(2) / variance
-        });
+    let sizes = estimates.iter().map(|e| e.state[0].abs());
+    let rounding = (1e-14 * sizes.fold(0.0, f64::max)).powi(2);
+    let pairs = estimates.iter().zip(&path.states);
+    let changes = pairs.map(|(estimate, before)| {
+        (estimate.state[0] - before[0]).powi(2) / estimate.covariance[0].max(rounding)
+    });
     (changes.sum::<f64>() / estimates.len() as f64).sqrt()
 }
