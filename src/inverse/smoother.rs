@@ -46,7 +46,7 @@ impl Smoothed {
 }
 
 /// Most iterations of Gauss and Newton.
-const ITERATIONS: usize = 12;
+const ITERATIONS: usize = 30;
 
 /// Change of the path, in its standard errors, at which the iterations have come to rest.
 pub(super) const PATH_AT_REST: f64 = 0.05;
@@ -63,6 +63,7 @@ impl Problem<'_> {
             converged: false,
             ..found
         };
+        let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
             // Repeated once where samples are curved, about a path that has moved.
             if iteration == 0 || iteration == 1 && !self.record.is_linear() {
@@ -71,7 +72,7 @@ impl Problem<'_> {
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
-            let change = path.moved(&whole.estimates);
+            let change = correction.taken(&mut path, &whole.estimates);
             whole.converged = found.converged && (is_linear || change < PATH_AT_REST);
             if whole.converged || !change.is_finite() {
                 break;
@@ -148,6 +149,7 @@ impl Problem<'_> {
             converged: false,
         };
         let mut is_at_rest = false;
+        let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
             // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
             if is_at_rest && result.prior == candidate.prior {
@@ -175,9 +177,10 @@ impl Problem<'_> {
                     result.noise = known;
                     break;
                 }
+                correction = Correction::default();
             }
             let estimates = self.smoothed(&motion, &mut path, scales, &noise);
-            let change = path.moved(&estimates);
+            let change = correction.taken(&mut path, &estimates);
             is_at_rest = change < PATH_AT_REST && iteration > 0;
             // What came to rest with a former noise stands until this one's does.
             if is_at_rest || !result.converged {
@@ -198,12 +201,27 @@ impl Problem<'_> {
     }
 }
 
-impl Path {
-    /// Moves to the smoothed states; returns the rms change of the crank angles in their standard errors.
-    pub fn moved(&mut self, estimates: &[Estimate]) -> f64 {
-        let change = change(estimates, self);
-        self.states.clear();
-        self.states.extend(estimates.iter().map(|e| e.state));
+/// Corrections of a path by one noise. They fall, or they are damped (natural monotonicity test; Deuflhard, Newton Methods
+/// for Nonlinear Problems, 2004).
+#[derive(Default)]
+pub(super) struct Correction {
+    /// Part of a correction that is left out.
+    left: f64,
+    last: Option<f64>,
+}
+
+impl Correction {
+    /// Moves a path towards the smoothed states; returns their rms change of the crank angles in standard errors.
+    pub fn taken(&mut self, path: &mut Path, estimates: &[Estimate]) -> f64 {
+        let change = change(estimates, path);
+        if self.last.replace(change).is_some_and(|last| change > last) {
+            self.left = 0.5 + 0.5 * self.left;
+        }
+        for (state, estimate) in path.states.iter_mut().zip(estimates) {
+            for (value, next) in state.iter_mut().zip(estimate.state) {
+                *value = next + self.left * (*value - next);
+            }
+        }
         change
     }
 }

@@ -3,7 +3,7 @@
 use super::super::grid::Path;
 use super::super::problem::Problem;
 use super::super::scales::{Noise, Scales};
-use super::super::smoother::Smoothed;
+use super::super::smoother::{Correction, Smoothed};
 use super::information::Information;
 use super::misfit::Misfit;
 use super::optimum::{Found, Optimum};
@@ -261,6 +261,6 @@ impl<'a> Search<'a> {
         })?;
         let innovations = estimates.iter().map(|e| e.innovation);
         let told = innovations.filter(|value| value.is_finite()).collect();
-        Ok((path.moved(&estimates), told))
+        Ok((Correction::default().taken(path, &estimates), told))
     }
 }
