@@ -63,12 +63,12 @@ pub enum Finish {
     NoStart,
 }
 
-/// Initial state of a run.
+/// State of a motion with one degree of freedom.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Start {
+pub struct MotionState {
     /// Time, s.
     pub t: f64,
-    /// Crank angle.
+    /// Crank angle, or coordinate along the configuration curve.
     pub angle: Angle,
     /// Speed, rad/s.
     pub speed: f64,

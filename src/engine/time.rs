@@ -11,13 +11,13 @@ use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
 use crate::numeric::angle::Angle;
 
-pub use super::run_in_time::{Ends, Finish, Method, Settings, Start, UNLIMITED_TIME};
+pub use super::run_in_time::{Ends, Finish, Method, MotionState, Settings, UNLIMITED_TIME};
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step (angles without the turns) and the number of steps.
 pub fn run(
     motion: &Counted<'_>,
-    start: Start,
+    start: MotionState,
     settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {
@@ -48,7 +48,7 @@ pub fn run(
 
 fn in_calls(
     motion: &Counted<'_>,
-    start: Start,
+    start: MotionState,
     settings: &Settings<'_>,
     method: runge_kutta::RungeKutta,
     sink: &mut dyn FnMut(&Step) -> bool,
@@ -168,7 +168,7 @@ pub fn shortened(
     settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> Step {
-    let start = Start {
+    let start = MotionState {
         t: step.start.t,
         angle: step.angle(step.start.theta),
         speed: step.start.omega,

@@ -3,20 +3,20 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use super::balance::Balance;
 use super::driving_torque::ConstantSpeedMotion;
-use super::outcome::{Estimate, Outcome};
+use super::energy_balance::EnergyBalance;
 use super::passages;
 use super::recorder::Recorder;
 use super::result::ErrorEstimate;
 use super::row::{Row, RowSink};
 use super::row_writer::RowSource;
+use super::run_end::{Estimate, RunEnd};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::simulation::Simulation;
 use super::stop::Why;
 use super::warning::Warning;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::mechanism::Limits;
 use crate::numeric::angle::Angle;
@@ -50,7 +50,7 @@ pub(super) fn run<'a>(
     let balance = match blocked {
         None => motion.energy_balance(),
         // Towards a limit, or where the guide locks, torque and energy grow without bound.
-        Some(_) => Balance {
+        Some(_) => EnergyBalance {
             residual: f64::NAN,
             largest: f64::NAN,
         },
@@ -67,8 +67,8 @@ pub(super) fn run<'a>(
         Some(_) => Why::Locked,
         None => Why::DrivenToLimit,
     });
-    let outcome = Outcome {
-        at: Start {
+    let end = RunEnd {
+        at: MotionState {
             t: end,
             angle: last,
             speed,
@@ -87,7 +87,7 @@ pub(super) fn run<'a>(
         stopped,
         record,
     };
-    let mut run = outcome.conclude(task);
+    let mut run = end.conclude(task);
     run.summary.driving_torque = torque;
     Ok(run)
 }

@@ -4,7 +4,7 @@
 use super::row::{Row, RowMaker};
 use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::engine::{Batch, Counted, Motion};
 use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
@@ -115,9 +115,9 @@ impl CrankMap for CurveEquation {
 }
 
 /// Converts a state of the coordinate to time, crank angle and crank speed (rad/s).
-pub(super) fn crank_state(equation: &CurveEquation, at: Start) -> Start {
+pub(super) fn crank_state(equation: &CurveEquation, at: MotionState) -> MotionState {
     let (angle, speed) = equation.crank(at.angle, at.speed);
-    Start { angle, speed, ..at }
+    MotionState { angle, speed, ..at }
 }
 
 /// Coordinate of the configuration curve in one phase.

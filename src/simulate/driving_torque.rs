@@ -2,11 +2,11 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::balance::Balance;
+use super::energy_balance::EnergyBalance;
 use super::result::TorqueRange;
 use super::row::RowMaker;
 use super::warning::NoRange;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::mechanism::Equation;
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::{gauss, maximum};
@@ -41,7 +41,7 @@ impl ConstantSpeedMotion<'_> {
     /// Returns the reason that the torque has no finite value at a time, s.
     fn not_finite(&self, t: f64) -> NoRange {
         let (angle, speed) = (self.start.plus(self.speed * t), self.speed);
-        let at = Start { t, angle, speed };
+        let at = MotionState { t, angle, speed };
         NoRange::NotFinite {
             at_limit: !self.equation().linkage().pose(angle.rest).is_regular(),
             load: self.maker.without_value(at).map(Box::new),
@@ -158,7 +158,7 @@ impl ConstantSpeedMotion<'_> {
 
     /// Compares the work that the equation asks for, by quadrature of ½ M' and V', with the change of the energies from
     /// M and V, J. Whole turns cancel and are left out.
-    pub fn energy_balance(&self) -> Balance {
+    pub fn energy_balance(&self) -> EnergyBalance {
         let (equation, speed) = (self.equation(), self.speed);
         let kinetic = |theta: f64| equation.kinetic_energy(theta, speed);
         let energy = |theta: f64| kinetic(theta) + equation.gravity_energy(theta);
@@ -167,7 +167,7 @@ impl ConstantSpeedMotion<'_> {
         let force = |theta: f64| equation.generalized_force(&equation.terms(theta), speed, 0.0);
         let work = integral_by_quarters(from, to, &force, 1e-14 * largest);
         let residual = work.map_or(f64::NAN, |work| work - (energy(to) - energy(from)));
-        Balance { residual, largest }
+        EnergyBalance { residual, largest }
     }
 }
 

@@ -1,22 +1,21 @@
 //! Forward dynamics: a scene in; trajectory, rows and summary out; engines of the plan take turns between events.
 //!
 //! A free run goes through `run`, `run_setup`, `forward` and its `engine_loop`, to the engines by `over_angle` and
-//! `in_time`; `forward_recorder` and `recorder` take rows, events and motion; `estimate` states the error; `outcome`
+//! `in_time`; `forward_recorder` and `recorder` take rows, events and motion; `estimate` states the error; `run_end`
 //! makes the result, a `simulation`.
 
 mod angle_model;
-mod balance;
 mod bounded_motion;
 mod clearance;
 mod closed_form;
 mod configuration_curve;
 mod coordinate;
 mod driving_torque;
+mod energy_balance;
 mod forward;
 mod guide_friction;
 mod joint_force_maxima;
 mod options;
-mod outcome;
 mod passages;
 mod recorder;
 mod result;
@@ -24,6 +23,7 @@ mod roundoff_propagation;
 mod row;
 mod row_writer;
 mod run;
+mod run_end;
 mod run_setup;
 mod schedule;
 mod second_run;
@@ -37,8 +37,8 @@ mod warning;
 
 pub use crate::mechanism::Reactions;
 pub use crate::numeric::stop::Stop;
-pub use balance::Energies;
 pub use clearance::{Beyond, ClearanceSummary, ContactStatistics, Horizon, LooseFinal};
+pub use energy_balance::Energies;
 pub use options::Options;
 pub use result::{Cost, ErrorEstimate, Event, Final, Peak, Peaks, Piece, Summary, TorqueRange};
 pub use row::{LooseRow, NoRows, Row, RowSink};

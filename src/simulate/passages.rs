@@ -8,7 +8,7 @@ use super::row::Row;
 use super::row_writer::RowSource;
 use super::run_setup::RunSetup;
 use crate::engine::energy::Orbit;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::numeric::angle::{Angle, circular_distance};
 use crate::numeric::root;
 
@@ -78,7 +78,7 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
 impl OrbitPiece<'_> {
     /// Lists the dead centres passed until a time (s) by a motion that does not turn back, in the time of the orbit: the
     /// first, at most `kept`.
-    fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, Start)> {
+    fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, MotionState)> {
         let (orbit, start) = (self.orbit, self.orbit.start());
         let from = (start, orbit.direction());
         let (passed, _) = dead_centres_on_way(self.task, from, self.way(until), kept);
@@ -97,7 +97,7 @@ impl OrbitPiece<'_> {
     }
 
     /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
-    fn to_and_fro(&self, until: f64) -> Vec<(&'static str, Start)> {
+    fn to_and_fro(&self, until: f64) -> Vec<(&'static str, MotionState)> {
         let orbit = self.orbit;
         let turnings = orbit.turning_times(until).into_iter();
         let cuts = turnings.map(|t| (t, true)).chain([(until, false)]);
@@ -119,7 +119,7 @@ impl OrbitPiece<'_> {
                     ahead += TAU;
                 }
             }
-            let turning_point = Start {
+            let turning_point = MotionState {
                 t: to,
                 angle: end,
                 speed: 0.0,
@@ -142,7 +142,7 @@ impl OrbitPiece<'_> {
             (false, _) => self.one_way(period, kept),
         };
         let over = self.end * (1.0 + 1e-14);
-        let rounds = |(_, at): &(&str, Start)| match repeats {
+        let rounds = |(_, at): &(&str, MotionState)| match repeats {
             Some(_) => ((over - at.t) / period + 1.0).floor() as u64,
             None => 1,
         };
@@ -157,7 +157,7 @@ impl OrbitPiece<'_> {
         let again = (0u64..).map(|round| round as f64).flat_map(|round| {
             once.iter().map(move |(kind, at)| {
                 let t = round.mul_add(period, at.t) + round * low;
-                let again = Start {
+                let again = MotionState {
                     t: self.begin + t.min(self.end),
                     angle: Angle::new(at.angle.turns + round * turns, at.angle.rest),
                     speed: at.speed,
@@ -172,10 +172,10 @@ impl OrbitPiece<'_> {
 const DEAD_CENTRE: &str = "dead-centre";
 
 /// Returns the state at a dead centre (rad) at a signed distance (rad) from an angle.
-fn passage(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> Start {
+fn passage(t: f64, from: Angle, way: f64, dead_centre: f64, speed: f64) -> MotionState {
     let turns = ((from.rest + way - dead_centre) / TAU).round();
     let angle = Angle::new(from.turns + turns, dead_centre);
-    Start { t, angle, speed }
+    MotionState { t, angle, speed }
 }
 
 impl RowSource for OrbitPiece<'_> {

@@ -8,7 +8,7 @@ use super::clearance::ClearanceSummary;
 use super::steady::SteadyState;
 use super::stop::Stopped;
 use super::warning::Warning;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::plan::Plan;
 
 /// Summary of a run; its JSON is the object that `simulate --json` prints.
@@ -150,7 +150,7 @@ pub struct Event {
 }
 
 impl Event {
-    pub(super) fn new(kind: &'static str, at: Start) -> Event {
+    pub(super) fn new(kind: &'static str, at: MotionState) -> Event {
         Event {
             kind,
             t_s: at.t,

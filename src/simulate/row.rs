@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::guide_friction::GuideFriction;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::angle::Angle;
@@ -108,7 +108,7 @@ pub(super) struct RowMaker {
 
 impl RowMaker {
     /// Returns the load without a finite value at a state, if there is one.
-    pub fn without_value(&self, at: Start) -> Option<Load> {
+    pub fn without_value(&self, at: MotionState) -> Option<Load> {
         let pose = self.equation.linkage().pose(at.angle.rest);
         let now = pose.instant(at.t, at.angle, at.speed);
         self.equation.loads().without_value(&now).cloned()

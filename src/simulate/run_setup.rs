@@ -8,7 +8,7 @@ use super::row::RowMaker;
 use super::schedule::Schedule;
 use super::stop::Why;
 use crate::engine::runge_kutta;
-use crate::engine::time::{self, Settings, Start};
+use crate::engine::time::{self, MotionState, Settings};
 use crate::error::Error;
 use crate::mechanism::{Class, Equation, Limits, Reactor};
 use crate::numeric::angle::Angle;
@@ -111,8 +111,8 @@ impl<'a> RunSetup<'a> {
     }
 
     /// Returns the state of the crank at the start.
-    pub fn first_state(&self) -> Start {
-        Start {
+    pub fn first_state(&self) -> MotionState {
+        MotionState {
             t: 0.0,
             angle: self.start(),
             speed: self.speed,

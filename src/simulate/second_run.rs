@@ -10,7 +10,7 @@ use crate::engine::step::Step;
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Least tolerance of a second run: below it rounding inside a step dominates.
-pub(super) const LEAST_TOLERANCE: f64 = 1e-15;
+pub(super) const LEAST_SECOND_TOLERANCE: f64 = 1e-15;
 /// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
 pub(super) const TOLERANCE_RATIO: f64 = 50.0;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
@@ -22,7 +22,7 @@ pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
     let ratio = 1e4;
     // That for the default 1e-10: short runs are far better than loose tolerances.
     let largest = 1e-14;
-    (tolerance / ratio).clamp(LEAST_TOLERANCE, largest)
+    (tolerance / ratio).clamp(LEAST_SECOND_TOLERANCE, largest)
 }
 
 /// Returns the tolerance of a second run by the method of the first.

@@ -194,7 +194,7 @@ mod tests {
     use super::*;
     use crate::engine::Counted;
     use crate::engine::WorkLimit;
-    use crate::engine::time::{self, Method, Settings, Start};
+    use crate::engine::time::{self, Method, MotionState, Settings};
     use crate::mechanism::Equation;
     use crate::numeric::angle::Angle;
     use crate::scene::{Crank, Expression, Load, Scene};
@@ -215,7 +215,7 @@ mod tests {
     }
 
     /// Steps of a run from a start to a time.
-    fn steps(motion: &Equation, start: Start, t_end: f64) -> Vec<Step> {
+    fn steps(motion: &Equation, start: MotionState, t_end: f64) -> Vec<Step> {
         let settings = Settings {
             method: Method::Picard,
             tolerance: 1e-14,
@@ -240,7 +240,7 @@ mod tests {
         let aside = 1e-4;
         for (push, angle, speed) in [(0.0, 2.0, 0.0), (0.0, 0.3, 9.0), (1.5, 1.0, -0.5)] {
             let equation = pendulum(push);
-            let start = |t: f64, angle: f64, speed: f64| Start {
+            let start = |t: f64, angle: f64, speed: f64| MotionState {
                 t,
                 angle: Angle::from(angle),
                 speed,

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use crate::engine::energy::NotApplicable;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::mechanism::Jam;
 use crate::scene::Load;
 
@@ -15,7 +15,7 @@ pub struct Stopped {
     /// Reason for the end.
     pub why: Why,
     /// Time (s), crank angle and speed (rad/s) at the end.
-    pub at: Start,
+    pub at: MotionState,
 }
 
 /// Reason for an end before the goal.
@@ -106,7 +106,7 @@ pub enum Why {
     )]
     NoValue {
         /// State of the evaluation.
-        asked: Start,
+        asked: MotionState,
         /// Load without a value, if known.
         load: Option<Load>,
     },
@@ -180,7 +180,7 @@ impl Why {
 
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Start { t, angle, speed } = self.at;
+        let MotionState { t, angle, speed } = self.at;
         let theta = angle.radians();
         let why = &self.why;
         write!(

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::scene::Load;
 
 /// Warning of a run.
@@ -84,7 +84,7 @@ pub enum NoRange {
         /// Load without a value, if any.
         load: Option<Box<Load>>,
         /// Time, crank angle and speed.
-        at: Start,
+        at: MotionState,
     },
     /// The mean over the angle is not finite.
     #[error("its mean is not finite: a load has no value at an angle on the way")]

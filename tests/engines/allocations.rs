@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use slider_crank::engine::WorkLimit;
-use slider_crank::engine::time::{Method as Stepper, Settings, Start, run};
+use slider_crank::engine::time::{Method as Stepper, MotionState, Settings, run};
 use slider_crank::engine::{Counted, Motion};
 use slider_crank::error::Error;
 use slider_crank::numeric::angle::Angle;
@@ -47,7 +47,7 @@ fn steps_take_no_memory() {
             work_unit: 1.0,
             guide: &[],
         };
-        let start = Start {
+        let start = MotionState {
             t: 0.0,
             angle: Angle::from(0.5),
             speed: 3.0,

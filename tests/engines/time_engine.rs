@@ -9,7 +9,7 @@ use slider_crank::engine::WorkLimit;
 use slider_crank::engine::collocation::Tableau;
 use slider_crank::engine::events::{self, Crossing};
 use slider_crank::engine::step::Step;
-use slider_crank::engine::time::{Finish, Method as Stepper, Settings, Start, run};
+use slider_crank::engine::time::{Finish, Method as Stepper, MotionState, Settings, run};
 use slider_crank::engine::{Counted, Motion, NODES};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::plan::Method;
@@ -192,7 +192,7 @@ fn steps(
     settings: &Settings,
 ) -> (Vec<Step>, Finish, u64) {
     let counted = Counted::new(motion);
-    let start = Start {
+    let start = MotionState {
         t: start.0,
         angle: Angle::from(start.1),
         speed: start.2,

@@ -10,7 +10,7 @@ use super::{AngleRun, Dynamics, EarlyEnd, Goal, Resolution};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::run_in_time::{Ends, Start, UNLIMITED_TIME};
+use crate::engine::run_in_time::{Ends, MotionState, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
 
 /// Integrates from a start to the goal, or as far as the angle can be the independent variable.
@@ -19,12 +19,12 @@ use crate::engine::work_forecast::WorkForecast;
 /// [`NotApplicable`] where the angle cannot be the independent variable at the start.
 pub fn run<D: Dynamics>(
     dynamics: &D,
-    from: Start,
+    from: MotionState,
     goal: Goal,
     resolution: Resolution<'_>,
 ) -> Result<AngleRun, NotApplicable> {
     let mut stepper = PanelStepper::new(dynamics, from, resolution)?;
-    let Start { angle, speed, .. } = stepper.start;
+    let MotionState { angle, speed, .. } = stepper.start;
     let reads_time = dynamics.reads_time();
     let repeats = !reads_time && stepper.panels.panels[0].table.switch.is_none();
     let mut forecast = forecast(&stepper, goal, reads_time);
@@ -105,7 +105,7 @@ fn ended<D: Dynamics>(
     why: NotApplicable,
 ) -> AngleRun {
     stepper.leave_panels();
-    let Start { angle, speed, .. } = stepper.start;
+    let MotionState { angle, speed, .. } = stepper.start;
     AngleRun {
         early_end: segment.last_angle(angle.turns).map(|angle| EarlyEnd {
             why,

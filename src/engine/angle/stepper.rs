@@ -15,7 +15,7 @@ use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
 use super::switch::{Switching, begins_beyond, switching};
 use super::{Dynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
-use crate::engine::run_in_time::Start;
+use crate::engine::run_in_time::MotionState;
 use crate::numeric::enclosure::Interval;
 
 /// State of a run over the angle, with the panels of a cycle.
@@ -30,7 +30,7 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     /// Known run that supplies the first guess.
     guide: Option<Guide<'a>>,
     /// Start of the run, with an angle reduced to less than a turn.
-    pub start: Start,
+    pub start: MotionState,
     /// Sums up to the next panel.
     pub progress: Progress,
     /// Evaluations of the loads.
@@ -45,7 +45,7 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
 impl<'a, D: Dynamics> PanelStepper<'a, D> {
     pub fn new(
         dynamics: &'a D,
-        from: Start,
+        from: MotionState,
         resolution: Resolution<'a>,
     ) -> Result<PanelStepper<'a, D>, NotApplicable> {
         let angle = from.angle.reduced();
@@ -87,7 +87,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             shared,
             solution: PanelSolution::new(),
             guide: resolution.guide,
-            start: Start { angle, ..from },
+            start: MotionState { angle, ..from },
             progress: Progress::at(kinetic, off),
             evaluations: 0,
             positions,

@@ -14,7 +14,7 @@ mod tableau;
 use std::f64::consts::TAU;
 
 use super::step::{Node, Step};
-use super::time::{Finish, Settings, Start};
+use super::time::{Finish, MotionState, Settings};
 use super::{Counted, Motion};
 use attempt::{Accepted, Attempt, Rejection};
 use state::State;
@@ -25,7 +25,7 @@ pub use tableau::Tableau;
 /// end, the last step and the number of steps.
 pub fn run(
     motion: &Counted<'_>,
-    start: Start,
+    start: MotionState,
     settings: &Settings<'_>,
     sink: &mut dyn FnMut(&Step) -> bool,
 ) -> (Finish, Step, u64) {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::step::Node;
-use super::super::time::Start;
+use super::super::time::MotionState;
 use crate::numeric::angle::{Angle, TAU_REST};
 use crate::numeric::exact::two_sum;
 
@@ -30,7 +30,7 @@ pub struct State {
 
 impl State {
     /// Converts the start of a run to a state with zero work.
-    pub fn new(start: Start) -> State {
+    pub fn new(start: MotionState) -> State {
         let angle = start.angle.reduced();
         State {
             t: start.t,

@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::super::balance::Balance;
-use super::super::outcome::{Estimate, Outcome};
+use super::super::energy_balance::EnergyBalance;
 use super::super::passages;
 use super::super::recorder::Record;
 use super::super::result::{ErrorEstimate, Peaks};
+use super::super::run_end::{Estimate, RunEnd};
 use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
 use super::super::warning::Warning;
@@ -73,12 +73,12 @@ impl<const N: usize> Loose<'_, N> {
             warnings.push(Warning::BeyondHorizon);
         }
         let peaks = seen.peaks.filter(|_| stopped.is_none()).map(Peaks::new);
-        let outcome = Outcome {
+        let end = RunEnd {
             engine: Engine::Contact,
             at,
             turned: last.theta - self.start.theta,
             estimate: estimate.map(Estimate::of_end),
-            balance: Balance {
+            balance: EnergyBalance {
                 residual: gained - work + lost,
                 largest: seen.energy,
             },
@@ -89,7 +89,7 @@ impl<const N: usize> Loose<'_, N> {
             stopped,
             record,
         };
-        let mut run = outcome.conclude(task);
+        let mut run = end.conclude(task);
         let result = &mut run.summary;
         result.estimate_cost = tighter.map(|t| t.cost);
         (result.peaks, result.clearance) = (peaks, Some(summary));

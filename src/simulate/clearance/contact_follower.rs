@@ -9,7 +9,7 @@ use super::motion::{FREE, Loose};
 use crate::engine::contact::{AcceptedStep, Phase};
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::mechanism::LooseState;
 use crate::numeric::root;
 
@@ -84,7 +84,7 @@ impl<const N: usize> ContactFollower<'_, N> {
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, speed: f64) {
         let angle = self.model.task.angle(theta);
         if let Some(recorder) = &mut self.recorder {
-            recorder.event(Event::new(kind, Start { t, angle, speed }));
+            recorder.event(Event::new(kind, MotionState { t, angle, speed }));
         }
     }
 

@@ -18,7 +18,7 @@ use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::second_run::{LEAST_TOLERANCE, TOLERANCE_RATIO};
+use super::second_run::{LEAST_SECOND_TOLERANCE, TOLERANCE_RATIO};
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, ContactSettings};
@@ -132,7 +132,7 @@ impl<'a, const N: usize> Loose<'a, N> {
     fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
         let tolerance = self.task.scene.run.tolerance / TOLERANCE_RATIO;
-        let (ended, follower) = self.integrate(None, tolerance.max(LEAST_TOLERANCE), t_end);
+        let (ended, follower) = self.integrate(None, tolerance.max(LEAST_SECOND_TOLERANCE), t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),
             record: follower.seen.record,

@@ -3,7 +3,7 @@
 use super::super::row::{LooseRow, Row};
 use super::super::run_setup::RunSetup;
 use crate::engine::contact::{Contact, Phase, Sample};
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::mechanism::{
     JointTouch, LooseMechanism, LooseRates, LooseState, Rubbing, SpeedSizes, Turned,
 };
@@ -73,8 +73,8 @@ impl<const N: usize> Loose<'_, N> {
     }
 
     /// Returns the state of the crank.
-    pub fn crank(&self, s: &LooseState) -> Start {
-        Start {
+    pub fn crank(&self, s: &LooseState) -> MotionState {
+        MotionState {
             t: s.t,
             angle: self.task.angle(s.theta),
             speed: s.omega,

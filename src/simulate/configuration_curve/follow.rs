@@ -11,7 +11,7 @@ use super::super::stop::Why;
 use super::{EndReason, StepObserver, TimePiece, newton_time};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
-use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::time::{self, Finish, MotionState, Settings};
 use crate::engine::work_forecast::WorkForecast;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::CurveEquation;
@@ -23,7 +23,7 @@ pub(in super::super) struct CurveRun<'a, 'o> {
     pub(super) settings: Settings<'a>,
     pub(super) events: CurveEvents<'a>,
     pub(super) observer: &'o mut dyn StepObserver,
-    pub(super) state: Start,
+    pub(super) state: MotionState,
     pub(super) signs: Signs,
     pub(super) piece: TimePiece,
 }
@@ -44,11 +44,11 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     pub fn run(
         equation: &'a CurveEquation,
         settings: Settings<'a>,
-        start: Start,
+        start: MotionState,
         turn_limit: Option<(Angle, f64)>,
         observer: &'o mut dyn StepObserver,
     ) -> TimePiece {
-        let Start { t, angle, speed } = start;
+        let MotionState { t, angle, speed } = start;
         let node = Node {
             t,
             theta: angle.rest,
@@ -140,7 +140,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 self.signs[index] = -self.signs[index];
                 self.update_dry_signs(of);
                 if let Some(kind) = event(of) {
-                    let Start { angle, speed, .. } = self.state;
+                    let MotionState { angle, speed, .. } = self.state;
                     self.observer.event(kind, t, angle, speed);
                 }
                 None
@@ -211,7 +211,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         self.piece.steps += steps;
         self.piece.singular_state = motion
             .singular_state()
-            .map(|(t, angle, speed)| crank_state(equation, Start { t, angle, speed }));
+            .map(|(t, angle, speed)| crank_state(equation, MotionState { t, angle, speed }));
         let Some((step, change)) = cut else {
             self.piece.evaluations += motion.evaluations();
             self.arrive(match beyond {
@@ -269,7 +269,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
 
     pub(super) fn arrive(&mut self, last: Step) {
         self.piece.work += last.end.work;
-        self.state = Start {
+        self.state = MotionState {
             t: last.end.t,
             angle: last.angle(last.end.theta).reduced(),
             speed: last.end.omega,

@@ -8,13 +8,13 @@ pub(super) use follow::CurveRun;
 
 use std::sync::Arc;
 
-use super::balance::Balance;
+use super::energy_balance::EnergyBalance;
 use super::run_setup::RunSetup;
 use super::stick_slip::CurveMotion;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Start};
+use crate::engine::time::{Finish, MotionState};
 use crate::mechanism::{Class, Curve, CurveEquation, Equation};
 use crate::numeric::angle::Angle;
 
@@ -22,7 +22,7 @@ use crate::numeric::angle::Angle;
 #[derive(Clone)]
 pub(super) struct CurveProblem {
     pub equation: Arc<CurveEquation>,
-    pub start: Start,
+    pub start: MotionState,
 }
 
 /// Whether a free motion in time follows the configuration curve.
@@ -49,7 +49,7 @@ impl CurveProblem {
             speed => speed / curve.pose(angle.rest).dtheta,
         };
         let t = 0.0;
-        let start = Start { t, angle, speed };
+        let start = MotionState { t, angle, speed };
         let equation = Arc::new(CurveEquation::new(task.scene, curve));
         Some(CurveProblem { equation, start })
     }
@@ -61,7 +61,7 @@ impl CurveProblem {
         last: &Step,
         work: f64,
         fastest: f64,
-    ) -> Balance {
+    ) -> EnergyBalance {
         let (on, start) = (&self.equation, self.start);
         let angle = last.angle(last.end.theta);
         let turns = on.curve().crank_angle(start.angle).turns;
@@ -74,7 +74,7 @@ impl CurveProblem {
         let gained = (kinetic[1] - kinetic[0]) + rise;
         let peak = equation.kinetic_energy(on.curve().crank_angle(angle).rest, fastest);
         let peak = if peak.is_finite() { peak } else { 0.0 };
-        Balance::new(gained - work, &[kinetic[0], kinetic[1], rise, work, peak])
+        EnergyBalance::new(gained - work, &[kinetic[0], kinetic[1], rise, work, peak])
     }
 }
 
@@ -112,7 +112,7 @@ pub(super) struct TimePiece {
     pub evaluations: u64,
     pub end: EndReason,
     /// Time, crank angle and speed of the last evaluation without a finite result.
-    pub singular_state: Option<Start>,
+    pub singular_state: Option<MotionState>,
 }
 
 /// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is

@@ -10,7 +10,7 @@ use super::release::{self, Release};
 use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::step::{Node, Step};
-use crate::engine::time::{Finish, Start};
+use crate::engine::time::{Finish, MotionState};
 use crate::mechanism::{Free, FromRest};
 use crate::scene::Variable;
 
@@ -19,7 +19,7 @@ impl CurveRun<'_, '_> {
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<EndReason> {
         let friction = self.equation.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
-        let Start { t, angle, .. } = self.state;
+        let MotionState { t, angle, .. } = self.state;
         let held = self.equation.at_rest(angle).held(t);
         let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
@@ -40,7 +40,7 @@ impl CurveRun<'_, '_> {
 
     /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
     fn rest(&mut self, mu_static: f64) -> Result<f64, EndReason> {
-        let Start { t, angle, .. } = self.state;
+        let MotionState { t, angle, .. } = self.state;
         let equation = self.equation;
         let is_open = self.events.turn_limit.is_some();
         // A run of turns has no last time: it seeks a release for this many times its time up to now, or this many s.
@@ -93,7 +93,7 @@ impl CurveRun<'_, '_> {
 
     /// Returns the free motion from the current state, without friction.
     fn free(&self) -> Free {
-        let Start { t, angle, speed } = self.state;
+        let MotionState { t, angle, speed } = self.state;
         self.equation.free(t, angle, speed)
     }
 
@@ -134,7 +134,7 @@ impl CurveRun<'_, '_> {
     }
 
     fn signs_ahead(&self, direction: f64) -> Signs {
-        let Start { t, angle, speed } = self.state;
+        let MotionState { t, angle, speed } = self.state;
         let values = self.events.values(t, angle, speed);
         let ahead = self
             .events

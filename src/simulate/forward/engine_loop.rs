@@ -10,7 +10,7 @@ use super::stop_reason;
 use crate::engine::angle::{AngleRun, Resolution};
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, Settings, Start};
+use crate::engine::time::{Finish, MotionState, Settings};
 use crate::engine::{Counted, WorkLimit};
 use crate::error::Error;
 use crate::plan::{Engine, Method};
@@ -45,7 +45,7 @@ pub(super) trait PassObserver: StepObserver {
     fn keep(&mut self, _piece: AnglePiece) {}
 
     /// Begins a piece in time, on a configuration curve or with the crank angle as the coordinate, for a reason.
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, reason: Reason);
+    fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, reason: Reason);
 
     /// Ends a piece in time; returns the shortened last step if the run ends inside it.
     fn end_in_time(
@@ -62,8 +62,8 @@ pub(super) trait PassObserver: StepObserver {
 pub(super) struct AnglePiece {
     pub run: AngleRun,
     pub engine: Engine,
-    pub from: Start,
-    pub to: Start,
+    pub from: MotionState,
+    pub to: MotionState,
 }
 
 /// Reason for the end of a piece.
@@ -80,7 +80,7 @@ pub(super) enum PieceEnd {
 /// State and totals of a pass, up to now and at its end.
 #[derive(Default)]
 pub(super) struct PassResult {
-    pub state: Start,
+    pub state: MotionState,
     /// Last step, if the last piece was in time.
     pub last_step: Option<Step>,
     /// Motion along the configuration curve, if the last piece followed it.
@@ -97,7 +97,7 @@ pub(super) struct PassResult {
     pub pieces_in_time: u64,
     pub end: EndReason,
     /// Time, crank angle and speed of the last evaluation without a finite result.
-    pub singular_state: Option<Start>,
+    pub singular_state: Option<MotionState>,
 }
 
 impl PassResult {

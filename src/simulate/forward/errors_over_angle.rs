@@ -1,14 +1,14 @@
 //! Errors of motions over the crank angle, from roundoff of times and positions and from truncation of the series.
 
-use super::super::balance::Balance;
-use super::super::outcome::Estimate;
+use super::super::energy_balance::EnergyBalance;
 use super::super::result::ErrorEstimate;
+use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::MARGIN;
 use super::engine_loop::PassResult;
 use crate::engine::angle::AngleRun;
 use crate::engine::energy::Orbit;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 
 /// Returns the error of the worst row of a run until a time (s), from samples over the run.
 pub(super) fn worst_row_error(
@@ -31,11 +31,11 @@ pub(super) const TURN_ROUNDING: f64 = 2.0 * f64::EPSILON;
 /// terms, whose sum is rounded by half of √33 units. These errors are independent.
 pub(super) fn error_of_delay(
     task: &RunSetup<'_>,
-    at: Start,
+    at: MotionState,
     late: f64,
     place: f64,
 ) -> ErrorEstimate {
-    let Start { t, angle, speed } = at;
+    let MotionState { t, angle, speed } = at;
     let (alpha, _) = task.maker.forward(t, angle, speed);
     let rounding = place + 0.5 * f64::EPSILON * angle.radians().abs();
     ErrorEstimate {
@@ -63,8 +63,8 @@ pub(super) fn by_energy(
 }
 
 /// Returns the error of a state from that of its time and from the roundoff of position and energies.
-fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimate {
-    let Start { t, angle, speed } = at;
+fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState) -> ErrorEstimate {
+    let MotionState { t, angle, speed } = at;
     let rests = task.speed == 0.0 || orbit.turns_back();
     // Positions and the kinetic energy at the start are rounded. Where the crank comes to rest the time depends on the
     // force, a difference with more roundoff.
@@ -85,8 +85,8 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start) -> ErrorEstimat
 
 /// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
 /// shows it.
-fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) -> f64 {
-    let balance = Balance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
+fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState, work: f64) -> f64 {
+    let balance = EnergyBalance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
     let momentum = task.equation().terms(at.angle.rest).inertia.m * at.speed.abs();
     let seen = (MARGIN * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
     (orbit.speed_error(at.t) * at.speed.abs()).min(seen)
@@ -95,7 +95,7 @@ fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: Start, work: f64) ->
 /// Returns the error of a row at a time, s.
 fn row_error_by_energy(task: &RunSetup<'_>, orbit: &Orbit, t: f64) -> ErrorEstimate {
     let (angle, speed) = orbit.state(t);
-    let mut error = rounding_error(task, orbit, Start { t, angle, speed });
+    let mut error = rounding_error(task, orbit, MotionState { t, angle, speed });
     error.omega_rad_per_s += orbit.speed_error(t) * speed.abs();
     error
 }

@@ -8,10 +8,10 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
-use super::super::outcome::Estimate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
+use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
@@ -23,7 +23,7 @@ use super::errors_over_angle::{
 use super::over_angle::second_run_resolution;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
-use crate::engine::time::{Method, Settings, Start};
+use crate::engine::time::{Method, MotionState, Settings};
 use crate::engine::{Counted, Motion, WorkLimit};
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -64,7 +64,7 @@ pub(super) fn estimate(
             ..pass.clone()
         };
         let motion = Counted::new(pass.task.equation());
-        let Start { t, angle, speed } = pass.task.first_state();
+        let MotionState { t, angle, speed } = pass.task.first_state();
         let force = || motion.acceleration(t, angle, speed);
         let moves = speed != 0.0 || motion.depends_on_time() || force() != 0.0;
         let mut observer = SecondRunObserver {
@@ -147,7 +147,7 @@ fn distance(
     best: &PassResult,
     covariance: CovarianceFactor,
 ) -> ErrorEstimate {
-    let Start { t, angle, speed } = result.state;
+    let MotionState { t, angle, speed } = result.state;
     let [angle_noise, speed_noise] =
         of_crank(result, covariance).map(|noise| STATED_DEVIATIONS * f64::EPSILON * noise);
     // Of the angle engine, relative to the time.
@@ -189,7 +189,7 @@ struct SecondRunObserver<'m, 'a> {
 
 impl SecondRunObserver<'_, '_> {
     /// Computes the transition over a piece over the angle: a lead in time stays, and an energy error adds to it.
-    fn transition(&self, [from, to]: [&Start; 2], errors: &Errors) -> StateTransition {
+    fn transition(&self, [from, to]: [&MotionState; 2], errors: &Errors) -> StateTransition {
         let [inertia, then] = [from, to].map(|at| self.inertia(at));
         let [alpha, after] = [from, to].map(|at| self.acceleration(at));
         let energy = [-inertia * alpha, inertia * from.speed];
@@ -211,11 +211,11 @@ impl SecondRunObserver<'_, '_> {
         [angle, speed]
     }
 
-    fn inertia(&self, at: &Start) -> f64 {
+    fn inertia(&self, at: &MotionState) -> f64 {
         self.equation.terms(at.angle.rest).inertia.m
     }
 
-    fn acceleration(&self, at: &Start) -> f64 {
+    fn acceleration(&self, at: &MotionState) -> f64 {
         self.equation.acceleration(at.t, at.angle, at.speed)
     }
 }
@@ -225,7 +225,7 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         let AnglePiece { run, from, to, .. } = piece;
         let (angle, speed) = run.orbit.state(run.end);
         let t = to.t;
-        let to = Start { t, angle, speed };
+        let to = MotionState { t, angle, speed };
         let errors = &run.errors;
         let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
@@ -238,7 +238,7 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         Ok(())
     }
 
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, _: Reason) {
+    fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, _: Reason) {
         if curve.is_none() && from.t > 0.0 {
             self.rounding.round(from.angle.rest, from.speed);
         }

@@ -17,7 +17,7 @@ use super::engine_loop::{AnglePiece, PassObserver, PassResult, Reason};
 use crate::engine::Counted;
 use crate::engine::events::{self, Crossing};
 use crate::engine::step::Step;
-use crate::engine::time::{self, Settings, Start};
+use crate::engine::time::{self, MotionState, Settings};
 use crate::error::Error;
 use crate::mechanism::CurveEquation;
 use crate::numeric::angle::Angle;
@@ -36,7 +36,7 @@ pub(super) struct ForwardRecorder<'a> {
     /// Time (s) and reason of an end inside the last step.
     ends_at: Option<(f64, EndsBy)>,
     /// Start of a piece at a dead centre that is already recorded.
-    recorded_dead_centre: Option<Start>,
+    recorded_dead_centre: Option<MotionState>,
     crossings: Vec<(f64, Crossing)>,
     /// Configuration curve of the last piece in time, if it follows one.
     curve: Option<Arc<CurveEquation>>,
@@ -82,7 +82,7 @@ impl<'a> ForwardRecorder<'a> {
 
     /// Returns the record, with the row of the end.
     pub fn finish(self, result: &PassResult) -> Result<Record, Error> {
-        let Start { t, angle, speed } = result.state;
+        let MotionState { t, angle, speed } = result.state;
         let ForwardRecorder { task, phase, .. } = self;
         self.recorder.finish(|| {
             Some(match (result.last_step, &result.curve) {
@@ -236,7 +236,7 @@ impl StepObserver for ForwardRecorder<'_> {
         {
             bounded_motion.add_turning_point(angle);
         }
-        let at = Start { t, angle, speed };
+        let at = MotionState { t, angle, speed };
         let crank = |equation: &Arc<CurveEquation>| crank_state(equation, at);
         let at = self.curve.as_ref().map_or(at, crank);
         self.recorder.event(Event::new(kind, at));
@@ -260,7 +260,7 @@ impl PassObserver for ForwardRecorder<'_> {
             .keep(|| Trajectory::orbit(piece.run.orbit, from, until));
     }
 
-    fn begin_in_time(&mut self, from: Start, curve: Option<&CurveProblem>, reason: Reason) {
+    fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, reason: Reason) {
         self.recorder.begins(Engine::Time, from.t, reason);
         self.curve = curve.map(|curve| curve.equation.clone());
         let again = curve.is_none() && from.t > 0.0 && is_dead_centre(self.task, from.angle.rest);

@@ -14,7 +14,7 @@ use super::stop_reason;
 use crate::engine::Counted;
 use crate::engine::angle::Dynamics;
 use crate::engine::step::{Node, Step};
-use crate::engine::time::{self, Finish, Settings, Start};
+use crate::engine::time::{self, Finish, MotionState, Settings};
 use crate::error::Error;
 use crate::numeric::angle::{Angle, circular_distance};
 use crate::scene::Extent;
@@ -71,7 +71,7 @@ impl Pass<'_, '_> {
             t, theta, omega, ..
         } = piece.last.end;
         let (angle, speed) = (piece.last.angle(theta), omega);
-        let coordinate = Start { t, angle, speed };
+        let coordinate = MotionState { t, angle, speed };
         let result = &mut self.result;
         let crank = |curve: &CurveProblem| crank_state(&curve.equation, coordinate);
         result.state = curve.map_or(coordinate, crank);
@@ -102,7 +102,7 @@ impl Pass<'_, '_> {
 /// Runs a piece with the crank angle as the coordinate; its evaluations are those of `motion`.
 fn of_crank(
     motion: &Counted<'_>,
-    from: Start,
+    from: MotionState,
     settings: &Settings<'_>,
     observer: &mut dyn StepObserver,
 ) -> TimePiece {
@@ -119,7 +119,7 @@ fn of_crank(
             Finish::Stopped => EndReason::Stopped,
             finish => EndReason::Integrator(finish),
         },
-        singular_state: singular_state.map(|(t, angle, speed)| Start { t, angle, speed }),
+        singular_state: singular_state.map(|(t, angle, speed)| MotionState { t, angle, speed }),
     }
 }
 

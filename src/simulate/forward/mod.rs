@@ -17,11 +17,11 @@ use engine_loop::{PassResult, PassSettings};
 use forward_recorder::ForwardRecorder;
 
 use super::angle_model::AngleModel;
-use super::balance::Balance;
 use super::configuration_curve::{self, CurveProblem, EndReason};
-use super::outcome::Outcome;
+use super::energy_balance::EnergyBalance;
 use super::recorder::Record;
 use super::row::RowSink;
+use super::run_end::RunEnd;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::warning::Warning;
@@ -70,7 +70,7 @@ pub(super) fn run(
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
     }
     let (at, over_angle) = (result.state, result.pieces_over_angle > 0);
-    let outcome = Outcome {
+    let end = RunEnd {
         at,
         // An engine over the angle names the run, if any piece was over the angle.
         engine: match &result.angle_piece {
@@ -88,14 +88,14 @@ pub(super) fn run(
         stopped,
         record: with_motion(record, result),
     };
-    let outcome = match over_angle {
-        true => outcome.with_bounded_speeds(task),
-        false => outcome,
+    let end = match over_angle {
+        true => end.with_bounded_speeds(task),
+        false => end,
     };
-    Ok(outcome.conclude(task))
+    Ok(end.conclude(task))
 }
 
-fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> Balance {
+fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> EnergyBalance {
     let equation = task.equation();
     match (result.last_step, &result.curve) {
         (Some(last), Some(curve)) if result.pieces_over_angle == 0 => {
@@ -108,7 +108,7 @@ fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> 
                 _ => 0.0,
             };
             let largest = result.largest_kinetic.max(fastest);
-            Balance::of_crank(task, at, result.work, largest)
+            EnergyBalance::of_crank(task, at, result.work, largest)
         }
     }
 }

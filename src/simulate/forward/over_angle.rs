@@ -11,7 +11,7 @@ use super::engine_loop::{AnglePiece, Pass, PieceEnd, Reason};
 use crate::engine::WorkLimit;
 use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::numeric::root;
 use crate::plan::Engine;
@@ -34,7 +34,7 @@ impl Pass<'_, '_> {
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
         let run = AngleRun::whole(orbit, t, work);
-        self.add_angle_piece(Engine::Energy, reason, run, Start { t, angle, speed })?;
+        self.add_angle_piece(Engine::Energy, reason, run, MotionState { t, angle, speed })?;
         Ok(PieceEnd::Ended)
     }
 
@@ -60,7 +60,7 @@ impl Pass<'_, '_> {
                 Extent::Duration(duration) => duration,
                 Extent::Revolutions(_) => from.t + run.end,
             };
-            self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
+            self.add_angle_piece(Engine::Angle, reason, run, MotionState { t, angle, speed })?;
             return Ok(PieceEnd::Ended);
         };
         let inertia = pass.task.equation().terms(end.angle.rest).inertia.m;
@@ -72,7 +72,7 @@ impl Pass<'_, '_> {
         } else {
             pass.resume_rotation
         };
-        self.add_angle_piece(Engine::Angle, reason, run, Start { t, angle, speed })?;
+        self.add_angle_piece(Engine::Angle, reason, run, MotionState { t, angle, speed })?;
         Ok(PieceEnd::NotApplicable(end.why))
     }
 
@@ -99,7 +99,7 @@ impl Pass<'_, '_> {
         engine: Engine,
         reason: Reason,
         run: AngleRun,
-        to: Start,
+        to: MotionState,
     ) -> Result<(), Error> {
         self.keep();
         let result = &mut self.result;

@@ -6,7 +6,7 @@ use super::super::stalled::torques;
 use super::super::stop::{Why, why_not_applicable};
 use super::engine_loop::{PassResult, PassSettings};
 use crate::engine::energy::NotApplicable;
-use crate::engine::time::{Finish, Start};
+use crate::engine::time::{Finish, MotionState};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Singularity};
 use crate::scene::Extent;
@@ -65,7 +65,7 @@ fn singular_on_curve(task: &RunSetup<'_>, curve: &CurveEquation, result: &PassRe
 }
 
 /// Returns the end at a load without a finite value, with the load.
-fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
+fn no_value(task: &RunSetup<'_>, asked: MotionState) -> Why {
     Why::NoValue {
         asked,
         load: task.maker.without_value(asked),
@@ -74,7 +74,7 @@ fn no_value(task: &RunSetup<'_>, asked: Start) -> Why {
 
 /// Returns the error of a run without a finite acceleration at its start.
 pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
-    let Start { angle, speed, .. } = task.first_state();
+    let MotionState { angle, speed, .. } = task.first_state();
     Error::refused(
         format!(
             "no motion begins at the start, theta = {} rad, omega = {speed} rad/s: the equation has no finite acceleration next to it",

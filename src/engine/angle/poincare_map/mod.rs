@@ -14,7 +14,7 @@ use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
 use super::{AngleRun, Dynamics, EarlyEnd, Errors, Goal};
 use crate::engine::WorkLimit;
-use crate::engine::run_in_time::Start;
+use crate::engine::run_in_time::MotionState;
 
 /// Degree of the interpolation over the energy: a cell costs one turn more than this.
 const MAP_DEGREE: usize = 16;
@@ -27,7 +27,7 @@ pub(super) fn run<D: Dynamics>(
     segment: Segment,
     goal: Goal,
 ) -> Result<AngleRun, NotApplicable> {
-    let Start { angle, speed, .. } = stepper.start;
+    let MotionState { angle, speed, .. } = stepper.start;
     let mark = TurnStart {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::balance::Balance;
+use super::energy_balance::EnergyBalance;
 use super::recorder::Record;
 use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
@@ -10,20 +10,20 @@ use super::simulation::{DenseRows, Simulation};
 use super::stalled::stalled;
 use super::stop::{Stopped, Why};
 use super::warning::Warning;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
 /// End of a run, as input of its result.
-pub(super) struct Outcome {
+pub(super) struct RunEnd {
     /// Last time, crank angle and crank speed.
-    pub at: Start,
+    pub at: MotionState,
     /// Engine that names the run.
     pub engine: Engine,
     /// Signed rotation of the crank from the start, rad.
     pub turned: f64,
     pub estimate: Option<Estimate>,
-    pub balance: Balance,
+    pub balance: EnergyBalance,
     pub evaluations: u64,
     pub steps: u64,
     /// Wall time of the solution without rows, s.
@@ -54,9 +54,9 @@ impl Estimate {
     }
 }
 
-impl Outcome {
+impl RunEnd {
     /// Shows speeds as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
-    pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> Outcome {
+    pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> RunEnd {
         let usual = task.speed.abs().max(self.at.speed.abs());
         // An inertia that vanishes, of 1e-12 of that elsewhere, gives a speed of 1e6 times that elsewhere.
         let unbounded = 1e6 * usual;

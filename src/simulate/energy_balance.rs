@@ -2,32 +2,37 @@
 
 use super::row::Row;
 use super::run_setup::RunSetup;
-use crate::engine::time::Start;
+use crate::engine::time::MotionState;
 use crate::mechanism::{Class, Equation};
 use crate::numeric::angle::Angle;
 use crate::scene::Scene;
 
 /// Residual of the energy balance: energy at the end minus energy at the start minus work of the loads.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Balance {
+pub(super) struct EnergyBalance {
     /// Residual, J.
     pub residual: f64,
     /// Largest absolute value of the energies that occur, J.
     pub largest: f64,
 }
 
-impl Balance {
+impl EnergyBalance {
     /// Makes a balance from a residual, J, and the energies that occur, J.
-    pub fn new(residual: f64, energies: &[f64]) -> Balance {
+    pub fn new(residual: f64, energies: &[f64]) -> EnergyBalance {
         let largest = |largest: f64, energy: &f64| largest.max(energy.abs());
-        Balance {
+        EnergyBalance {
             residual,
             largest: energies.iter().fold(0.0, largest),
         }
     }
 
     /// Computes the balance of a crank motion to `at`: work of the loads without potential, largest kinetic energy, J.
-    pub fn of_crank(task: &RunSetup<'_>, at: &Start, work: f64, largest_kinetic: f64) -> Balance {
+    pub fn of_crank(
+        task: &RunSetup<'_>,
+        at: &MotionState,
+        work: f64,
+        largest_kinetic: f64,
+    ) -> EnergyBalance {
         let equation = task.equation();
         let start = task.start();
         let turned = Angle::new(at.angle.turns - start.turns, at.angle.rest);
@@ -35,7 +40,7 @@ impl Balance {
             equation.kinetic_energy(start.rest, task.speed) + equation.potential_energy(start.rest);
         let last =
             equation.kinetic_energy(at.angle.rest, at.speed) + equation.potential_energy(turned);
-        Balance::new(last - begin - work, &[largest_kinetic, begin, last, work])
+        EnergyBalance::new(last - begin - work, &[largest_kinetic, begin, last, work])
     }
 }
 
