@@ -2,6 +2,7 @@
 //! independent integration of the Newton-Euler equations, with the energy balance and with symmetries.
 
 use std::f64::consts::{PI, TAU};
+use std::path::Path;
 
 use crate::support::close;
 use crate::support::machines::{self, leaning};
@@ -281,6 +282,38 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
 }
 
 /// Acceleration, joint forces and guide force in the rows agree with those of a run in time.
+/// Where the normal force changes its sign, the start of the panel after it lies on either side by the error of a loose
+/// tolerance.
+#[test]
+fn loose_tolerances_find_the_side_after_a_change_of_the_normal_force() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/duarte-engine.toml");
+    let engine = Scene::load(&file)
+        .expect("a scene")
+        .gravity(Gravity::standard());
+    for (speed, mu, viscous) in [
+        (60.0, 0.1, 0.03),
+        (80.0, 0.2, 0.0),
+        (100.0, 0.1, 0.01),
+        (130.0, 0.05, 0.0),
+        (170.0, 0.1, 0.01),
+    ] {
+        let mut scene = rubbing(engine.clone(), mu).start(0.0, speed).duration(1.0);
+        if viscous > 0.0 {
+            scene = scene.torque(Load::Viscous(viscous));
+        }
+        let theta = in_time(&scene).summary.last.theta_rad;
+        for tolerance in [1e-4, 1e-5, 1e-6] {
+            let loose = run(&scene.clone().tolerance(tolerance), Method::Angle).summary;
+            assert_eq!(loose.engine, "angle");
+            let error = (loose.last.theta_rad - theta).abs();
+            assert!(
+                error < tolerance * theta,
+                "{speed} {mu} {tolerance}: {error:e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn rows_are_those_of_a_run_in_time() {
     let scene = rubbing(machine(0.05, 0.15, 0.01, 0.01, 0.004), 0.3)

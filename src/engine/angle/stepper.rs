@@ -144,14 +144,14 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             }
             let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
             let piece = panel.piece;
-            match switching(self.dynamics, panel, start, solution) {
-                Switching::AtStart if turned_over < 2 => {
+            // Still on the other side after two changes: the switch has no sign at the start.
+            let has_sign = turned_over < 2;
+            match switching(self.dynamics, panel, start, solution, has_sign) {
+                Switching::AtStart => {
                     turned_over += 1;
                     panel.turn_over(self.dynamics)?;
                     self.evaluations += self.solution.evaluations;
                 }
-                // Still on the other side after two changes: the switch has no sign.
-                Switching::AtStart => return Ok(self.pass(piece, None)),
                 Switching::Never => {
                     panel.past.remember(&solution.kinetic);
                     self.panels.remember_rest();

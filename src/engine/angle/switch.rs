@@ -20,24 +20,33 @@ pub(super) enum Switching {
     At(f64),
 }
 
-/// Determines the switching of the motion on a panel that was solved for one side.
+/// Determines the switching of the motion on a panel that was solved for one side. `has_sign`: whether the switch at the
+/// start tells the side there; it does not where it is zero but for the error of the motion.
 pub(super) fn switching<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     solution: &PanelSolution,
+    has_sign: bool,
 ) -> Switching {
     let Some(switch) = &panel.table.switch else {
         return Switching::Never;
     };
     let (values, noise) = values(dynamics, switch, panel, start, solution);
+    let length = 2.0 * panel.half().abs();
+    let threshold = noise.max(SHORTEST_PANEL * largest(&values));
+    if has_sign && values[0] < -threshold && rise(panel, &values) * length >= SHORTEST_PANEL {
+        return Switching::AtStart;
+    }
     let Some(x) = first_below(panel, &values, noise) else {
         return Switching::Never;
     };
-    let length = 2.0 * panel.half().abs();
     let share = 0.5 * (x + 1.0);
     if share * length < SHORTEST_PANEL {
-        Switching::AtStart
+        match has_sign {
+            true => Switching::AtStart,
+            false => Switching::Never,
+        }
     } else if (1.0 - share) * length < SHORTEST_PANEL {
         Switching::Never
     } else {
@@ -118,14 +127,25 @@ fn values<D: Dynamics>(
     (values, SUM_ROUNDING * size)
 }
 
-/// Returns the first x at which the values fall below zero, by more than `noise`; −1 if they start there.
+/// Returns the fraction of a panel after which values that are negative at its start rise above zero, if they do so
+/// before the second point.
+fn rise<P: Copy>(panel: &PanelTable<P>, values: &Values) -> f64 {
+    let [first, second, ..] = *values;
+    match second > 0.0 {
+        true => 0.5 * (panel.rule.points()[1] + 1.0) * first / (first - second),
+        false => f64::INFINITY,
+    }
+}
+
+/// Returns the first x at which the values fall below zero, by more than `noise`. Values below zero from the start on
+/// count from where they first rise above it.
 fn first_below<P: Copy>(panel: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
     let points = panel.rule.points();
-    if values[0] < -noise.max(SHORTEST_PANEL * largest(values)) {
-        return Some(-1.0);
-    }
     let series = || panel.rule.series(values);
-    for j in 1..points.len() {
+    let first = values[..points.len()]
+        .iter()
+        .position(|value| *value >= -noise)?;
+    for j in first + 1..points.len() {
         if values[j] < -noise {
             let root =
                 |series: &Series| root::bracketed(|x| series.value(x), points[j - 1], points[j]);
