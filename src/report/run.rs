@@ -159,7 +159,7 @@ fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
         facts.add("  reproducible", text);
         if let Some(beyond) = &horizon.beyond {
             facts.add("  beyond", statistics(&beyond.run));
-            facts.add("  at 1/50 of tol.", statistics(&beyond.tighter));
+            facts.add("  at tol./1000", statistics(&beyond.tighter));
         }
     }
 }

@@ -11,8 +11,6 @@ use crate::engine::step::Step;
 pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Least tolerance of a second run: below it rounding inside a step dominates.
 pub(super) const LEAST_SECOND_TOLERANCE: f64 = 1e-15;
-/// Ratio of the tolerances of both runs, for a loose joint and where collocation does not reach the end.
-pub(super) const TOLERANCE_RATIO: f64 = 50.0;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
@@ -27,9 +25,10 @@ pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
 
 /// Returns the tolerance of a second run by the method of the first.
 pub(super) fn same_method_tolerance(tolerance: f64) -> f64 {
+    let ratio = 50.0;
     // Least ratio of the tolerances near rounding, which below this tolerance would make the steps collapse.
     let (least_ratio, least) = (5.0, 1e-13_f64);
-    (tolerance / TOLERANCE_RATIO).max(least.min(tolerance / least_ratio))
+    (tolerance / ratio).max(least.min(tolerance / least_ratio))
 }
 
 /// Steps of a run, kept for comparison with a second run and as a predictor for it.

@@ -566,6 +566,41 @@ fn the_horizon_ends_where_two_tolerances_part() {
     );
 }
 
+/// Loose tolerances differ by few steps, since the phases of a contact bound the steps, too.
+#[test]
+fn stated_errors_bound_the_true_ones_at_loose_tolerances() {
+    for (joint, speed) in [
+        (Joint::WristPin, 118.5),
+        (Joint::WristPin, -18.1),
+        (Joint::CrankPin, 70.0),
+        (Joint::CrankPin, -240.0),
+    ] {
+        for restitution in [0.4, 0.6, 0.8] {
+            let scene = Scene {
+                clearance: Some(steel(joint, 3e-4, 0.008, restitution)),
+                ..engine(0.011)
+                    .start(2.0, speed)
+                    .duration(1.3 / f64::abs(speed))
+            };
+            let end = |tolerance: f64| {
+                let joint = run(&scene.clone().tolerance(tolerance)).clearance;
+                let last = joint.expect("a loose joint").last;
+                (last.x_m, last.error_x_m)
+            };
+            let (reference, doubt) = end(1e-13);
+            let doubt = doubt.expect("inside the horizon");
+            for tolerance in [1e-4, 1e-5, 1e-6, 1e-7, 1e-8] {
+                let (x, stated) = end(tolerance);
+                let error = (x - reference).abs() - doubt;
+                assert!(
+                    stated.is_none_or(|stated| error <= 2.0 * stated),
+                    "{joint:?} {speed} {restitution} {tolerance}: {error:e} {stated:?}"
+                );
+            }
+        }
+    }
+}
+
 /// After a separation the journal moves along the wall, touches it again lightly, and is far away before a long step of
 /// the flight ends. Where there is no force, the journal must not be inside the wall.
 #[test]

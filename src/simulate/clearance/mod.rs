@@ -18,7 +18,7 @@ use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::second_run::{LEAST_SECOND_TOLERANCE, TOLERANCE_RATIO};
+use super::second_run::LEAST_SECOND_TOLERANCE;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, ContactSettings};
@@ -131,7 +131,9 @@ impl<'a, const N: usize> Loose<'a, N> {
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
     fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
-        let tolerance = self.task.scene.run.tolerance / TOLERANCE_RATIO;
+        // Steps of a contact are bounded by its phases, too: nearer tolerances may err alike.
+        let ratio = 1e3;
+        let tolerance = self.task.scene.run.tolerance / ratio;
         let (ended, follower) = self.integrate(None, tolerance.max(LEAST_SECOND_TOLERANCE), t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),
