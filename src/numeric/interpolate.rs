@@ -166,7 +166,8 @@ impl TableInterpolant {
         if smooth && real != Interval::WHOLE {
             Enclosed {
                 real,
-                plane: Some(Rectangle::point(real.middle())),
+                plane: Rectangle::point(real.middle()),
+                deviation: 0.0,
             }
         } else {
             Enclosed::not_analytic(real)

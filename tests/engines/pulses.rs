@@ -226,3 +226,44 @@ fn a_blow_in_a_later_turn_is_met() {
         }
     }
 }
+
+/// Far from its pulse a formula that overflows in the complex plane is constant, beside whatever other load. Crank alone:
+/// θ = ω₀ I/c (1 − exp(−ct/I)).
+#[test]
+fn formulas_that_overflow_far_from_their_pulse_cost_nothing() {
+    let (inertia, loss, speed, t): (f64, f64, f64, f64) = (0.01, 0.00336, 13.0, 0.1);
+    let alone = Scene::new(0.05, 0.15)
+        .crank(Crank {
+            inertia,
+            ..Crank::default()
+        })
+        .start(0.0, speed)
+        .duration(t);
+    let theta = -speed * inertia / loss * (-loss * t / inertia).exp_m1();
+    for pulse in [
+        "1.76/cosh((t - 0.5)/0.001)^2",
+        "1/(1 + exp(-(t - 0.5)/0.0005))",
+        "1.76/cosh((omega - 30)/0.02)^2",
+        "1.76/cosh((theta - 20)/0.02)^2",
+        "1.76/cosh((v - 3)/0.005)",
+    ] {
+        for scene in [
+            alone
+                .clone()
+                .torque(formula(pulse))
+                .torque(formula("-0.00336*omega")),
+            alone
+                .clone()
+                .torque(formula(&format!("{pulse} - 0.00336*omega"))),
+        ] {
+            let summary = run(&scene, Method::Auto).expect("a run").summary;
+            let error = (summary.last.theta_rad - theta).abs();
+            assert!(error < 1e-13 * theta, "{pulse}: {error:e}");
+            assert!(
+                summary.evaluations < 1000,
+                "{pulse}: {}",
+                summary.evaluations
+            );
+        }
+    }
+}

@@ -221,7 +221,7 @@ impl Search {
 
     fn note_corner(&mut self, variation: &Variation, from: f64, to: f64) {
         let is_at_end = from == self.whole[0] || to == self.whole[1];
-        if variation.around.is_none() && !is_at_end {
+        if variation.deviation > 0.0 && !is_at_end {
             self.corner_at(0.5 * (from + to));
         }
     }

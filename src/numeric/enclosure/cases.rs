@@ -59,9 +59,9 @@ impl Enclosed {
             return Enclosed::UNKNOWN;
         }
         let count = self.divided_by(by).floor();
-        match count.plane {
-            Some(_) => self - by * count,
-            None => Enclosed::not_analytic(Interval::new(0.0, by.real.high)),
+        match count.deviation {
+            0.0 => self - by * count,
+            _ => Enclosed::not_analytic(Interval::new(0.0, by.real.high)),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! 2M ρ⁻ⁿ/(ρ − 1), where ρ is the size of the Bernstein ellipse inside (Trefethen, Approximation Theory and
 //! Approximation Practice, theorem 8.2): n + 1 nodes resolve it but for twice that error. Functions of several cases
 //! (abs, min, floor, ...) are analytic where one case serves the whole interval; this case is continued into the plane.
+//! Elsewhere a function is a constant but for half its range, which adds to the error that nodes leave.
 
 mod cases;
 mod interval;
@@ -24,19 +25,26 @@ pub use variation::{MotionPiece, Variation, ellipses, resolved};
 pub struct Enclosed {
     /// Values over the interval.
     pub real: Interval,
-    /// Values around the interval; none where the function is not known to be analytic.
-    pub plane: Option<Rectangle>,
+    /// Values of an analytic function around the interval.
+    pub plane: Rectangle,
+    /// Largest deviation from the analytic function over the interval; zero if it is the function itself.
+    pub deviation: f64,
 }
 
 impl Enclosed {
     /// Enclosure of an unknown function.
-    pub const UNKNOWN: Enclosed = Enclosed::not_analytic(Interval::WHOLE);
+    pub const UNKNOWN: Enclosed = Enclosed {
+        real: Interval::WHOLE,
+        plane: Rectangle::ZERO,
+        deviation: f64::INFINITY,
+    };
 
     /// Encloses a constant.
     pub fn point(value: f64) -> Enclosed {
         Enclosed {
             real: Interval::point(value),
-            plane: Some(Rectangle::point(value)),
+            plane: Rectangle::point(value),
+            deviation: 0.0,
         }
     }
 
@@ -48,21 +56,47 @@ impl Enclosed {
         let plane = Rectangle::new(real.widened(along - half), Interval::new(-across, across));
         Enclosed {
             real,
-            plane: Some(plane),
+            plane,
+            deviation: 0.0,
         }
     }
 
     /// Encloses a function that is not known to be analytic.
-    pub const fn not_analytic(real: Interval) -> Enclosed {
-        Enclosed { real, plane: None }
+    pub fn not_analytic(real: Interval) -> Enclosed {
+        let half = real.half();
+        if !half.is_finite() {
+            return Enclosed {
+                real,
+                ..Enclosed::UNKNOWN
+            };
+        }
+        Enclosed {
+            real,
+            plane: Rectangle::point(real.middle()),
+            deviation: half,
+        }
+    }
+
+    /// Returns the enclosure of real values, and of those in the plane where the function is analytic.
+    fn new(real: Interval, plane: Option<Rectangle>) -> Enclosed {
+        match plane.filter(|plane| plane.radius().is_finite()) {
+            Some(plane) => Enclosed {
+                real,
+                plane,
+                deviation: 0.0,
+            },
+            None => Enclosed::not_analytic(real),
+        }
+    }
+
+    /// Returns the values in the plane, if the function is analytic.
+    fn analytic(self) -> Option<Rectangle> {
+        (self.deviation == 0.0).then_some(self.plane)
     }
 
     /// Applies an entire function.
     fn map(self, real: fn(Interval) -> Interval, plane: fn(Rectangle) -> Rectangle) -> Enclosed {
-        Enclosed {
-            real: real(self.real),
-            plane: self.plane.map(plane),
-        }
+        Enclosed::new(real(self.real), self.analytic().map(plane))
     }
 
     /// Applies a function that rises over the interval, with its continuation into the plane.
@@ -71,10 +105,7 @@ impl Enclosed {
         f: impl Fn(f64) -> f64,
         plane: impl FnOnce(Rectangle) -> Option<Rectangle>,
     ) -> Enclosed {
-        Enclosed {
-            real: self.real.rising(f),
-            plane: self.plane.and_then(plane),
-        }
+        Enclosed::new(self.real.rising(f), self.analytic().and_then(plane))
     }
 
     /// Returns a constant that depends on the sign of the argument.
@@ -96,10 +127,8 @@ impl Enclosed {
 
     /// Encloses 1/z.
     pub fn reciprocal(self) -> Enclosed {
-        Enclosed {
-            real: self.real.reciprocal(),
-            plane: self.plane.and_then(Rectangle::reciprocal),
-        }
+        let plane = self.analytic().and_then(Rectangle::reciprocal);
+        Enclosed::new(self.real.reciprocal(), plane)
     }
 
     /// Encloses the quotients.
@@ -243,29 +272,51 @@ impl Enclosed {
     }
 }
 
-macro_rules! part_by_part {
-    ($operator:ident, $function:ident) => {
+macro_rules! with_deviation {
+    ($operator:ident, $function:ident, $deviation:expr) => {
         impl $operator for Enclosed {
             type Output = Enclosed;
 
             fn $function(self, other: Enclosed) -> Enclosed {
-                Enclosed {
-                    real: self.real.$function(other.real),
-                    plane: self.plane.zip(other.plane).map(|(a, b)| a.$function(b)),
+                let real = self.real.$function(other.real);
+                let deviation: fn(Enclosed, Enclosed) -> f64 = $deviation;
+                let deviation = deviation(self, other);
+                let plane = self.plane.$function(other.plane);
+                if deviation < real.half() && plane.radius().is_finite() {
+                    return Enclosed {
+                        real,
+                        plane,
+                        deviation,
+                    };
                 }
+                Enclosed::new(real, (deviation == 0.0).then_some(plane))
             }
         }
     };
 }
 
-part_by_part!(Add, add);
-part_by_part!(Sub, sub);
-part_by_part!(Mul, mul);
+with_deviation!(Add, add, |a, b| a.deviation + b.deviation);
+with_deviation!(Sub, sub, |a, b| a.deviation + b.deviation);
+with_deviation!(Mul, mul, Enclosed::deviation_of_product);
+
+impl Enclosed {
+    fn deviation_of_product(self, other: Enclosed) -> f64 {
+        let (a, b) = (self.deviation, other.deviation);
+        if a == 0.0 && b == 0.0 {
+            return 0.0;
+        }
+        a * other.real.largest() + b * self.real.largest() + a * b
+    }
+}
 
 impl Neg for Enclosed {
     type Output = Enclosed;
 
     fn neg(self) -> Enclosed {
-        self.map(Neg::neg, Neg::neg)
+        Enclosed {
+            real: -self.real,
+            plane: -self.plane,
+            ..self
+        }
     }
 }

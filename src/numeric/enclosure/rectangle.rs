@@ -14,6 +14,18 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
+    /// Rectangle of zero alone.
+    pub const ZERO: Rectangle = Rectangle {
+        re: Interval {
+            low: 0.0,
+            high: 0.0,
+        },
+        im: Interval {
+            low: 0.0,
+            high: 0.0,
+        },
+    };
+
     /// Returns the rectangle of real and imaginary parts.
     pub fn new(re: Interval, im: Interval) -> Rectangle {
         Rectangle { re, im }

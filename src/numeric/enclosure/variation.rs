@@ -1,6 +1,6 @@
 //! Number of nodes that resolve a function on a piece of a motion.
 
-use super::{Enclosed, Interval, Rectangle};
+use super::{Enclosed, Interval};
 
 /// Piece of a motion: ranges of time, angle and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,47 +18,60 @@ pub struct MotionPiece {
 pub struct Variation {
     /// Greatest value less the least.
     pub change: f64,
-    /// Bound M of the distance from a constant in the Bernstein ellipse; none where the function may not be analytic.
-    pub around: Option<f64>,
+    /// Bound M of the distance of an analytic function from a constant in the Bernstein ellipse.
+    pub around: f64,
+    /// Largest deviation from the analytic function on the piece; zero if it is the function itself.
+    pub deviation: f64,
 }
 
 impl Variation {
     /// Variation of a function that is constant, or is known by its values alone.
     pub const NONE: Variation = Variation {
         change: 0.0,
-        around: Some(0.0),
+        around: 0.0,
+        deviation: 0.0,
     };
 
     /// Variation of a function that may do anything.
     pub const HIDDEN: Variation = Variation {
         change: f64::INFINITY,
-        around: None,
+        around: 0.0,
+        deviation: f64::INFINITY,
     };
-
-    /// Returns the variation of a change and a bound: a change that is NaN counts as infinite, a bound that is not
-    /// finite as none.
-    fn new(change: f64, around: Option<f64>) -> Variation {
-        Variation {
-            change: if change.is_nan() {
-                f64::INFINITY
-            } else {
-                change
-            },
-            around: around.filter(|around| around.is_finite()),
-        }
-    }
 
     /// Returns the variation of an enclosed function.
     pub fn of(function: Enclosed) -> Variation {
-        let radius = function.plane.map(Rectangle::radius);
-        Variation::new(2.0 * function.real.half(), radius)
+        let half = function.real.half();
+        if half == 0.0 {
+            return Variation::NONE;
+        }
+        Variation {
+            change: 2.0 * half,
+            around: function.plane.radius(),
+            deviation: function.deviation,
+        }
+        .known()
+    }
+
+    /// Returns the variation, hidden where a bound is not a number.
+    fn known(self) -> Variation {
+        let Variation {
+            change,
+            around,
+            deviation,
+        } = self;
+        match (change + around + deviation).is_nan() {
+            true => Variation::HIDDEN,
+            false => self,
+        }
     }
 
     /// Returns the variation of the sum of two functions.
     pub fn plus(self, other: Variation) -> Variation {
         Variation {
             change: self.change + other.change,
-            around: self.around.zip(other.around).map(|(a, b)| a + b),
+            around: self.around + other.around,
+            deviation: self.deviation + other.deviation,
         }
     }
 
@@ -67,13 +80,22 @@ impl Variation {
         if self == Variation::NONE {
             return self;
         }
-        Variation::new(self.change * by, self.around.map(|around| around * by))
+        Variation {
+            change: self.change * by,
+            around: self.around * by,
+            deviation: self.deviation * by,
+        }
+        .known()
     }
 
     /// Returns the number of nodes that resolve the function to `allowed`, where it is enclosed in an ellipse of this
-    /// size: the error is 4M ρ⁻ⁿ/(ρ − 1). None where the function may not be analytic.
+    /// size: the error is 4M ρ⁻ⁿ/(ρ − 1), beside twice the deviation. None where that is too much.
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
-        let left = 4.0 * self.around? / (allowed * (ellipse - 1.0));
+        let allowed = allowed - 2.0 * self.deviation;
+        if allowed <= 0.0 || self.around.is_infinite() {
+            return None;
+        }
+        let left = 4.0 * self.around / (allowed * (ellipse - 1.0));
         let terms = (left.ln() / ellipse.ln()).ceil().max(0.0);
         // Pieces of tables are cubics, which four nodes determine.
         let least = 4;
@@ -107,7 +129,7 @@ pub fn resolved(
         nodes.filter(|nodes| *nodes <= most)
     };
     let nodes = few(first, smaller).or_else(|| {
-        first.around?;
+        (2.0 * first.deviation < allowed).then_some(())?;
         few(variation(larger), larger)
     });
     (first, nodes)
