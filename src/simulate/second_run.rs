@@ -1,7 +1,7 @@
 //! Second run of an error estimate: its tolerances, and its comparison with states of the first. Runs that return to
 //! one course may agree only at the end.
 
-use std::iter::{Chain, Peekable};
+use std::iter::{Chain, FlatMap, Peekable};
 use std::slice::Iter;
 
 use super::result::ErrorEstimate;
@@ -67,31 +67,52 @@ impl Checkpoints {
     }
 }
 
-/// Comparison of a second run with the checkpoints of the first, at the ends of their steps.
+/// Comparison of a second run with the checkpoints of the first, at the ends of their steps and inside them, where a
+/// collocation polynomial is less exact.
 pub(super) struct Comparison<'a> {
-    remaining: Peekable<Chain<Iter<'a, Step>, Iter<'a, Step>>>,
+    remaining: Peekable<Probes<'a>>,
     /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
     largest_difference: [f64; 2],
+}
+
+/// Steps of the first run, each at its middle and at its end, as a part of its length.
+type Probes<'a> = FlatMap<Chain<Iter<'a, Step>, Iter<'a, Step>>, [Probe<'a>; 2], Split<'a>>;
+
+type Split<'a> = fn(&'a Step) -> [Probe<'a>; 2];
+
+/// Place in a step of the first run.
+struct Probe<'a> {
+    step: &'a Step,
+    t: f64,
+}
+
+fn probes(step: &Step) -> [Probe<'_>; 2] {
+    let middle = match step.has_polynomial() {
+        true => step.start.t + 0.5 * step.length(),
+        false => step.end.t,
+    };
+    [middle, step.end.t].map(|t| Probe { step, t })
 }
 
 impl<'a> Comparison<'a> {
     pub fn with(checkpoints: &'a Checkpoints) -> Comparison<'a> {
         let Checkpoints { first, later, .. } = checkpoints;
+        let split: Split<'a> = probes;
         Comparison {
-            remaining: first.iter().chain(later).peekable(),
+            remaining: first.iter().chain(later).flat_map(split).peekable(),
             largest_difference: [0.0; 2],
         }
     }
 
     /// Compares states inside a step of the second run. `rate`: derivative of the crank angle at a coordinate.
     pub fn compare(&mut self, step: &Step, rate: impl Fn(f64) -> f64) {
-        while let Some(first) = self.remaining.next_if(|first| first.end.t <= step.end.t) {
-            let node = &first.end;
-            if node.t >= step.start.t {
-                let (theta, omega) = step.at(node.t);
-                let way = step.angle(theta).minus(first.angle(node.theta));
-                let apart = [way, omega - node.omega];
-                let rate = rate(node.theta);
+        while let Some(probe) = self.remaining.next_if(|probe| probe.t <= step.end.t) {
+            if probe.t >= step.start.t {
+                let (theta, omega) = step.at(probe.t);
+                let (theta_first, omega_first) = probe.step.at(probe.t);
+                let way = step.angle(theta).minus(probe.step.angle(theta_first));
+                let apart = [way, omega - omega_first];
+                let rate = rate(theta_first);
                 for (largest, apart) in self.largest_difference.iter_mut().zip(apart) {
                     *largest = largest.max((rate * apart).abs());
                 }
