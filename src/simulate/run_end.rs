@@ -164,8 +164,12 @@ fn unexplained_end(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
         Extent::Duration(duration) => (duration, last.t_s),
         Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
     };
+    let angle_rounding = match extent {
+        Extent::Duration(_) => 0.0,
+        Extent::Revolutions(_) => 2.0 * f64::EPSILON * last.theta_rad.abs(),
+    };
     // Half of all digits: far more than the rounding of a goal.
-    let missed = goal - reached > f64::EPSILON.sqrt() * goal;
+    let missed = goal - reached > f64::EPSILON.sqrt() * goal + angle_rounding;
     let state = [last.t_s, last.theta_rad, last.omega_rad_per_s, reached];
     let is_state = state.iter().all(|number| number.is_finite());
     (missed || !is_state).then_some(Why::Untold)
@@ -189,6 +193,14 @@ mod tests {
         assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
         assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
         assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
+        // Angles near 1 rad differ by a multiple of their rounding.
+        let last = Final {
+            t_s: 1e-9,
+            theta_rad: 1.0,
+            omega_rad_per_s: 1.0,
+        };
+        let short = 6.28e-9 - 2.0 * f64::EPSILON;
+        assert!(unexplained_end(Extent::Revolutions(6.28e-9 / TAU), &last, short).is_none());
         assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
     }
 }
