@@ -55,8 +55,11 @@ pub(super) fn time(
         if let Some(i) = (1..5).find(|i| values[*i] < 0.0)
             && (is_resolved || falls(i))
         {
-            let crossing = root::bracketed(band, times[i - 1], times[i]);
-            return (Release::At(crossing.unwrap_or(times[i])), count);
+            let crossing = root::bracketed(band, times[i - 1], times[i]).unwrap_or(times[i]);
+            // Where the margin jumps, the loads that move the slider act behind the crossing.
+            let behind = (crossing * (1.0 + 4.0 * f64::EPSILON)).min(times[i]);
+            let holds = band(crossing) >= 0.0;
+            return (Release::At(if holds { behind } else { crossing }), count);
         }
         if is_resolved {
             t = end;
