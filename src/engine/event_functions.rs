@@ -10,6 +10,9 @@ use crate::numeric::{dip, maximum, root};
 pub trait EventFunction<const N: usize> {
     /// Returns the N values.
     fn values(&self, t: f64, angle: Angle, speed: f64) -> [f64; N];
+
+    /// Returns the travel (rad) after an angle at which the next sample shows a double sign change of the values.
+    fn shown_travel(&self, angle: Angle) -> f64;
 }
 
 /// Sign change of one event function.
@@ -31,11 +34,8 @@ pub fn changes<const N: usize>(
     follows: bool,
     signs: &mut [f64; N],
 ) -> Vec<Change> {
-    let travel = (step.end.theta - step.start.theta).abs();
-    // Crank travel between two samples, rad: the parabolas between them detect double sign changes.
-    let longest = 0.1;
-    let pieces = PIECES.max((travel / longest).ceil() as usize);
-    let rough = sampled(step, watched, pieces);
+    let times = sample_times(step, watched);
+    let rough = sampled(step, watched, &times);
     let left = |i: usize| {
         let mut inside = rough[1..].iter();
         follows && has_jumped(&rough, i, signs[i])
@@ -47,7 +47,7 @@ pub fn changes<const N: usize>(
     }
     step.refine(motion);
     let step = &*step;
-    let fine = sampled(step, watched, pieces);
+    let fine = sampled(step, watched, &times);
     let mut found = Vec::new();
     for (index, sign) in signs.iter_mut().enumerate() {
         let value = |t: f64| values_at(step, watched, t).values[index];
@@ -148,15 +148,33 @@ fn values_at<const N: usize>(
     }
 }
 
-fn sampled<const N: usize>(
-    step: &Step,
-    watched: &dyn EventFunction<N>,
-    pieces: usize,
-) -> Vec<EventValues<N>> {
+/// Returns the times, s, of the samples in a step: the parabolas between them detect double sign changes.
+fn sample_times<const N: usize>(step: &Step, watched: &dyn EventFunction<N>) -> Vec<f64> {
+    // Crank travel between two samples, rad.
+    let longest = 0.1;
+    let pieces = PIECES.max((step.travel() / longest).ceil() as usize);
     // Steps end at jumps of loads, and the samples show the values inside: not nearer to an end than this fraction.
     let nearest = 1e-9;
     let part = |i: usize| (i as f64 / pieces as f64).clamp(nearest, 1.0 - nearest);
-    (0..=pieces)
-        .map(|i| values_at(step, watched, step.start.t + step.length() * part(i)))
-        .collect()
+    let mut times: Vec<f64> = Vec::with_capacity(pieces + 1);
+    for until in (0..=pieces).map(|i| step.start.t + step.length() * part(i)) {
+        while let Some(&last) = times.last() {
+            let (theta, omega) = step.at(last);
+            let next = last + watched.shown_travel(step.angle(theta)) / omega.abs();
+            if next <= last || next >= until {
+                break;
+            }
+            times.push(next);
+        }
+        times.push(until);
+    }
+    times
+}
+
+fn sampled<const N: usize>(
+    step: &Step,
+    watched: &dyn EventFunction<N>,
+    times: &[f64],
+) -> Vec<EventValues<N>> {
+    times.iter().map(|t| values_at(step, watched, *t)).collect()
 }

@@ -1,5 +1,7 @@
 //! Accepted step with a polynomial for the motion between its ends.
 
+use std::f64::consts::TAU;
+
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
@@ -87,6 +89,18 @@ impl Step {
     /// Length, s.
     pub fn length(&self) -> f64 {
         self.end.t - self.start.t
+    }
+
+    /// Travel, rad.
+    pub fn travel(&self) -> f64 {
+        (self.end.theta - self.start.theta).abs()
+    }
+
+    /// Returns the part of the step in which it makes about one turn, if it makes more than two: there the polynomial
+    /// does not follow the motion, and events cannot be listed.
+    pub fn part_of_one_turn(&self) -> Option<f64> {
+        let travel = self.travel();
+        (travel > 2.0 * TAU).then_some(TAU / travel)
     }
 
     /// Returns the whole angle of a `theta` (rad) of this step.

@@ -141,10 +141,8 @@ impl Rejected {
         method: runge_kutta::RungeKutta,
         tolerance: f64,
     ) -> Option<Rejected> {
-        let travel = (step.end.theta - step.start.theta).abs();
-        // Beyond two turns the polynomial does not follow the motion and events cannot be listed: one turn is tried.
-        if travel > 2.0 * TAU {
-            return Some(Rejected::TooLong(step.length() * TAU / travel));
+        if let Some(part) = step.part_of_one_turn() {
+            return Some(Rejected::TooLong(part * step.length()));
         }
         unresolved_at(motion, step, method.order(), tolerance).map(Rejected::Unresolved)
     }

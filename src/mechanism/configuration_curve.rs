@@ -13,6 +13,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::extremes::shown_distance;
 use super::linkage::SAME_LENGTHS;
 use super::rocker::Rocker;
 use super::{Class, CurvePose, Limits, Linkage};
@@ -131,6 +132,16 @@ impl Curve {
             Chart::Crank => CurvePose::of(&self.linkage, &self.linkage.pose(q)),
             Chart::Rod(swapped) => CurvePose::of(swapped, &swapped.pose(q)).exchanged(),
             Chart::Rocker(rocker) => rocker.pose(&self.linkage, q),
+        }
+    }
+
+    /// Returns the distance (rad) from coordinate q at which the next sample of a function of the position shows all that
+    /// it does between them; infinite where no branch point is near or far.
+    pub fn shown_distance(&self, q: f64) -> f64 {
+        match &self.chart {
+            Chart::Crank => shown_distance(q, self.linkage.branch_points()),
+            Chart::Rod(swapped) => shown_distance(q, swapped.branch_points()),
+            Chart::Rocker(rocker) => shown_distance(q, rocker.branch_points()),
         }
     }
 

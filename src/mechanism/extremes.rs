@@ -106,6 +106,20 @@ fn range(
     found
 }
 
+/// Part of the distance from the nearest branch point at which samples show all that a function does.
+const SHOWN_SHARE: f64 = 0.125;
+
+/// Returns the distance (rad) from an angle at which the next sample of a function shows all that it does between them:
+/// a part of the distance from the nearest of its branch points, each an angle and a height above the real axis.
+pub(super) fn shown_distance<const N: usize>(angle: f64, points: [[f64; 2]; N]) -> f64 {
+    let squared = points.map(|[at, height]| {
+        let along = (angle - at).rem_euclid(TAU);
+        let along = along.min(TAU - along);
+        along * along + height * height
+    });
+    SHOWN_SHARE * squared.into_iter().fold(f64::INFINITY, f64::min).sqrt()
+}
+
 impl Linkage {
     /// Returns the branch points of x and φ, which are analytic in θ otherwise: ±90° ± i arcosh((l ∓ e)/r), where the
     /// rod would stand normal to the guide. Angle and distance from the real axis, rad.
@@ -121,26 +135,18 @@ impl Linkage {
     /// alone, at most 0.0625 rad, less than the distance between extremes.
     pub fn turn_grid(&self, smooth: bool) -> Vec<f64> {
         let longest = if smooth { 0.0625 } else { 1f64.to_radians() };
-        // Part of the distance from the nearest branch point.
-        let share = 0.125;
         // Angle at which the turn is cut, rad: symmetry makes no quantity extreme there.
         let seam = -1.7;
-        let [[_, below], [_, above]] = self.branch_points();
-        let widths = [below, above, below];
-        let distance = |theta: f64| {
-            let squared = |k: usize| {
-                let along = theta - FRAC_PI_2 * (2.0 * k as f64 - 1.0);
-                along * along + widths[k] * widths[k]
-            };
-            squared(0).min(squared(1)).min(squared(2)).sqrt()
-        };
+        let points = self.branch_points();
         let end = seam + TAU;
         // A long rod keeps all branch points far off.
-        let is_far = share * below.min(above) >= longest;
+        let is_far = points
+            .iter()
+            .all(|[_, width]| SHOWN_SHARE * width >= longest);
         let next = |theta: &f64| {
             let step = match is_far {
                 true => longest,
-                false => longest.min(share * distance(*theta)),
+                false => longest.min(shown_distance(*theta, points)),
             };
             let next = theta + step;
             (*theta < end).then_some(next.min(end))

@@ -1,6 +1,6 @@
 //! Configuration curve of a double rocker and of a change point, by half angles; see [`super::Curve`].
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::linkage::SAME_LENGTHS;
 use super::{Class, CurvePose, Linkage};
@@ -92,6 +92,22 @@ impl Rocker {
             (0.0, (self.crank.root * sin).atan2(cosine))
         };
         Angle::new(self.mirror * turns, self.mirror * (2.0 * half - FRAC_PI_2))
+    }
+
+    /// Returns the branch points of both half angles as functions of a complex q, where a cosine vanishes: ±90° for the
+    /// crank, 0 and 180° for the rod, and the distance from the real axis, rad; infinite where the cosine is that of q.
+    pub fn branch_points(&self) -> [[f64; 2]; 4] {
+        let height = |half: &HalfAngle| match half.rest {
+            0.0 => f64::INFINITY,
+            rest => (rest.sqrt() / half.root).asinh(),
+        };
+        let (crank, rod) = (height(&self.crank), height(&self.rod));
+        [
+            [-FRAC_PI_2, crank],
+            [0.0, rod],
+            [FRAC_PI_2, crank],
+            [PI, rod],
+        ]
     }
 
     /// Whether two positions of the same lengths lie on one curve, on which the slider moves.

@@ -1,12 +1,12 @@
 //! Selects the engine of a motion from clearance, prescribed speed, class, loads and start, with the reason.
 
 use std::borrow::Cow;
-use std::f64::consts::TAU;
 
 use super::cycle::{cycle_over_angle, non_zero};
 use super::{Candidate, Engine, Method, Stepper};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
+use crate::numeric::{dip, maximum};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// First engine of a plan, with its stepper and the reason.
@@ -227,16 +227,22 @@ fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     why
 }
 
-/// Whether rigid bodies jam (μ |κ| ≥ 1) at one of 64 equally spaced crank angles of a turn.
+/// Whether rigid bodies jam (μ |κ| ≥ 1) at a crank angle of a turn.
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
     let mu = guide
         .friction()
         .map_or(0.0, |friction| friction.coefficient);
-    let angles = 64u32;
-    let theta = |i: u32| TAU * f64::from(i) / f64::from(angles);
-    (0..angles).any(|i| guide.terms(theta(i)).normal().grip(mu).is_none())
+    let clear = |theta: f64| 1.0 - mu * guide.terms(theta).normal().force.abs();
+    let grid = linkage.turn_grid(true).into_iter();
+    let known: Vec<(f64, f64)> = grid.map(|theta| (theta, clear(theta))).collect();
+    let dips = |three: &[(f64, f64)]| {
+        let [a, b, c] = [three[0], three[1], three[2]];
+        dip::may_dip([a.0, b.0, c.0], [a.1, b.1, c.1])
+            && maximum::largest(|theta| -clear(theta), a.0, c.0).1 >= 0.0
+    };
+    known.iter().any(|(_, clear)| *clear <= 0.0) || known.windows(3).any(dips)
 }
 
 /// Returns the first load whose corners are not known as crank angles, and why.

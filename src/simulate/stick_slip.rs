@@ -194,6 +194,15 @@ impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
             place.dtheta,
         ]
     }
+
+    /// Only the normal force and the distance from jamming have a double sign change between close positions.
+    fn shown_travel(&self, angle: Angle) -> f64 {
+        let has_friction = self.equation.friction().is_some();
+        let curve = self.equation.curve();
+        has_friction
+            .then(|| curve.shown_distance(angle.rest))
+            .unwrap_or(f64::INFINITY)
+    }
 }
 
 /// Returns the signs at the start of a motion in `direction` (±1 of the coordinate). Where a value is zero but for the

@@ -202,3 +202,23 @@ fn extremes_are_computed_or_refused() {
         }
     }
 }
+
+/// A step whose speed grows beyond all bounds is divided before its turns are searched for events.
+#[test]
+fn a_step_of_countless_turns_is_divided() {
+    let scene = Scene::new(100.0, 100.0)
+        .offset(0.01)
+        .crank(Crank {
+            inertia: 1e-3,
+            ..Crank::default()
+        })
+        .torque(formula("-8*omega^3 + cos(3*t)"))
+        .start(1e-9f64.to_radians(), -1e4)
+        .duration(0.1)
+        .tolerance(0.1);
+    let options = Options {
+        max_evaluations: 100_000,
+        ..Options::default()
+    };
+    assert!(run_with(&scene, &options).stopped.is_some());
+}

@@ -185,6 +185,10 @@ impl EventFunction<1> for Dip {
         let x = angle.rest - self.from;
         [x * (x - self.length) * (1.0 + 0.3 * (2.0 * x).sin())]
     }
+
+    fn shown_travel(&self, _: Angle) -> f64 {
+        f64::INFINITY
+    }
 }
 
 fn changes(dip: &Dip, sign: f64) -> Vec<f64> {

@@ -10,7 +10,9 @@ use proptest::prelude::*;
 use slider_crank::explain::explain;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
-use slider_crank::scene::{Branch, Crank, Gravity, Instant, Load, Rod, Scene, Slider, Variables};
+use slider_crank::scene::{
+    Branch, Crank, Expression, Gravity, Instant, Load, Rod, Scene, Slider, Variables,
+};
 use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn run(scene: &Scene) -> Simulation {
@@ -536,4 +538,78 @@ fn torques_that_hold_the_crank_are_explained_with_friction() {
             }
         }
     }
+}
+
+/// Where rod and crank are nearly equal, a guide jams in less than a degree about 90 degrees: no step may pass over it.
+/// Reference: extrapolation of order 18 in extended precision of the Newton-Euler equations, up to the pole.
+#[test]
+fn narrow_jams_are_found_at_loose_tolerances() {
+    let scene = rubbing(
+        Scene::new(0.05, 0.050001930598226677),
+        0.012741256034837617,
+        0.012741256034837617,
+    )
+    .branch(Branch::Right)
+    .crank(Crank {
+        mass: 0.858240050442654,
+        cg: -0.01768004300901173,
+        cg_lateral: 0.00014871466378840563,
+        inertia: 0.09774423503132741,
+    })
+    .rod(Rod {
+        mass: 0.4035519785636702,
+        cg: 0.02000077223929067,
+        inertia: 8.071662860693735e-05,
+        ..Rod::default()
+    })
+    .slider(Slider {
+        mass: 0.7518749458852683,
+    })
+    .gravity(Gravity {
+        acceleration: 9.81,
+        direction: -PI / 2.0,
+    })
+    .start(-0.22623442820099424, 6.630393821621469)
+    .duration(0.6365196470746058);
+    for tolerance in [1e-2, 1e-3, 1e-4, 1e-8] {
+        let scene = scene.clone().tolerance(tolerance);
+        let run = simulate(&scene, &Options::default()).expect("a run");
+        let stopped = run.summary.stopped.expect("it jams");
+        let why = stopped.to_string();
+        assert!(why.contains("more than one"), "{tolerance}: {why}");
+        let t = run.summary.last.t_s;
+        close(
+            "time of jamming",
+            t,
+            0.273235037,
+            1.0,
+            1e-9 + 1e-2 * tolerance,
+        );
+    }
+}
+
+/// A jump of a load releases the slider in the direction of the load after it.
+#[test]
+fn a_jump_releases_the_slider_in_its_direction() {
+    let machine = Scene::new(0.1, 0.3)
+        .crank(Crank {
+            inertia: 0.01,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 1.0 });
+    let scene = rubbing(machine, 0.2, 0.2)
+        .gravity(Gravity {
+            acceleration: 10.0,
+            direction: -PI / 2.0,
+        })
+        .force(Load::Constant(1.0))
+        .torque(Load::Expression(
+            Expression::parse("2*step(t - 0.3)").expect("a formula"),
+        ))
+        .start(1.0, 0.0)
+        .duration(0.35);
+    let run = run(&scene);
+    let kinds: Vec<_> = run.summary.events.iter().map(|event| event.kind).collect();
+    assert_eq!(kinds, ["stick", "slip"]);
+    close("release", run.summary.events[1].t_s, 0.3, 1.0, 1e-14);
 }

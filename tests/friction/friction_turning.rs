@@ -281,7 +281,6 @@ fn newton_and_euler_integrated_elsewhere_arrive_at_the_same_states() {
     }
 }
 
-/// Acceleration, joint forces and guide force in the rows agree with those of a run in time.
 /// Where the normal force changes its sign, the start of the panel after it lies on either side by the error of a loose
 /// tolerance.
 #[test]
@@ -314,6 +313,7 @@ fn loose_tolerances_find_the_side_after_a_change_of_the_normal_force() {
     }
 }
 
+/// Acceleration, joint forces and guide force in the rows agree with those of a run in time.
 #[test]
 fn rows_are_those_of_a_run_in_time() {
     let scene = rubbing(machine(0.05, 0.15, 0.01, 0.01, 0.004), 0.3)

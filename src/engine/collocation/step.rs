@@ -89,6 +89,9 @@ impl<'a> Collocation<'a> {
         let (sweeps, newton) = self.converge(state, h)?;
         let coefficients = self.coefficients();
         let (step, next, alpha) = self.finish(state, h, &coefficients);
+        if let Some(part) = step.part_of_one_turn() {
+            return Err(Rejection::TooLong(part));
+        }
         // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
         let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
         let mut error = self.error(state, h, &coefficients);
