@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::streams::{Streams, check_extension};
 use super::values::angle;
-use super::watch::print;
+use super::watch::{print, say};
 use crate::error::Error;
 use crate::report::{Output, Picture, Pose, Sketch, animation};
 use crate::scene::Scene;
@@ -58,6 +58,7 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<(), Error> {
     }
     let options = Options {
         estimate: false,
+        events_kept: 0,
         ..Options::default()
     };
     let output = Output::create(&arguments.out)?;
@@ -82,6 +83,9 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<(), Error> {
     print(&format!(
         "frames  {count}\nmotion  {end} s\nlasts   {lasts} s\n"
     ))?;
+    for warning in &run.summary.warnings {
+        say(&format!("warning: {warning}"));
+    }
     match run.summary.stopped {
         Some(stopped) => Err(Error::Incomplete(stopped.to_string())),
         None => Ok(()),

@@ -9,7 +9,7 @@ use super::streams::command_line;
 use crate::error::Error;
 use crate::report::{Comparison, Motion, Origin};
 use crate::scene::Scene;
-use crate::simulate::{Options, Row, Simulation, simulate, simulate_rows};
+use crate::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
@@ -30,26 +30,42 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let options = Options {
         reactions: arguments.reactions,
         estimate: false,
+        events_kept: 0,
         ..Options::default()
     };
     let mut motions: Vec<Motion> = Vec::new();
+    let (mut warnings, mut stopped) = (Vec::new(), Vec::new());
     for file in &arguments.motions {
         let times = motions.first().map(Motion::times);
         motions.push(match is_data(file) {
             true => Motion::of_file(file)?,
             false => {
-                let rows = rows(&Scene::load(file)?, &options, times)?;
-                Motion::of_rows(&file.display().to_string(), &rows)
+                let (rows, summary) = rows(&Scene::load(file)?, &options, times)?;
+                let name = file.display().to_string();
+                let told = summary
+                    .warnings
+                    .iter()
+                    .map(|what| format!("{name}: {what}"));
+                warnings.extend(told);
+                stopped.extend(summary.stopped.map(|why| format!("{name}: {why}")));
+                Motion::of_rows(&name, &rows)
             }
         });
     }
-    let result = Comparison::new(&motions)?;
+    let found = Comparison::new(&motions);
+    let mut result = found.map_err(|error| error.with_notes(&stopped))?;
+    warnings.extend(stopped.clone());
+    result.warnings.splice(0..0, warnings);
     let origin = Origin {
         scene: None,
         command: command_line(),
     };
     let targets = arguments.outputs.open()?;
-    targets.write(&result, &result, &origin, &streams)
+    targets.write(&result, &result, &origin, &streams)?;
+    match stopped.is_empty() {
+        true => Ok(()),
+        false => Err(Error::Incomplete(stopped.join("\n"))),
+    }
 }
 
 /// Whether a file is data rather than a scene, by its extension.
@@ -58,16 +74,21 @@ fn is_data(file: &Path) -> bool {
     ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("toml"))
 }
 
-/// Simulates a scene; returns rows at `times` if the motion can be evaluated there, else at its output times.
-fn rows(scene: &Scene, options: &Options, times: Option<&[f64]>) -> Result<Vec<Row>, Error> {
+/// Simulates a scene; returns its summary and rows at `times` if the motion can be evaluated there, else at its output
+/// times.
+fn rows(
+    scene: &Scene,
+    options: &Options,
+    times: Option<&[f64]>,
+) -> Result<(Vec<Row>, Summary), Error> {
     if let Some(times) = times {
         let run: Simulation = simulate(scene, options)?;
         let rows: Vec<Row> = times.iter().filter_map(|t| run.row(*t)).collect();
         if !rows.is_empty() {
-            return Ok(rows);
+            return Ok((rows, run.summary));
         }
     }
     let mut rows = Vec::new();
-    simulate_rows(scene, options, &mut rows)?;
-    Ok(rows)
+    let run = simulate_rows(scene, options, &mut rows)?;
+    Ok((rows, run.summary))
 }

@@ -228,3 +228,57 @@ fn motions_are_compared() {
     }
     folder.run(&["compare", "slow.toml"]).fails(2, &["2"]);
 }
+
+#[test]
+fn times_that_motions_do_not_share_are_told() {
+    let folder = Folder::new();
+    for (name, duration) in [("long.toml", "1 s"), ("short.toml", "0.6 s")] {
+        let run = format!("duration = \"{duration}\"\noutput_every = \"0.25 s\"");
+        folder.write(name, &driven(&run));
+    }
+    let compare = ["compare", "long.toml", "short.toml"];
+    let words = "at 3 of the 5 times of motion 1, t = 0 to 0.5 s";
+    let text = folder.run(&compare).done().stdout;
+    let line = text.lines().find(|line| line.starts_with("compared "));
+    assert!(line.is_some_and(|line| line.ends_with(words)), "{text}");
+    let found = folder.run(&[&compare[..], &["--json"]].concat()).json();
+    assert_eq!(found["rows"], 3);
+    let warning = found["warnings"][0].as_str().expect("a warning");
+    assert_eq!(warning, format!("short.toml is compared only {words}"));
+    let compare = ["compare", "short.toml", "long.toml", "--json"];
+    let found = folder.run(&compare).done().json();
+    assert_eq!(
+        (&found["rows"], found["warnings"].as_array()),
+        (&4.into(), Some(&vec![]))
+    );
+}
+
+#[test]
+fn ends_and_warnings_of_runs_are_told_by_what_shows_their_motions() {
+    let folder = Folder::new();
+    let hard = |name| format!("{}/data/hard/{name}", env!("CARGO_MANIFEST_DIR"));
+    let [jams, changes] = ["09-jamming.toml", "02-change-point.toml"].map(hard);
+    let compare = ["compare", &jams, &changes, "--json"];
+    let outcome = folder
+        .run(&compare)
+        .complains(1, &["09-jamming.toml", "the slider jams"]);
+    let warnings = outcome.json()["warnings"].to_string();
+    for words in [
+        "the slider jams",
+        "02-change-point.toml: the lengths make a change point",
+    ] {
+        assert!(warnings.contains(words), "{warnings}");
+    }
+    let animate = |scene| ["animate", scene, "--frames", "2", "--out", "motion.gif"];
+    folder
+        .run(&animate(&jams))
+        .complains(1, &["the slider jams"]);
+    let outcome = folder.run(&animate(&changes));
+    assert_eq!(outcome.code, Some(0), "{outcome:?}");
+    assert!(
+        outcome
+            .stderr
+            .contains("warning: the lengths make a change point"),
+        "{outcome:?}"
+    );
+}

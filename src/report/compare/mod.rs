@@ -20,14 +20,17 @@ use motion::TIME;
 pub struct Comparison {
     /// Names of the scenes or files of the motions, in order.
     pub motions: Vec<String>,
-    /// Number of compared times.
+    /// Number of compared times: those of the first motion that another one covers.
     pub rows: usize,
     /// Differences of each motion from the first, by column.
     pub differences: Vec<Difference>,
-    /// Warnings about interpolation between rows.
+    /// Warnings about runs, times that are not common, and interpolation between rows.
     pub warnings: Vec<String>,
     #[serde(skip)]
     title: String,
+    /// Compared times in words.
+    #[serde(skip)]
+    compared: String,
     #[serde(skip)]
     table: Table,
 }
@@ -70,6 +73,14 @@ impl Comparison {
         let mut values = vec![times.to_vec()];
         let mut differences = Vec::new();
         let mut warnings = Vec::new();
+        for other in others {
+            let (count, compared) = common(times, |t| other.covers(t));
+            if count < times.len() {
+                let name = &other.name;
+                warnings.push(format!("{name} is compared only at {compared}"));
+            }
+        }
+        let (rows, compared) = common(times, |t| others.iter().any(|other| other.covers(t)));
         for column in columns {
             let (base, unit) = split(column);
             let own = first.table.numbers(column).unwrap_or_default();
@@ -110,7 +121,8 @@ impl Comparison {
         Ok(Comparison {
             title: names.join(", "),
             motions: names,
-            rows: times.len(),
+            rows,
+            compared,
             differences,
             warnings,
             table,
@@ -124,8 +136,7 @@ impl Report for Comparison {
         for (number, name) in (1..).zip(&self.motions) {
             facts.add(format_args!("motion {number}"), name);
         }
-        let count = self.rows;
-        fact!(facts, "compared", "at the {count} times of motion 1");
+        fact!(facts, "compared", "at {}", self.compared);
         for found in &self.differences {
             let quantity = Quantity::of(&found.column);
             let shown = |value: f64| six(quantity.factor * value);
@@ -169,6 +180,20 @@ impl Report for Comparison {
             ..DefaultView::default()
         }
     }
+}
+
+/// Returns the number of times of the first motion that are common with others, and those times in words.
+fn common(times: &[f64], covers: impl Fn(f64) -> bool) -> (usize, String) {
+    let common: Vec<f64> = times.iter().copied().filter(|t| covers(*t)).collect();
+    let (count, all) = (common.len(), times.len());
+    let words = match common[..] {
+        _ if count == all => format!("the {all} times of motion 1"),
+        [first, .., last] => {
+            format!("{count} of the {all} times of motion 1, t = {first} to {last} s")
+        }
+        _ => format!("{count} of the {all} times of motion 1"),
+    };
+    (count, words)
 }
 
 /// Returns the whole turns (rad) in the first finite difference of two angles.

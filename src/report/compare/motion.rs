@@ -53,6 +53,12 @@ impl Motion {
         self.table.numbers(TIME).unwrap_or_default()
     }
 
+    /// Whether a time (s) lies within the rows.
+    pub(super) fn covers(&self, t: f64) -> bool {
+        let ends = self.times().first().zip(self.times().last());
+        ends.is_some_and(|(first, last)| (*first..=*last).contains(&t))
+    }
+
     /// Returns a column at other times, NaN outside its rows, and whether any value is interpolated.
     pub(super) fn at(&self, column: &str, times: &[f64]) -> (Vec<f64>, bool) {
         let own = self.times();
