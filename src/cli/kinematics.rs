@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 
 use super::outputs::Outputs;
 use super::streams::origin;
@@ -14,6 +14,7 @@ use crate::report::{self, Diagram, TurnReport};
 
 /// Arguments of `kinematics`.
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("analysis").args(["forces", "diagram"]).multiple(true)))]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine
     scene: Option<PathBuf>,
@@ -30,6 +31,7 @@ pub(super) struct Arguments {
         long,
         value_name = "NUMBER",
         default_value_t = 0.5,
+        requires = "analysis",
         allow_hyphen_values = true
     )]
     balance: f64,

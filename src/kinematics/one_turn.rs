@@ -10,7 +10,7 @@ use super::offsets::{OffsetExtremes, offset_extremes};
 use crate::error::Error;
 use crate::mechanism::{Length, Linkage, TorqueSlope};
 use crate::numeric::angle;
-use crate::scene::Scene;
+use crate::scene::{LARGEST_VALUE, Scene};
 
 /// Largest number of rows of a turn: more, from an angle between rows of less than 6e-8 rad, are an error of its unit.
 pub const MOST_ROWS_OF_TURN: f64 = 1e8;
@@ -108,8 +108,17 @@ pub struct LengthSlope {
 /// Computes the kinematics of a scene and the quantities that `options` ask for.
 ///
 /// # Errors
-/// The errors of [`kinematics`] and [`forces`], and those of the changed lengths.
+/// The errors of [`kinematics`] and [`forces`], those of the changed lengths, and [`Error::Refused`] for a balanced part
+/// that is no number from zero on.
 pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> {
+    if let Some(part) = options.balance
+        && !(0.0..=LARGEST_VALUE).contains(&part)
+    {
+        return Err(Error::refused(
+            format!("a balance of {part:?} of the reciprocating mass cannot be"),
+            "give a number that is zero or more, like 0.5",
+        ));
+    }
     let mut kinematics = kinematics(scene)?;
     let torque_slope = options.sensitivity.then(|| TorqueSlope::new(scene));
     if let (Some(Err(reason)), Some(_)) = (&torque_slope, kinematics.speed_rad_per_s) {

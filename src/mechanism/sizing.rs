@@ -1,6 +1,7 @@
 //! Crank and rod from stroke, rod ratio and offset, in closed form.
 
 use crate::error::Error;
+use crate::scene::LARGEST_VALUE;
 
 /// Solves for crank and rod (m) of a crank that turns fully, from the stroke (m), the ratio rod/crank and the offset
 /// (m), exactly: the stroke S = sqrt((l + r)² − e²) − sqrt((l − r)² − e²) with l = ρ r gives
@@ -45,5 +46,14 @@ pub fn size_from_stroke(stroke: f64, ratio: f64, offset: f64) -> Result<(f64, f6
             format!("the offset must be below {most} m, or the ratio greater"),
         ));
     }
-    Ok((crank, ratio * crank))
+    let rod = ratio * crank;
+    if !(0.0..=LARGEST_VALUE).contains(&rod) {
+        return Err(Error::refused(
+            format!(
+                "a rod of {ratio:e} crank lengths for a stroke of {stroke:e} m is too long to be computed with"
+            ),
+            format!("give a ratio and a stroke with which it is below {LARGEST_VALUE:e} m"),
+        ));
+    }
+    Ok((crank, rod))
 }

@@ -7,7 +7,7 @@ use super::{Places, Problem, Problems};
 
 /// Largest magnitude of a value, SI; the reciprocal is the least positive one. The product of five such values, an
 /// energy, neither overflows nor vanishes in double precision.
-const LARGEST_VALUE: f64 = 1e50;
+pub(crate) const LARGEST_VALUE: f64 = 1e50;
 
 /// Problems found, and the places of the scene's keys.
 pub(super) struct Check<'a> {

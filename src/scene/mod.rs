@@ -24,6 +24,7 @@ pub mod unit;
 mod validate;
 mod variable;
 
+pub(crate) use check::LARGEST_VALUE;
 pub use clearance::{Clearance, ContactLaw, Joint};
 pub use expression::{Expression, ExpressionError};
 #[cfg(feature = "cli")]

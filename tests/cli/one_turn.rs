@@ -188,6 +188,19 @@ fn what_cannot_be_is_refused() {
         (&["--change", "crank=-1 mm"], &["crank"]),
         (&["--stroke", "80 mm"], &["--rod-ratio"]),
         (&["--stroke", "80 mm", "--rod-ratio", "0.9"], &["ratio"]),
+        (
+            &["--stroke", "80 mm", "--rod-ratio", "1e300"],
+            &["a rod of 1e300 crank lengths", "too long"],
+        ),
+        (
+            &["--stroke", "1e300 m", "--rod-ratio", "4"],
+            &["a stroke of 1e300 m", "too long"],
+        ),
+        (&["--balance", "0.5"], &["<--forces|--diagram <NAME>>"]),
+        (&["--forces", "--balance", "nan"], &["a balance of NaN"]),
+        (&["--forces", "--balance", "inf"], &["a balance of inf"]),
+        (&["--forces", "--balance", "1e300"], &["a balance of 1e300"]),
+        (&["--forces", "--balance", "-1"], &["a balance of -1"]),
     ] {
         folder
             .run(&[&["kinematics", "scene.toml"][..], arguments].concat())
