@@ -89,10 +89,11 @@ impl LineFit {
     /// uncertainty with two points, none at all with a slope of zero.
     pub fn inverse(&self, y: f64) -> Option<(f64, Option<f64>)> {
         let x = self.mean[0] + (y - self.mean[1]) / self.slope;
-        let from_mean = (x - self.mean[0]).powi(2) / self.spread;
+        let from_mean = (x - self.mean[0]) / self.spread.sqrt();
+        let of_reading = (1.0 + 1.0 / self.points as f64).sqrt();
         let uncertainty = self
             .residual_sd
-            .map(|sd| sd / self.slope.abs() * (1.0 + 1.0 / self.points as f64 + from_mean).sqrt());
+            .map(|sd| sd / self.slope.abs() * of_reading.hypot(from_mean));
         let finite = x.is_finite() && uncertainty.is_none_or(f64::is_finite);
         finite.then_some((x, uncertainty))
     }

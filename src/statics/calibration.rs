@@ -38,14 +38,15 @@ pub struct Measured {
 /// readings that do not depend on the load.
 pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
     let points = calibration_points(file)?;
-    let refused = |what: &str| {
-        Error::refused(
-            format!("{}: {what}", file.display()),
-            "give readings under at least two different loads",
-        )
-    };
-    let fit = LineFit::new(&points)
-        .ok_or_else(|| refused("no straight line goes through these points"))?;
+    let refused = |what: String, help| Error::refused(format!("{}: {what}", file.display()), help);
+    let fit = LineFit::new(&points).ok_or_else(|| {
+        let what = "no straight line goes through these points".to_owned();
+        refused(what, "give readings under at least two different loads")
+    })?;
+    if points.iter().all(|(_, reading)| *reading == points[0].1) {
+        let what = "the readings do not depend on the load".to_owned();
+        return Err(refused(what, "give readings that change with the load"));
+    }
     let mut warnings = Vec::new();
     let (least, most) = points
         .iter()
@@ -60,9 +61,10 @@ pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
                 "give readings as the sensor shows them",
             ));
         }
-        let (force_n, force_se_n) = fit
-            .inverse(*reading)
-            .ok_or_else(|| refused("the readings do not depend on the load"))?;
+        let (force_n, force_se_n) = fit.inverse(*reading).ok_or_else(|| {
+            let what = format!("the force of the reading {reading:e} is no finite number");
+            refused(what, "give readings as the sensor shows them")
+        })?;
         if !(least..=most).contains(&force_n) {
             warnings.push(format!(
                 "the force {force_n} N of the reading {reading} is outside the loads of the calibration, {least} to {most} N"

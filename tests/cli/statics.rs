@@ -157,6 +157,21 @@ fn a_calibration_takes_a_reading_back_to_its_force() {
         1500.0,
         1e-9,
     );
+    let far = [
+        "statics",
+        "--calibration",
+        "c.csv",
+        "--reading",
+        "1e300",
+        "--json",
+    ];
+    let result = folder.run(&far).done().json();
+    close(at(&result["forces"][0], "force_n"), 5e302, 1e290);
+    assert!(
+        result["warnings"][0]
+            .to_string()
+            .contains("outside the loads")
+    );
 }
 
 #[test]
@@ -181,6 +196,10 @@ fn what_cannot_be_meant_is_refused() {
     folder
         .run(&["statics", "--calibration", "c.csv"])
         .fails(2, &["c.csv line 3", "column 2", "`x`"]);
+    folder.write("c.csv", "force [N],volt\n1,0.1\n2,0.1\n4,0.1\n");
+    folder
+        .run(&["statics", "--calibration", "c.csv"])
+        .fails(2, &["c.csv", "do not depend on the load"]);
 }
 
 #[test]
