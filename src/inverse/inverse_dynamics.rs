@@ -148,7 +148,8 @@ impl InverseDynamics<'_> {
         let size = (terms.inertia.m * alpha).abs()
             + (terms.inertia.half_dm * omega * omega).abs()
             + terms.dv.abs()
-            + (force * arm).abs();
+            // At a dead centre, where the arm is 0, the force is not finite.
+            + (force * arm).abs().max(torque.abs());
         let rounding = 8.0 * f64::EPSILON * size;
         let of_arm = 4.0 * f64::EPSILON * r;
         let of_force = (rounding + of_arm * force.abs()) / arm.abs();

@@ -414,6 +414,21 @@ fn files_as_instruments_write_them() {
     }
 }
 
+/// At a dead centre no force on the slider stands for a torque; without load and gravity none is needed at rest.
+#[test]
+fn a_crank_at_rest_in_its_dead_centre_needs_no_torque() {
+    let rows: Vec<String> = (0..30)
+        .map(|i| format!("{:.2},0", 0.02 * f64::from(i)))
+        .collect();
+    let folder = folder(&data("t [s],theta [rad]", &rows));
+    let inverse = ["inverse", "scene.toml", "data.csv", "--out", "rows.csv"];
+    folder.run(&inverse).done();
+    let rows = Rows::read(&folder.read("rows.csv"));
+    for torque in rows.column("crank_torque_nm") {
+        close(torque, 0.0, 1e-15);
+    }
+}
+
 #[test]
 fn a_sample_far_off_is_noted_even_among_few() {
     let mut rows: Vec<String> = (0..30)
