@@ -91,6 +91,31 @@ fn what_has_none_is_refused_and_nothing_is_written() {
         .fails(2, &["x"]);
 }
 
+/// A torque of this slope takes thousands of evaluations a cycle: the limit is one of the search, not of each cycle.
+#[test]
+fn a_search_ends_at_its_work_limit_and_says_so() {
+    let folder = Folder::new();
+    let load = "[[torque]]\nkind = \"expression\"\nvalue = \"-1e6*(omega - 1)\"\n";
+    folder.write(
+        "scene.toml",
+        &format!("{load}{}", free("duration = \"1 s\"")),
+    );
+    for limit in ["10000", "100000"] {
+        folder
+            .run(&[
+                "simulate",
+                "scene.toml",
+                "--steady-state",
+                "--max-evaluations",
+                limit,
+            ])
+            .fails(
+                1,
+                &["no steady state", &format!("limit of {limit} evaluations")],
+            );
+    }
+}
+
 /// Four-stroke engine: cycle, steady state and flywheel, alone and in a sweep.
 #[test]
 fn cycles_of_two_turns() {

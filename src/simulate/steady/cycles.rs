@@ -8,6 +8,7 @@ use super::super::options::Options;
 use super::super::row::NoRows;
 use super::super::run_setup::RunSetup;
 use super::super::simulation::Simulation;
+use super::super::stop::Why;
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -56,7 +57,9 @@ pub(super) struct SceneCycleMap<'a> {
     inertia: f64,
     largest_kinetic: f64,
     noise: f64,
-    /// Refusal of a run, for another reason than a crank that does not complete the cycle.
+    /// Evaluations that are left to the search.
+    left: u64,
+    /// Failure of a run, for another reason than a crank that does not complete the cycle.
     pub refused: Option<Error>,
 }
 
@@ -69,6 +72,7 @@ impl<'a> SceneCycleMap<'a> {
             inertia: task.equation().terms(task.start().rest).inertia.m,
             largest_kinetic: 0.0,
             noise: task.scene.run.tolerance,
+            left: task.options.max_evaluations,
             refused: None,
         }
     }
@@ -87,6 +91,7 @@ impl<'a> SceneCycleMap<'a> {
     fn run(&mut self, kinetic: f64, keep: bool) -> Result<Simulation, NotApplicable> {
         let options = Options {
             estimate: keep,
+            max_evaluations: self.left,
             ..self.task.options.clone()
         };
         let task = RunSetup {
@@ -101,6 +106,19 @@ impl<'a> SceneCycleMap<'a> {
             NotApplicable::NotFinite
         })?;
         let summary = &run.summary;
+        let estimate = summary.estimate_cost.map_or(0, |cost| cost.evaluations);
+        self.left = self.left.saturating_sub(summary.evaluations + estimate);
+        let why = summary.stopped.as_ref().map(|stopped| &stopped.why);
+        if let Some(why @ (Why::WorkLimit | Why::WorkLimitAhead | Why::TooManyTurns)) = why {
+            self.refused = Some(Error::Incomplete(format!(
+                "no steady state was found within the work limit of {} evaluations: raise --max-evaluations, or give loads that are less steep",
+                self.task.options.max_evaluations
+            )));
+            // Short of the limit, a cycle from another energy may take less.
+            if let Why::WorkLimit = why {
+                return Err(NotApplicable::WorkLimit);
+            }
+        }
         let fastest = summary.omega_max.abs().max(summary.omega_min.abs());
         self.largest_kinetic = self.energy(fastest);
         let turned = TAU * summary.revolutions * self.task.speed.signum();
