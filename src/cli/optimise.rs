@@ -23,10 +23,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KEY=LOW:HIGH", required = true)]
     vary: Vec<Varied>,
     /// Looks for the design with the least of this key figure
-    #[arg(long, value_name = "FIGURE")]
+    #[arg(long, value_name = "FIGURE", value_parser = Figure::of_number)]
     least: Option<Figure>,
     /// Looks for the design with the most of this key figure
-    #[arg(long, value_name = "FIGURE")]
+    #[arg(long, value_name = "FIGURE", value_parser = Figure::of_number)]
     most: Option<Figure>,
     /// A limit that the design has to keep, like "transmission_min >= 40 deg"; given again, all of them
     #[arg(long, value_name = "FIGURE >= VALUE")]

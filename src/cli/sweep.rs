@@ -39,10 +39,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Looks for the designs with the least of this key figure; with several --least and --most for the Pareto front
-    #[arg(long, value_name = "FIGURE")]
+    #[arg(long, value_name = "FIGURE", value_parser = Figure::of_number)]
     least: Vec<Figure>,
     /// Looks for the designs with the most of this key figure
-    #[arg(long, value_name = "FIGURE")]
+    #[arg(long, value_name = "FIGURE", value_parser = Figure::of_number)]
     most: Vec<Figure>,
     /// Adds mean, standard deviation and percentiles of every key figure; samples have them without
     #[arg(long)]

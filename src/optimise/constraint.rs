@@ -62,7 +62,7 @@ impl FromStr for Constraint {
                 "`{text}` is no limit of a figure; write it like \"transmission_min >= 40 deg\" or \"stroke <= 90 mm\""
             )
         })?;
-        let figure: Figure = name.parse()?;
+        let figure = Figure::of_number(name)?;
         let limit = unit::parse(limit.trim(), figure.quantity());
         Ok(Constraint {
             figure,

@@ -159,7 +159,8 @@ pub const LEAST_IMPROVEMENT: f64 = 1e-9;
 /// ```
 ///
 /// # Errors
-/// Errors of [`Sweep::new`]; [`Error::Refused`] if a key has no two bounds, or no design has the figures.
+/// Errors of [`Sweep::new`]; [`Error::Refused`] if a key has no two bounds, or no design has the figures;
+/// [`Error::Incomplete`] if no design has them because its motion ends early.
 pub fn optimise(
     draft: Draft,
     varied: Vec<Varied>,

@@ -9,7 +9,7 @@ use super::evaluator::{Evaluation, Evaluator};
 use super::local::{LocalOptimum, search};
 use crate::error::Error;
 use crate::numeric::parallel;
-use crate::sweep::LatinHypercube;
+use crate::sweep::{LatinHypercube, Outcome};
 
 /// Number of designs per key, in the exploration and in each sweep round the best design.
 pub(super) const DESIGNS_PER_KEY: u64 = 64;
@@ -29,7 +29,8 @@ pub(super) struct SearchResult {
 /// Explores the box, searches from its best designs, and sweeps boxes round the optimum.
 ///
 /// # Errors
-/// [`Error::Refused`] if no design has the figures; [`Error::Interrupted`] before there is any.
+/// [`Error::Refused`] if no design has the figures, [`Error::Incomplete`] if their motions end early;
+/// [`Error::Interrupted`] before there is any.
 pub(super) fn run(
     evaluator: &mut Evaluator,
     sample: LatinHypercube,
@@ -77,13 +78,14 @@ fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluati
     let first = evaluator.sweep.design_of(0, evaluator.values(&found[0].at));
     let note = first.notes.into_iter().next();
     let why = note.unwrap_or_else(|| "it has no such figure".to_owned());
-    Err(Error::refused(
-        format!(
-            "none of {} designs between the bounds has all the figures; of the first one: {why}",
-            found.len()
-        ),
-        "let the bounds hold mechanisms that can be computed",
-    ))
+    let what = format!(
+        "none of {} designs between the bounds has all the figures; of the first one: {why}",
+        found.len()
+    );
+    Err(match first.outcome {
+        Outcome::Stopped => Error::Incomplete(what),
+        _ => Error::refused(what, "let the bounds hold mechanisms that can be computed"),
+    })
 }
 
 /// Returns the designs of a sorted sample with no better one in the critical distance of multi-level single linkage.

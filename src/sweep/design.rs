@@ -12,7 +12,7 @@ named! {
     pub enum Outcome {
         /// All results were computed.
         Done = "done",
-        /// The motion ended before the end of the run.
+        /// The motion ended before the end of the run, or the search for the steady state at its work limit.
         Stopped = "stopped",
         /// The scene is valid, but diagrams, steady state or motion cannot be computed.
         Refused = "refused",
@@ -111,7 +111,10 @@ impl Design {
     }
 
     fn fail(&mut self, outcome: Outcome, error: &Error) {
-        self.outcome = outcome;
+        self.outcome = match error {
+            Error::Incomplete(_) => Outcome::Stopped,
+            _ => outcome,
+        };
         let first = match error {
             Error::Scene(problems) => {
                 let list = problems.list().iter();

@@ -148,6 +148,20 @@ impl Figure {
         self.quantity
     }
 
+    /// Parses the name of a figure that is a number, as a goal and a limit take it.
+    ///
+    /// # Errors
+    /// The message for a name that is no figure, or one of a word.
+    pub fn of_number(text: &str) -> Result<Figure, String> {
+        let figure: Figure = text.parse()?;
+        match figure.name {
+            name @ ("class" | "engine") => Err(format!(
+                "`{name}` is a word: name a key figure that is a number, like `stroke`"
+            )),
+            _ => Ok(figure),
+        }
+    }
+
     /// Returns the computation that the figure needs.
     pub fn source(&self) -> Source {
         self.source

@@ -61,6 +61,7 @@ impl SweepOptions {
                 "say which, like --fluctuation 0.02",
             ));
         }
+        self.steady.as_ref().map_or(Ok(()), SteadyOptions::check)?;
         if named {
             self.reactions = takes(Source::Peaks);
             self.motion = self.reactions || takes(Source::Motion);

@@ -185,7 +185,22 @@ fn what_cannot_be_looked_for_is_refused_with_what_can() {
         ),
         (
             vec!["--vary", rod, "--least", "class"],
-            vec!["none of 64 designs", "no such figure"],
+            vec!["`class` is a word"],
+        ),
+        (
+            vec![
+                "--vary",
+                rod,
+                "--least",
+                "stroke",
+                "--subject",
+                "class >= 1",
+            ],
+            vec!["`class` is a word"],
+        ),
+        (
+            vec!["--vary", rod, "--least", "fluctuation", "--fluctuation=nan"],
+            vec!["a coefficient of fluctuation of NaN"],
         ),
         (
             vec!["--vary", rod, "--least", "omega"],
@@ -246,4 +261,12 @@ fn a_motion_is_searched_as_far_as_its_error_tells_designs_apart() {
     );
     let resolution = number(&found["resolution"]);
     assert!(resolution > 0.0 && resolution < 1e-6, "{resolution}");
+    for (figure, words) in [
+        ("omega_min", "work limit of evaluations is reached"),
+        ("fluctuation", "within the work limit of 1 evaluations"),
+    ] {
+        let limited = ["--most", figure, "--max-evaluations", "1"];
+        let limited = folder.run(&[&arguments[..], &limited].concat());
+        limited.fails(1, &["none of 64 designs", words]);
+    }
 }

@@ -494,6 +494,14 @@ fn what_cannot_be_varied_is_refused_with_what_would_be_right() {
             &["1/8"],
         ),
         (
+            &["--vary", "geometry.rod=1m,2m", "--fluctuation=nan"],
+            &["a coefficient of fluctuation of NaN"],
+        ),
+        (
+            &["--vary", "geometry.rod=1m,2m", "--most", "engine"],
+            &["`engine` is a word"],
+        ),
+        (
             &["--vary", "geometry.rod=1m,2m", "--shard", "5/4"],
             &["1/8"],
         ),

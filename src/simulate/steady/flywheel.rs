@@ -18,12 +18,6 @@ pub(super) fn size(
     wanted: f64,
     options: &Options,
 ) -> Result<Flywheel, Error> {
-    if !(wanted > 0.0 && wanted < 2.0) {
-        return Err(Error::refused(
-            format!("a coefficient of fluctuation of {wanted} is asked for"),
-            "give a number between 0 and 2, like 0.02",
-        ));
-    }
     if present.value <= present.error {
         return Err(Error::refused(
             format!(

@@ -40,6 +40,19 @@ impl Default for SteadyOptions {
     }
 }
 
+impl SteadyOptions {
+    /// Refuses a coefficient of fluctuation that no flywheel gives.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        match self.fluctuation {
+            Some(wanted) if !(wanted > 0.0 && wanted < 2.0) => Err(Error::refused(
+                format!("a coefficient of fluctuation of {wanted} is asked for"),
+                "give a number between 0 and 2, like 0.02",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
 /// Finds the periodic motion that the scene's start approaches, or the next faster one if the crank would stop. The
 /// motion turns in the sense of the start speed; a start at rest leaves the sense of rotation open.
 ///
@@ -48,7 +61,8 @@ impl Default for SteadyOptions {
 ///
 /// # Errors
 /// [`Error::Scene`] for impossible values, [`Error::Refused`] with the reason where there is no periodic motion
-/// or no flywheel, or where the crank angle cannot be the independent variable; [`Error::Interrupted`].
+/// or no flywheel, or where the crank angle cannot be the independent variable; [`Error::Incomplete`] at the work limit;
+/// [`Error::Interrupted`].
 ///
 /// ```
 /// use slider_crank::scene::{Crank, Load, Scene};
@@ -71,6 +85,7 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
 }
 
 fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
+    options.check()?;
     refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
     let of_runs = &Options {
