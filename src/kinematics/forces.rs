@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::mechanism::{
     Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Reactions, Reactor,
 };
-use crate::numeric::{angle, difference, root};
+use crate::numeric::{angle, maximum};
 use crate::plan::Cycle;
 use crate::scene::Scene;
 
@@ -159,8 +159,13 @@ impl ForceAnalysis {
             for (from, to) in arcs {
                 let middle = linkage.pose(0.5 * (from + to));
                 let outward = middle.x * middle.dx * self.speed_rad_per_s > 0.0;
-                let stroke = self.extremes(from + before, to + before);
-                found[usize::from(!outward)].extend(stroke);
+                // Loads may differ in the next cycle.
+                let (from, to, end) = (from + before, to + before, self.whole());
+                let found = &mut found[usize::from(!outward)];
+                found.extend(self.extremes(from, to.min(end)));
+                if to > end {
+                    found.extend(self.extremes(0.0, to - end));
+                }
             }
         }
         found.map(|mut found: Vec<Located>| {
@@ -172,33 +177,28 @@ impl ForceAnalysis {
         })
     }
 
-    /// Locates possible extremes of the torque on a stroke: its ends, the rows of tables, and roots of its slope.
+    /// Returns crank angles between which the torque is smooth and resolved, from before `from` to after `to`, rad, both
+    /// of them and the rows of tables between them included.
+    pub(super) fn grid(&self, from: f64, to: f64) -> Vec<f64> {
+        let mut corners = self.equation.loads().corners_between(from, to);
+        corners.extend([from, to]);
+        self.linkage().grid_between(from, to, &corners)
+    }
+
+    /// Locates possible extremes of the torque on a stroke within the cycle: its ends and local extremes.
     fn extremes(&self, from: f64, to: f64) -> Vec<Located> {
-        // Angle of the rows, which end with the cycle: loads may differ in the next one.
-        let whole = self.whole();
-        let place = |theta: f64| match theta == whole {
-            true => whole,
-            false => theta.rem_euclid(whole),
+        let grid = self.grid(from, to);
+        let peaks = |sign: f64| {
+            let torque = |theta: f64| Some(sign * self.torque(theta)).filter(|t| t.is_finite());
+            maximum::peaks(|theta| torque(theta).unwrap_or(f64::NEG_INFINITY), &grid)
         };
-        let torque = |theta: f64| self.torque(place(theta));
-        let has_seam = (from..to).contains(&whole);
-        let seam = [0.0, whole].into_iter().filter(|_| has_seam);
-        let grid = self.linkage().turn_grid(false);
-        let all = angle::in_turns(&grid, -1..=i64::from(self.cycle_turns) + 1);
-        let inside = all.filter(|theta| (from..=to).contains(theta));
-        let mut angles = vec![from, to];
-        angles.extend(inside);
-        let rows = self.equation.loads().corners_between(from, to);
-        angles.extend(&rows);
-        angles.sort_by(f64::total_cmp);
-        let slope = |theta: f64| difference::slope(torque, theta, 1e-3);
-        let top = |w: &[f64]| root::bracketed(slope, w[0], w[1]);
-        let tops = angles.windows(2).filter_map(top);
-        let located = tops.chain([from, to]).chain(rows).chain(seam);
-        located
+        let tops = [1.0, -1.0].into_iter().flat_map(peaks);
+        let tops = tops.map(|(theta, _)| theta);
+        tops.filter(|theta| (from..=to).contains(theta))
+            .chain([from, to])
             .map(|theta| Located {
-                value: torque(theta),
-                theta_rad: theta.rem_euclid(whole) % whole,
+                value: self.torque(theta),
+                theta_rad: theta % self.whole(),
             })
             .filter(|located| located.value.is_finite())
             .collect()

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
-use crate::numeric::angle::in_turn;
+use crate::numeric::angle::{in_turn, in_turns};
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -106,6 +106,9 @@ fn range(
     found
 }
 
+/// Angle at which a turn is cut, rad: symmetry makes no quantity extreme there.
+pub const SEAM: f64 = -1.7;
+
 /// Part of the distance from the nearest branch point at which samples show all that a function does.
 const SHOWN_SHARE: f64 = 0.125;
 
@@ -135,10 +138,8 @@ impl Linkage {
     /// alone, at most 0.0625 rad, less than the distance between extremes.
     pub fn turn_grid(&self, smooth: bool) -> Vec<f64> {
         let longest = if smooth { 0.0625 } else { 1f64.to_radians() };
-        // Angle at which the turn is cut, rad: symmetry makes no quantity extreme there.
-        let seam = -1.7;
         let points = self.branch_points();
-        let end = seam + TAU;
+        let end = SEAM + TAU;
         // A long rod keeps all branch points far off.
         let is_far = points
             .iter()
@@ -151,6 +152,21 @@ impl Linkage {
             let next = theta + step;
             (*theta < end).then_some(next.min(end))
         };
-        std::iter::successors(Some(seam), next).collect()
+        std::iter::successors(Some(SEAM), next).collect()
+    }
+
+    /// Returns crank angles in rising order, rad, from at least one before `from` to at least one after `to`: those of
+    /// [`Linkage::turn_grid`], not only for smooth functions, and the `corners` of loads.
+    pub fn grid_between(&self, from: f64, to: f64, corners: &[f64]) -> Vec<f64> {
+        let longest = 1f64.to_radians();
+        let (from, to) = (from - longest, to + longest);
+        let turns = (from / TAU).floor() as i64..=(to / TAU).ceil() as i64;
+        let grid = self.turn_grid(false);
+        let all = in_turns(&grid, turns).chain(corners.iter().copied());
+        let mut angles: Vec<f64> = all.filter(|theta| (from..=to).contains(theta)).collect();
+        angles.sort_by(f64::total_cmp);
+        // Equal to rounding.
+        angles.dedup_by(|next, before| *next - *before <= 4.0 * f64::EPSILON * before.abs());
+        angles
     }
 }

@@ -1,4 +1,6 @@
-//! Maximum of a function of one variable, by Brent's method.
+//! Maxima of a function of one variable, by Brent's method.
+
+use super::{difference, root};
 
 /// (3 − √5)/2, the smaller part of the golden section.
 const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
@@ -54,6 +56,25 @@ pub fn beside_best(f: impl FnMut(f64) -> f64, known: &[(f64, f64)]) -> (f64, f64
     let best = best.unwrap_or(0);
     let after = (best + 1).min(known.len() - 1);
     beside(f, [best.saturating_sub(1), best, after].map(|i| known[i]))
+}
+
+/// Locates the local maxima of a function that places in order resolve, except at the first and the last of them, and
+/// their values. A maximum may be a corner; a plateau counts once.
+pub fn peaks(f: impl Fn(f64) -> f64, places: &[f64]) -> Vec<(f64, f64)> {
+    let mut known: Vec<(f64, f64)> = places.iter().map(|at| (*at, f(*at))).collect();
+    known.dedup_by(|next, before| next.1 == before.1);
+    let tops = known.windows(3);
+    let tops = tops.filter(|w| w[1].1 > w[0].1 && w[1].1 > w[2].1);
+    let refined = tops.map(|w| {
+        let found = beside(&f, [w[0], w[1], w[2]]);
+        // Values tell the place of a smooth maximum to the root of their rounding, slopes to their rounding.
+        let (from, to) = (w[0].0, w[2].0);
+        let slope = |at: f64| difference::slope(&f, at, (to - from) / 32.0);
+        let by_slope = root::bracketed(slope, from, to).map(|at| (at, f(at)));
+        let is_equal = |other: &(f64, f64)| found.1 - other.1 <= 4.0 * f64::EPSILON * found.1.abs();
+        by_slope.filter(is_equal).unwrap_or(found)
+    });
+    refined.collect()
 }
 
 /// Runs Brent's iteration from the best three points, the best one first, and the size of the step before last.

@@ -136,3 +136,41 @@ fn the_largest_torques_are_those_of_all_turns_of_the_cycle() {
     let last = found.rows(1f64.to_radians()).last().unwrap();
     close("end", last.0, 2.0 * TAU, 1.0, 1e-15);
 }
+
+/// A slider alone on a rod that is hardly longer than the crank: the torque m x' x'' ω² has peaks as narrow as the root
+/// of the gap beside 90 and 270 degrees. The extremes are those of dense rows there, from the closed form.
+#[test]
+fn narrow_peaks_of_the_torque_are_found() {
+    let (r, mass, speed) = (0.05, 0.5, 10.0);
+    for (gap, offset) in [(1e-3, 0.0), (1e-5, 0.0), (1e-8, 0.0), (1e-6, 0.01)] {
+        let l = r + offset + gap * r;
+        let scene = Scene::new(r, l)
+            .offset(offset)
+            .slider(Slider { mass })
+            .constant_speed(0.0, speed);
+        let found = forces(&scene).unwrap();
+        // The lift is u = e ± r cos(d), d from 90 or 270 degrees, and W² = (l − u)(l + u), without cancellation.
+        let torque = |side: f64, d: f64| {
+            let (sin, cos) = (side * d.cos(), -side * d.sin());
+            let u = offset + r * sin;
+            let short = side * 2.0 * r * (0.5 * d).sin().powi(2);
+            let [below, above] = [l - offset - side * r + short, l + offset + side * r - short];
+            let w = (below * above).sqrt();
+            let dw = -u * r * cos / w;
+            let d2w = (-(r * cos).powi(2) + u * r * sin - dw * dw) / w;
+            mass * (-r * sin + dw) * (-r * cos + d2w) * speed * speed
+        };
+        // Angles from 1e-7 to 1 rad on either side, dense by their logarithms.
+        let logarithms = (0..=1_000_000).map(|i| 1e-7 * 1e7f64.powf(f64::from(i) / 1e6));
+        let places = logarithms.flat_map(|d| [[1.0, d], [1.0, -d], [-1.0, d], [-1.0, -d]]);
+        let both = places.map(|[side, d]| torque(side, d));
+        let (least, most) = both.fold((0.0f64, 0.0f64), |(low, high), t| (low.min(t), high.max(t)));
+        let strokes = [found.outward.unwrap(), found.inward.unwrap()];
+        let min = strokes[0].min.value.min(strokes[1].min.value);
+        let max = strokes[0].max.value.max(strokes[1].max.value);
+        // Distance of the rows, and rounding of the gap.
+        let tolerance = 1e-9 + 1e-15 / gap;
+        close("least", min, least, least.abs(), tolerance);
+        close("greatest", max, most, most, tolerance);
+    }
+}
