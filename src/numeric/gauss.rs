@@ -53,6 +53,8 @@ pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64
     (0..panels).map(panel).sum::<f64>() * h / 18.0
 }
 
+/// Nodes and weights of the rule with 6 points on [0, 1].
+pub static RULE_6: LazyLock<[(f64, f64); 6]> = LazyLock::new(rule);
 /// Nodes and weights of the rule with 14 points on [0, 1].
 pub static RULE_14: LazyLock<[(f64, f64); 14]> = LazyLock::new(rule);
 /// Nodes and weights of the rule with 18 points on [0, 1].

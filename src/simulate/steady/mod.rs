@@ -265,21 +265,27 @@ impl Verified {
     /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
         let turns = self.found.turns;
-        let count = fourier::SAMPLES_PER_TURN * turns;
+        // The rectangle rule is exact for signals of orders below this number per turn less the highest order.
+        let count = 1024 * turns;
         let speed = |k: u32| {
-            [&self.found, &self.check]
-                .map(|f| f.omega(f64::from(k) * f.rotation() / f64::from(count)))
+            let at = f64::from(k) / f64::from(count);
+            fourier::Sample {
+                at,
+                weight: 1.0 / f64::from(count),
+                values: [&self.found, &self.check].map(|f| f.omega(at * f.rotation())),
+            }
         };
-        let speeds: Vec<[f64; 2]> = (0..count).map(speed).collect();
-        let every_other: Vec<[f64; 2]> = speeds.iter().step_by(2).copied().collect();
-        let amplitudes = |speeds: &[[f64; 2]], k: u32| {
-            fourier::coefficients(speeds, k).map(|[cos, sin]| 2.0 * cos.hypot(sin))
+        let speeds: Vec<_> = (0..count).map(speed).collect();
+        // Every other sample weighs twice as much.
+        let amplitudes = |stride: usize, k: u32| {
+            let samples = speeds.iter().step_by(stride).copied();
+            fourier::coefficients(samples, k).map(|[c, s]| 2.0 * stride as f64 * c.hypot(s))
         };
         let rounding = self.relative_error * self.found.cycle.speed.abs();
         let order = |k: u32| {
-            let [value, other] = amplitudes(&speeds, k);
+            let [value, other] = amplitudes(1, k);
             // Corners of the speed alias higher orders onto this one.
-            let folded = (value - amplitudes(&every_other, k)[0]).abs();
+            let folded = (value - amplitudes(2, k)[0]).abs();
             SpeedOrder {
                 order: f64::from(k) / f64::from(turns),
                 amplitude_rad_per_s: Estimated {
