@@ -50,7 +50,7 @@ impl ForceAnalysis {
         let work: f64 = pieces.windows(2).map(|w| area(&torque, w[0], w[1])).sum();
         let mean = work / self.whole();
         let above = |theta: f64| torque(theta % self.whole()) - mean;
-        let crossings = self.crossings(&pieces, above).into_iter();
+        let crossings = self.crossings(above).into_iter();
         let mut cuts: Vec<_> = crossings.map(|at| (at, true)).collect();
         cuts.extend(pieces.iter().skip(1).map(|end| (*end, false)));
         cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
@@ -84,19 +84,18 @@ impl ForceAnalysis {
         }
     }
 
-    /// Locates the sign changes of a function of the cycle, rad. The function is sampled in the middle of parts of the
-    /// pieces, as it may vanish at their ends.
-    fn crossings(&self, pieces: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
-        // Of a piece, an eighth of a turn at most: the torque crosses its mean once at most in each.
-        let parts = 16u32;
-        let middles = pieces.windows(2).flat_map(|piece| {
-            let step = (piece[1] - piece[0]) / f64::from(parts);
-            (0..parts).map(move |k| piece[0] + (f64::from(k) + 0.5) * step)
-        });
-        let mut middles: Vec<f64> = middles.collect();
-        middles.extend(middles.first().map(|first| first + self.whole()));
-        let crossing = |w: &[f64]| root::bracketed(&of, w[0], w[1]);
-        let crossings = middles.windows(2).filter_map(crossing);
-        crossings.map(|theta| theta % self.whole()).collect()
+    /// Locates the sign changes of a function of the cycle, rad. The function is sampled in the middle of the cells of
+    /// the grid, as it may vanish at their ends.
+    fn crossings(&self, of: impl Fn(f64) -> f64) -> Vec<f64> {
+        let whole = self.whole();
+        let grid = self.grid(0.0, whole);
+        let middles = grid.windows(2).map(|cell| 0.5 * (cell[0] + cell[1]));
+        let mut middles: Vec<f64> = middles.filter(|at| (0.0..whole).contains(at)).collect();
+        middles.extend(middles.first().map(|first| first + whole));
+        let cells = middles.windows(2);
+        // A plateau at zero has one crossing at most.
+        let crossed = cells.filter(|w| (of(w[0]) > 0.0) != (of(w[1]) > 0.0));
+        let crossings = crossed.filter_map(|w| root::bracketed(&of, w[0], w[1]));
+        crossings.map(|theta| theta % whole).collect()
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
 use slider_crank::kinematics::{Diagrams, TurnOptions, one_turn};
-use slider_crank::scene::Scene;
+use slider_crank::scene::{Scene, Slider};
 
 const CRANK: f64 = 0.05;
 const SPEED: f64 = 40.0;
@@ -135,4 +135,120 @@ fn a_pressure_in_quadrature_has_its_mean_effective_pressure() {
         5e5 * PI / 2.0,
     );
     close(found.power_w, found.work_j * SPEED / TAU, found.power_w);
+}
+
+/// Returns the diagrams of a slider alone on a rod that is longer than crank and offset by a part `gap` of the crank.
+fn near_singular(gap: f64, offset: f64) -> (f64, Diagrams) {
+    let rod = CRANK + offset + gap * CRANK;
+    let scene = Scene::new(CRANK, rod)
+        .offset(offset)
+        .slider(Slider { mass: 3.0 })
+        .constant_speed(0.0, SPEED);
+    let options = TurnOptions {
+        forces: true,
+        balance: Some(0.5),
+        ..TurnOptions::default()
+    };
+    let turn = one_turn(&scene, &options).expect("a turn");
+    (rod, turn.diagrams.expect("diagrams"))
+}
+
+/// Returns x = r cos θ + W with W² = l² − (e + r sin θ)², and its first two derivatives.
+fn slider_motion(rod: f64, offset: f64, theta: f64) -> [f64; 3] {
+    let (sin, cos) = theta.sin_cos();
+    let u = offset + CRANK * sin;
+    // 1 − sin θ without cancellation beside 90 degrees.
+    let short = 2.0 * (0.5 * theta - PI / 4.0).sin().powi(2);
+    let w = ((rod - offset - CRANK + CRANK * short) * (rod + u)).sqrt();
+    let dw = -u * CRANK * cos / w;
+    let d2w = (u * CRANK * sin - (CRANK * cos).powi(2) - dw * dw) / w;
+    [CRANK * cos + w, dw - CRANK * sin, d2w - CRANK * cos]
+}
+
+/// Orders beside the singular geometry: the force is m x'' ω² and the torque (m x'²/2)' ω², whose coefficients are k²
+/// and k times those of x and x'². The rectangle rule gives those of x to rounding, as its error falls by e^(−N w) with
+/// N samples and the width w = sqrt(2 gap) of the peaks.
+#[test]
+fn orders_of_narrow_peaks_are_their_fourier_coefficients() {
+    for (gap, offset) in [(1e-6, 0.0), (1e-5, 0.0), (1e-5, 0.01), (0.3, 0.02)] {
+        let (rod, found) = near_singular(gap, offset);
+        let count = 1u32 << 18;
+        let mass_times_square = 3.0 * SPEED * SPEED;
+        for order in found.orders {
+            let k = order.order;
+            let mut sums = [[0.0; 2]; 2];
+            for i in 0..count {
+                let part = f64::from(i) / f64::from(count);
+                let [x, dx, _] = slider_motion(rod, offset, TAU * part);
+                let (sin, cos) = (TAU * (k * part).fract()).sin_cos();
+                for (sum, value) in sums.iter_mut().zip([k * k * x, 0.5 * k * dx * dx]) {
+                    sum[0] += value * cos;
+                    sum[1] += value * sin;
+                }
+            }
+            let factor = 2.0 * mass_times_square / f64::from(count);
+            let [force, torque] = sums.map(|[even, odd]| factor * even.hypot(odd));
+            for (value, expected, size) in [
+                (order.shaking_x_n, force, mass_times_square * CRANK),
+                (order.torque_nm, torque, mass_times_square * CRANK * CRANK),
+            ] {
+                let error = (value - expected).abs();
+                assert!(
+                    error <= 1e-9 * size.max(expected),
+                    "order {k} at {gap}: {value} for {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Without loads the energy that a flywheel stores is that of the slider, m x'² ω²/2: it fluctuates by the greatest.
+#[test]
+fn the_fluctuation_of_narrow_peaks_is_that_of_the_kinetic_energy() {
+    for (gap, offset) in [(1e-4, 0.0), (1e-7, 0.0), (1e-7, 0.01), (1e-5, 0.03)] {
+        let (rod, found) = near_singular(gap, offset);
+        // Angles from 1e-8 to 1 rad beside 90 and 270 degrees, dense by their logarithms.
+        let logarithms = (0..=1_000_000).map(|i| 1e-8 * 1e8f64.powf(f64::from(i) / 1e6));
+        let around =
+            logarithms.flat_map(|d| [1.0, 3.0].map(|k| k * PI / 2.0).map(|at| [at - d, at + d]));
+        let speeds = around
+            .flatten()
+            .map(|theta| slider_motion(rod, offset, theta)[1]);
+        let largest = speeds.fold(0.0, |most: f64, dx| most.max(dx * dx));
+        let energy = 0.5 * 3.0 * SPEED * SPEED * largest;
+        let fluctuation = found.turning_moment.fluctuation_j;
+        let error = (fluctuation - energy).abs();
+        assert!(
+            error <= 1e-7 * energy,
+            "{fluctuation} for {energy} at {gap}"
+        );
+    }
+}
+
+/// The largest shaking force m |x''| ω² is that of dense rows, with and without the counterweight.
+#[test]
+fn the_largest_shaking_force_is_located() {
+    for (gap, offset) in [(0.9, 0.031), (0.05, 0.012), (1e-4, 0.02)] {
+        let (rod, found) = near_singular(gap, offset);
+        let balance = found.balance;
+        let counter = balance.counterweight_kg_m * SPEED * SPEED;
+        let (mut largest, mut left) = (0.0f64, 0.0f64);
+        let count = 1u32 << 22;
+        for i in 0..count {
+            let theta = TAU * f64::from(i) / f64::from(count);
+            let force = -3.0 * SPEED * SPEED * slider_motion(rod, offset, theta)[2];
+            let (sin, cos) = (theta + balance.angle_rad).sin_cos();
+            largest = largest.max(force.abs());
+            left = left.max((force + counter * cos).hypot(counter * sin));
+        }
+        for (value, expected) in [(balance.largest_n, largest), (balance.largest_left_n, left)] {
+            let error = (value - expected).abs();
+            // Dense rows miss a peak of width w by the square of their distance over w.
+            let missed = 1e-9 + 1e-12 / gap;
+            assert!(
+                error <= missed * expected,
+                "{value} for {expected} at {gap}"
+            );
+        }
+    }
 }
