@@ -146,6 +146,8 @@ impl Linkage {
             let from = from.asin();
             let ranges = if to >= 1.0 {
                 vec![[from, PI - from]]
+            } else if from == -FRAC_PI_2 {
+                vec![[PI - to.asin(), TAU + to.asin()]]
             } else {
                 vec![[from, to.asin()], [PI - to.asin(), PI - from]]
             };

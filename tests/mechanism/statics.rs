@@ -420,3 +420,32 @@ fn torque_of_a_drum_and_friction_of_a_tilt() {
         1e-15,
     );
 }
+
+/// A rod that hangs below the guide wherever it reaches: with enough friction the whole reach is one range of locking,
+/// through 270 or 90 degrees.
+#[test]
+fn one_range_of_locking_through_the_normal_of_the_guide() {
+    for (offset, middle) in [(0.5, 3.0 * FRAC_PI_2), (-0.5, FRAC_PI_2)] {
+        let linkage = Linkage::new(&geometry(0.22, 0.31, offset, Branch::Right));
+        // The rod reaches where |e| − r cos(θ − middle) ≤ l, and locks where μ |tan φ| ≥ 1: from 0.28 m on at μ = 5.
+        let half = ((0.5f64 - 0.31) / 0.22).acos();
+        let locked = linkage.self_locking(5.0);
+        let [range] = locked.as_slice() else {
+            panic!("{locked:?}")
+        };
+        close(
+            "from",
+            range.theta_rad,
+            (middle - half).rem_euclid(TAU),
+            1.0,
+            1e-13,
+        );
+        close(
+            "to",
+            range.to_rad.unwrap() - range.theta_rad,
+            2.0 * half,
+            1.0,
+            1e-13,
+        );
+    }
+}
