@@ -9,7 +9,7 @@ use crate::numeric::median::median;
 /// Residual, in standard deviations, above which a sample is examined: one in 10⁸ of noise.
 const FAR: f64 = 5.7;
 
-/// Leverage on the path above which a sample is not judged.
+/// Leverage on the path above which a sample between others is not judged.
 const TIED: f64 = 0.5;
 
 /// Fraction of the samples above which far ones are no outliers.
@@ -37,8 +37,9 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
             // Part of the error of a weighted sample is in the path.
             let variance = shown.slope * shown.slope * estimate.covariance[0] / (sigma * sigma);
             let leverage = record.weights[i] * variance;
-            // The path follows a sample of large leverage, right or wrong.
-            if leverage > TIED {
+            // The path between samples follows one of large leverage, right or wrong; at an end the prior predicts it.
+            let is_end = i == 0 || i + 1 == record.times.len();
+            if leverage > TIED && !is_end {
                 return 0.0;
             }
             // Residual from the prediction by all other samples.
