@@ -30,6 +30,7 @@ impl Problem<'_> {
         };
         let [lowest, highest] = scales.corners().map(f64::ln);
         let (mut middle, mut step) = (first.corner.ln(), 1.0);
+        let mut likeliest = *first;
         for _ in 0..CORNER_ROUNDS {
             let logs = [-step, 0.0, step].map(|off| (middle + off).clamp(lowest, highest));
             let noises = logs.map(|log| Noise {
@@ -40,6 +41,7 @@ impl Problem<'_> {
             let evidences = self.evidences(motion, path, &linear, &noises);
             let [a, b, c] = [0, 1, 2].map(|k| linear.judged(noises[k], &evidences[k], 1));
             let best = better(better(b, a), c);
+            likeliest = best;
             if best.corner == lowest.exp() || best.corner == highest.exp() {
                 return best;
             }
@@ -55,7 +57,7 @@ impl Problem<'_> {
             };
             middle = best.corner.ln();
         }
-        *first
+        likeliest
     }
 
     /// Computes the likelihood terms of several noises.

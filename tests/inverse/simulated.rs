@@ -596,3 +596,31 @@ fn long_records_of_what_repeats_have_a_force() {
     assert!(covered > 0.9, "covered {covered}");
     assert_eq!(found.rows.len(), truth.t.len());
 }
+
+/// 300 turns with 16 samples in each: the intensity that is likeliest by all samples is far from that of the
+/// segments.
+#[test]
+fn a_long_record_has_a_finite_motion() {
+    let long = Motion {
+        name: "long",
+        start: [0.9, 30.0],
+        end: 60.0,
+        rows: 5000,
+        torque: |_, theta, omega| {
+            let loss = position(theta)[1].powi(2) * omega;
+            0.4 * (1.2 - omega / 30.0) - loss + 0.06 * (3.0 * theta).sin()
+        },
+    };
+    let truth = long.run();
+    for seed in 1..=2 {
+        let mut random = Random(seed * 7919);
+        let record = measure(&truth, Sensor::Angle(1e-3), &mut random);
+        let motion = Measurement::new(Measured::Theta, record.t, record.values).expect("a motion");
+        let found = inverse(&scene(&long, 1.0), &motion, &InverseOptions::default());
+        let found = found.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let pairs = found.rows.iter().zip(&truth.theta);
+        let far = pairs.map(|(row, theta)| (row.theta - theta).abs());
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 0.02, "seed {seed}: {far} rad");
+    }
+}
