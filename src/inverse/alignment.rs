@@ -6,8 +6,8 @@
 
 use super::branch_tracking::LARGEST_VALUE_ERROR;
 use super::measurement_model::{Scale, Sensor};
-use crate::mechanism::Limits;
-use crate::numeric::median::median;
+use crate::mechanism::{Limits, Linkage};
+use crate::numeric::median::{median, range};
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
 use crate::numeric::root::bracketed;
 use crate::scene::{Measured, Measurement};
@@ -54,6 +54,36 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
     }));
     list.extend(scales.into_iter().map(|scale| Sensor { scale, ..sensor }));
     list
+}
+
+/// Returns the scale of a sensor on a mechanism with other lengths. Where the turning points are off its dead centres, the
+/// readings at both dead centres stay as they are, or the one that the samples show is taken.
+pub(super) fn realigned(sensor: &Sensor<'_>, other: &Linkage, measurement: &Measurement) -> Scale {
+    let moved = Sensor {
+        linkage: other,
+        scale: Scale::TRUE,
+        ..*sensor
+    };
+    // The first correction has zero and gain, if the samples show both dead centres.
+    let Some(Sensor { scale, .. }) = sensors(moved, measurement).get(1).copied() else {
+        return Scale::TRUE;
+    };
+    if scale.stretch == 1.0 {
+        return scale;
+    }
+    let ends = |linkage: &Linkage| {
+        let list = Limits::new(linkage, 0.0).dead_centres;
+        let (low, high) = range(&list.iter().map(|end| end.x).collect::<Vec<_>>());
+        [low, high]
+    };
+    let Scale { shift, stretch } = sensor.scale;
+    let [low, high] = ends(sensor.linkage).map(|x| shift + stretch * x);
+    let [near, far] = ends(other);
+    let stretch = (high - low) / (far - near);
+    Scale {
+        shift: low - stretch * near,
+        stretch,
+    }
 }
 
 /// Turning point of the slider next to a dead centre.

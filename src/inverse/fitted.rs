@@ -67,7 +67,8 @@ impl Fitted {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
             let fitted = Fitted::of_polynomial(&record, found, reason);
             let degree = fitted.summary.degree;
-            let of = |source: &Source| source.polynomial(&record, &fitted.motion, degree);
+            let of =
+                |source: &Source| source.polynomial(&record, &fitted.motion, degree, measurement);
             let moved = sources.iter().map(of).collect();
             Ok::<Fitted, String>(Fitted { moved, ..fitted })
         };
@@ -125,10 +126,9 @@ impl Fitted {
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
         let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic);
-        let times = measurement.elapsed();
         Fitted {
             moved: parallel::map(sources.iter(), |source| {
-                source.smoothed(&problem, &smoothed, times)
+                source.smoothed(&problem, &smoothed, measurement)
             }),
             ..Fitted::of_smoother(
                 &record(measurement, angles),

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::grid::{Grid, Piece};
-use super::measurement_model::{Sensor, Shown};
+use super::measurement_model::{Scale, Sensor, Shown};
 use super::quantised::{Codes, Interval};
 use super::residual_tests;
 use super::state_space::Observed;
@@ -59,8 +59,8 @@ impl Record<'_> {
         }
     }
 
-    /// Returns the samples less their codes for another linkage, shifted by a zero, rad or m.
-    pub fn moved<'b>(&'b self, linkage: &'b Linkage, zero: f64) -> Record<'b> {
+    /// Returns the samples less their codes for another linkage and scale of the sensor, shifted by a zero, rad.
+    pub fn moved<'b>(&'b self, linkage: &'b Linkage, scale: Scale, zero: f64) -> Record<'b> {
         let beside = self.beside.iter().map(|other| SensorBeside {
             sensor: Sensor {
                 linkage,
@@ -72,6 +72,7 @@ impl Record<'_> {
         Record {
             sensor: Sensor {
                 linkage,
+                scale,
                 ..self.sensor
             },
             times: self.times.as_ref().into(),

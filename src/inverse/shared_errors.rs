@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use super::alignment;
 use super::guide::Guide;
 use super::inverse_dynamics::InverseDynamics;
 use super::motion_estimate::MotionEstimate;
@@ -59,19 +60,23 @@ pub(super) fn sources(
 }
 
 impl Source {
+    /// Returns the samples under this error: a position sensor is aligned with the changed mechanism.
+    fn record<'a>(&'a self, record: &'a Record<'_>, measurement: &Measurement) -> Record<'a> {
+        let linkage = self.equation.linkage();
+        let scale = alignment::realigned(&record.sensor, linkage, measurement);
+        record.moved(linkage, scale, self.zero)
+    }
+
     /// Returns θ, ω, θ̈ of the polynomial of a degree under this error.
     pub fn polynomial(
         &self,
         record: &Record<'_>,
         motion: &[MotionEstimate],
         degree: usize,
+        measurement: &Measurement,
     ) -> Vec<[f64; 3]> {
         let theta: Vec<f64> = motion.iter().map(|m| m.value[0] + self.zero).collect();
-        let found = Polynomial::new(
-            &record.moved(self.equation.linkage(), self.zero),
-            &theta,
-            Some(degree),
-        );
+        let found = Polynomial::new(&self.record(record, measurement), &theta, Some(degree));
         let found = found.map_or_else(|_| motion.to_vec(), |found| found.motion);
         found.iter().map(|state| state.value).collect()
     }
@@ -81,11 +86,12 @@ impl Source {
         &self,
         problem: &Problem<'_>,
         smoothed: &Smoothed,
-        times: &[f64],
+        measurement: &Measurement,
     ) -> Vec<[f64; 3]> {
+        let times = measurement.elapsed();
         let record = &problem.record;
         let problem = Problem {
-            record: record.moved(self.equation.linkage(), self.zero),
+            record: self.record(record, measurement),
             grid: problem.grid.clone(),
             equation: &self.equation,
             intensities: problem.intensities.clone(),

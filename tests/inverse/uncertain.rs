@@ -98,6 +98,47 @@ fn errors_of_the_scene_are_those_of_the_computation_with_other_values() {
     }
 }
 
+/// Slider position along [`motion`], by the loop closure, with errors of 10 µm: the sensor is aligned with the dead centres
+/// of each scene, so the error of a length is what is left after the alignment.
+#[test]
+fn errors_of_lengths_are_those_of_an_aligned_sensor() {
+    let angles = motion();
+    let position = |(i, theta): (usize, &f64)| {
+        let height = 0.008 + 0.05 * theta.sin();
+        let noise = (1e4 * ((i + 400) as f64).powi(2)).sin();
+        0.05 * theta.cos() + (0.15f64.powi(2) - height * height).sqrt() + 1.4e-5 * noise
+    };
+    let values = angles.values().iter().enumerate().map(position).collect();
+    let motion = Measurement::new(Measured::X, angles.times().to_vec(), values);
+    let motion = motion.expect("a motion");
+    let options = InverseOptions::default();
+    let run = |rod: &str| {
+        let scene = scene(rod, "1.5 kg").scene().expect("a scene");
+        forces(&inverse(&scene, &motion, &options).expect("an inversion"))
+    };
+    let draft = scene("150 +- 0.5 mm", "1.5 kg");
+    let uncertain = draft.uncertain().expect("uncertain values");
+    let written = draft.scene().expect("a scene");
+    let found = inverse_of_uncertain(&written, &uncertain, &motion, &options);
+    let found = found.expect("an inversion");
+    let (low, high) = (run("149.5 mm"), run("150.5 mm"));
+    let rows = low.iter().zip(&high).zip(&found.rows);
+    let halves = rows.filter_map(|((low, high), row)| {
+        row.slider_force?;
+        Some(0.5 * ((*high)? - (*low)?))
+    });
+    let (count, sum) = halves.fold((0.0, 0.0), |(n, sum), half| (n + 1.0, sum + half * half));
+    let expected = f64::sqrt(sum / count);
+    let budget = &found.summary.error_budget;
+    let part = budget.iter().find(|part| part.source == "geometry.rod");
+    let part = part.expect("the rod").force_se_n;
+    // The noise of the turning points is in the runs alone.
+    assert!(
+        (part / expected - 1.0).abs() < 0.3,
+        "{part}, expected {expected}"
+    );
+}
+
 #[test]
 fn errors_that_say_nothing_are_refused() {
     for (rod, words) in [

@@ -69,13 +69,14 @@ impl<'a> Trials<'a> {
     pub fn with<T>(&self, values: &[f64], f: impl FnOnce(&Problem<'_>) -> T) -> Result<T, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
+        let record = &self.problem.record;
         let of_sensor = self.all.iter().zip(values);
         let zero: f64 = of_sensor
             .filter(|(free, _)| free.is_sensor_zero)
             .map(|(_, value)| *value)
             .sum();
         Ok(f(&Problem {
-            record: self.problem.record.moved(equation.linkage(), -zero),
+            record: record.moved(equation.linkage(), record.sensor.scale, -zero),
             grid: self.problem.grid.clone(),
             equation: &equation,
             intensities: Intensities::default(),
