@@ -86,8 +86,10 @@ impl Fitted {
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten()
             .filter(|polynomial| polynomial.converged && !polynomial.patterned);
-        if let Some(exact) = simple.take_if(|polynomial| polynomial.summary.rms <= polynomial.floor)
-        {
+        let is_exact = |polynomial: &mut Fitted| {
+            polynomial.summary.rms <= polynomial.floor && record.is_computed()
+        };
+        if let Some(exact) = simple.take_if(is_exact) {
             return Ok(exact);
         }
         let smoothed = Fitted::smoothed(
@@ -100,6 +102,7 @@ impl Fitted {
         Ok(match simple {
             Some(polynomial)
                 if smoothed.summary.outliers == 0
+                    && smoothed.coded.is_none()
                     && polynomial.information() <= smoothed.information() =>
             {
                 polynomial

@@ -624,3 +624,21 @@ fn a_long_record_has_a_finite_motion() {
         assert!(far < 0.02, "seed {seed}: {far} rad");
     }
 }
+
+/// Encoder of 500 steps on a swing within one turn: its codes are no samples of a polynomial with noise.
+#[test]
+fn codes_within_one_turn_are_smoothed() {
+    let flywheel = Scene::new(CRANK, ROD).crank(Crank {
+        inertia: INERTIA,
+        ..Crank::default()
+    });
+    let times: Vec<f64> = (0..300).map(|i| f64::from(i) / 299.0).collect();
+    let code = |t: &f64| {
+        let theta = 1.0 + 0.5 * (TAU * t + 0.4).sin();
+        (theta * 500.0 / TAU).round() * TAU / 500.0
+    };
+    let angles = times.iter().map(code).collect();
+    let motion = Measurement::new(Measured::Theta, times, angles).expect("a motion");
+    let found = inverse(&flywheel, &motion, &InverseOptions::default()).expect("an inversion");
+    assert_eq!(found.summary.fit.kind, "smoother");
+}
