@@ -38,6 +38,8 @@ pub(super) struct Fitted {
     pub farthest_outlier: Option<usize>,
     /// Turns per cycle of the periodic torque in the smoother's prior; 0 without a periodic torque.
     pub cycle: u8,
+    /// Harmonics of a turn that the samples determine in a periodic torque.
+    pub told: f64,
     /// Step of an encoder or of rounding, rad, if wider than the noise.
     pub coded: Option<f64>,
     /// θ, ω, θ̈ at each sample under each of the errors that all samples share.
@@ -188,6 +190,8 @@ impl Fitted {
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.converged = smoothed.converged;
         fitted.cycle = prior.cycle;
+        fitted.told = (smoothed.repeating.as_ref())
+            .map_or(0.0, |torque| torque.told as f64 / f64::from(prior.cycle));
         fitted.summary = FitSummary {
             kind: "smoother",
             reason: "its prior is the likeliest".to_owned(),
@@ -273,6 +277,7 @@ impl Fitted {
             patterned: false,
             converged: true,
             cycle: 0,
+            told: 0.0,
             farthest_outlier: None,
             coded: None,
             moved: Vec::new(),

@@ -10,6 +10,8 @@ use super::prior::Prior;
 pub(super) struct Repeating {
     pub prior: Prior,
     pub coefficients: Vec<f64>,
+    /// Number of harmonics that the samples determine.
+    pub told: usize,
     /// Unit of the speed, rad/s.
     pub speed: f64,
 }

@@ -156,18 +156,20 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         }
     }
 
-    /// Adds what the coefficients with a spectrum do to the smoothed states and prediction errors; returns the coefficients.
+    /// Adds what the coefficients with a spectrum do to the smoothed states and prediction errors; returns the coefficients,
+    /// and the number of harmonics that the samples determine.
     pub fn add(
         self,
         spectrum: Option<Spectrum>,
         path: &mut [Gaussian<N>],
         innovations: &mut [Option<f64>],
-    ) -> Option<Vec<f64>> {
+    ) -> Option<(Vec<f64>, usize)> {
         let Regressed { columns, to, .. } = self.regressed;
         to.multiply();
         let posterior = to.solved(spectrum?)?;
         // Factor A of the covariance Aᵀ A of the coefficients.
         let factor = posterior.factor();
+        let told = posterior.told(&factor, to.prior());
         let count = columns.errors.len();
         let size = N * count;
         let (mut list, coefficients) = (self.list, posterior.coefficients);
@@ -192,7 +194,7 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
                 }
             }
         }
-        Some(coefficients)
+        Some((coefficients, told))
     }
 }
 

@@ -192,9 +192,10 @@ impl<'a> Problem<'a> {
         let coefficients = parallel::map(jobs.into_iter(), job);
         // What repeats is found along the whole path, in one piece.
         let coefficients = coefficients.into_iter().flatten().next();
-        path.repeating = coefficients.map(|coefficients| Repeating {
+        path.repeating = coefficients.map(|(coefficients, told)| Repeating {
             prior: motion.prior,
             coefficients,
+            told,
             speed: path.speed(),
         });
         found
@@ -207,7 +208,7 @@ impl<'a> Problem<'a> {
         from: usize,
         model: &Deviations<'_>,
         noise: &Noise,
-    ) -> (Vec<Estimate>, Option<Vec<f64>>) {
+    ) -> (Vec<Estimate>, Option<(Vec<f64>, usize)>) {
         let (mut deviations, mut innovations, coefficients);
         match motion.prior.cycle {
             0 => {

@@ -93,6 +93,10 @@ impl Regression {
         }
     }
 
+    pub fn prior(&self) -> Prior {
+        self.prior
+    }
+
     /// Adds a row E with its error e; `per` is 1/√S.
     pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
         for (value, score) in row.iter().zip(&mut self.score) {
@@ -241,6 +245,27 @@ pub(super) struct Posterior {
 }
 
 impl Posterior {
+    /// Returns the highest harmonic whose variance the samples reduce by more than half, at the mean speed, or 0; `factor` is
+    /// that of the covariance.
+    pub fn told(&self, factor: &DMatrix<f64>, prior: Prior) -> usize {
+        let of = prior.of_harmonic();
+        let is_told = |harmonic: &usize| {
+            let first = (harmonic - 1) * of;
+            let (mut left, mut before) = (0.0, 0.0);
+            for j in first..first + 2 {
+                // At the mean speed the coefficients with and without the speed add up.
+                let parts = || (j..first + of).step_by(2);
+                let column = |row: usize| parts().map(|k| factor[(row, k)]).sum::<f64>();
+                left += (0..factor.nrows())
+                    .map(|row| column(row).powi(2))
+                    .sum::<f64>();
+                before += parts().map(|k| self.deviations[k].powi(2)).sum::<f64>();
+            }
+            left < 0.5 * before
+        };
+        (1..=prior.harmonics).rev().find(is_told).unwrap_or(0)
+    }
+
     /// A factor A of the covariance Aᵀ A.
     pub fn factor(&self) -> DMatrix<f64> {
         let count = self.coefficients.len();

@@ -128,9 +128,7 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             "the noise of the samples is correlated over about {time:.1e} s: what varies like that is taken for noise, not for motion"
         ));
     }
-    if fitted.cycle == 0 {
-        warnings.extend(slow(fitted, measurement));
-    }
+    warnings.extend(slow(fitted, measurement));
     if summary.coefficients.iter().any(Option::is_none) {
         warnings.push("coefficients in plain time are left out where cancellation leaves no digits: let the time begin near 0".to_owned());
     }
@@ -153,7 +151,7 @@ fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
         .map(|w| w[1].value[0] - w[0].value[0]);
     let turns = steps.map(f64::abs).sum::<f64>() / TAU;
     let turn = (times[last] - times[first]) / turns;
-    let resolved = 1.0 / fitted.summary.corner_hz?;
+    let resolved = (1.0 / fitted.summary.corner_hz?).min(turn / fitted.told);
     // The inertia varies twice in a turn.
     (turns > 1.0 && 2.0 * resolved > turn).then(|| {
         format!(

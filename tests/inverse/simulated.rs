@@ -642,3 +642,29 @@ fn codes_within_one_turn_are_smoothed() {
     let found = inverse(&flywheel, &motion, &InverseOptions::default()).expect("an inversion");
     assert_eq!(found.summary.fit.kind, "smoother");
 }
+
+/// Noise of 0.02 rad hides a ripple of 12 periods in a turn. Where a prior is found that repeats every turn, too, the result
+/// says that the samples determine fewer than two harmonics.
+#[test]
+fn a_ripple_within_each_turn_that_the_noise_hides_is_warned_of() {
+    let ripple = Motion {
+        name: "ripple",
+        start: [0.3, 25.0],
+        end: 1.5,
+        rows: 800,
+        torque: |_, theta, omega| {
+            let slow = 0.05 * (25.0 - omega) + 0.1 * (theta + 1.0).cos();
+            slow + 0.4 * (12.0 * theta + 1.0).cos()
+        },
+    };
+    let truth = ripple.run();
+    for seed in 1..=3 {
+        let mut random = Random(seed * 7919);
+        let record = measure(&truth, Sensor::Angle(2e-2), &mut random);
+        let motion = Measurement::new(Measured::Theta, record.t, record.values).expect("a motion");
+        let found = inverse(&scene(&ripple, 1.0), &motion, &InverseOptions::default());
+        let summary = found.expect("an inversion").summary;
+        let warned = summary.warnings.iter().any(|w| w.contains("hides how"));
+        assert!(warned, "seed {seed}: {}", summary.fit.prior);
+    }
+}
