@@ -74,6 +74,15 @@ pub fn in_turns(angles: &[f64], turns: impl Iterator<Item = i64>) -> impl Iterat
     })
 }
 
+/// Sorts numbers and leaves out those that only rounding tells from the one before, as the ends of a turn.
+pub fn distinct(mut numbers: Vec<f64>) -> Vec<f64> {
+    numbers.sort_by(f64::total_cmp);
+    let largest = numbers.iter().fold(0.0f64, |most, at| most.max(at.abs()));
+    let rounding = 16.0 * f64::EPSILON * largest;
+    numbers.dedup_by(|after, before| *after - *before <= rounding);
+    numbers
+}
+
 /// Iterates over the angles of one turn, rad: from 0 to 2π inclusive, every `step`. A step that is a decimal number of
 /// degrees is converted as degrees: 90 degrees give the double nearest to a right angle.
 pub fn turn(step: f64) -> impl Iterator<Item = f64> {

@@ -1,5 +1,7 @@
 //! Maxima of a function of one variable, by Brent's method.
 
+use std::cmp::Ordering;
+
 use super::{difference, root};
 
 /// (3 − √5)/2, the smaller part of the golden section.
@@ -75,6 +77,80 @@ pub fn peaks(f: impl Fn(f64) -> f64, places: &[f64]) -> Vec<(f64, f64)> {
         by_slope.filter(is_equal).unwrap_or(found)
     });
     refined.collect()
+}
+
+/// Finds the largest maximum, and its place, of a function known at rows in rising order. `refine` locates the maximum
+/// beside the middle one of three rows; `None` without rows.
+///
+/// Every row that is no smaller than its neighbours is refined, unless the function, if it is concave over the two
+/// cells beside the row, stays below the best maximum found: it lies below the chord of either cell extended over the
+/// other one. The most promising rows, by the parabola through three, come first.
+pub fn among_rows(
+    rows: &[(f64, f64)],
+    mut refine: impl FnMut([(f64, f64); 3]) -> (f64, f64),
+) -> Option<(f64, f64)> {
+    let larger = |best: (f64, f64), row: (f64, f64)| match row.1.total_cmp(&best.1) {
+        Ordering::Greater => row,
+        _ => best,
+    };
+    let mut best = rows.iter().copied().reduce(larger)?;
+    let last = rows.len() - 1;
+    let top = |row: usize| {
+        let beside = [row.saturating_sub(1), row, (row + 1).min(last)].map(|row| rows[row]);
+        let is_top = beside[1].1 >= beside[0].1.max(beside[2].1);
+        is_top.then(|| (beside, reach(rows, row, beside)))
+    };
+    let mut tops: Vec<_> = (0..=last).filter_map(top).collect();
+    tops.sort_by(|(_, a), (_, b)| b.likely.total_cmp(&a.likely));
+    // Bounds the work of a function that repeats or stays constant, as every row of it may be a top.
+    let mut most_refined = 8;
+    for (beside, reach) in tops {
+        // Rounding does not tell another maximum from an equal one.
+        let rounding = 4.0 * f64::EPSILON * best.1.abs();
+        let is_own = beside[1].0 == best.0;
+        let beats = |value: f64| value - best.1 > if is_own { 0.0 } else { rounding };
+        if most_refined > 0 && beats(reach.most) {
+            most_refined -= 1;
+            let found = refine(beside);
+            if beats(found.1) {
+                best = found;
+            }
+        }
+    }
+    Some(best)
+}
+
+/// Maximum beside a row.
+struct Reach {
+    /// Maximum of the parabola through three rows.
+    likely: f64,
+    /// Largest value of a concave function.
+    most: f64,
+}
+
+/// Returns what the maximum beside a row that is no smaller than its neighbours may reach. A cell shorter than √ε of
+/// the other one, as at a jump, shows no slope: the row then counts as an end, as the first and the last one.
+fn reach(rows: &[(f64, f64)], row: usize, [before, here, after]: [(f64, f64); 3]) -> Reach {
+    let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
+    let (left, right) = (here.0 - before.0, after.0 - here.0);
+    let shortest = f64::EPSILON.sqrt() * left.max(right);
+    if left > shortest && right > shortest {
+        let (rise, fall) = (slope(before, here), -slope(here, after));
+        let along = rise * right - fall * left;
+        let bend = ((rise + fall) * (left + right)).max(f64::MIN_POSITIVE);
+        return Reach {
+            likely: here.1 + 0.25 * along * along / bend,
+            most: here.1 + (rise * right).max(fall * left),
+        };
+    }
+    let (inner, next) = match left < right {
+        true => (after, rows.get(row + 2)),
+        false => (before, row.checked_sub(2).map(|next| &rows[next])),
+    };
+    // The chord of the next cell, extended.
+    let reached = |next: &(f64, f64)| inner.1 + slope(*next, inner) * (here.0 - inner.0);
+    let most = next.map_or(f64::INFINITY, reached);
+    Reach { likely: most, most }
 }
 
 /// Runs Brent's iteration from the best three points, the best one first, and the size of the step before last.

@@ -70,25 +70,11 @@ impl ConstantSpeedMotion<'_> {
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
         }
-        // The two ends of the range have one neighbour only and are left out.
-        let ends = usize::from(is_one_turn);
-        let looked_at = ends..times.len() - ends;
         let largest = |sign: f64| {
-            let value = |i: usize| sign * torques[i];
-            let best = looked_at
-                .clone()
-                .max_by(|i, j| value(*i).total_cmp(&value(*j)));
-            let best = best.unwrap_or(ends);
-            let beside = [
-                best.saturating_sub(1),
-                best,
-                (best + 1).min(times.len() - 1),
-            ];
-            maximum::beside(
-                |t| sign * self.torque(t),
-                beside.map(|i| (times[i], value(i))),
-            )
-            .1
+            let signed = |(t, torque): (&f64, &f64)| (*t, sign * torque);
+            let rows: Vec<(f64, f64)> = times.iter().zip(&torques).map(signed).collect();
+            let refine = |known| maximum::beside(|t| sign * self.torque(t), known);
+            maximum::among_rows(&rows, refine).map_or(f64::NAN, |(_, torque)| torque)
         };
         Ok(TorqueRange {
             min_nm: -largest(-1.0),

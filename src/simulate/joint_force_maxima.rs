@@ -59,31 +59,20 @@ fn with_midpoints(parameters: &[f64]) -> Vec<f64> {
     between.chain(parameters.last().copied()).collect()
 }
 
-/// Finds the maximum of a force: refines beside the rows that are local maxima and less than the error of the grid
-/// below the largest row.
+/// Finds the maximum of a force.
 fn peak(way: &Parametrization, run: &Simulation, k: usize, sizes: &[[f64; FORCES]]) -> Peak {
     let size = |at: f64| (way.sizes)(at).map_or(f64::NEG_INFINITY, |sizes| sizes[k]);
-    let last = sizes.len() - 1;
-    let beside = |row: usize| [row.saturating_sub(1), row, (row + 1).min(last)];
-    let least = (1.0 - 2.0 * GRID_ERROR) * largest(sizes, k, 1);
-    let is_top = |row: &usize| {
-        let [before, here, after] = beside(*row).map(|row| sizes[row][k]);
-        here >= least.max(before).max(after)
-    };
-    let mut tops: Vec<usize> = (0..=last).filter(is_top).collect();
-    tops.sort_by(|a, b| sizes[*b][k].total_cmp(&sizes[*a][k]));
-    // Bounds the work of a force that repeats or stays constant, as every row of it may be a top.
-    let most_refined = 8;
-    tops.truncate(most_refined);
-    let ((at, value), width) = tops
-        .into_iter()
-        .map(|row| {
-            let known = beside(row).map(|row| (way.parameters[row], sizes[row][k]));
-            (maximum::beside(size, known), known[2].0 - known[0].0)
-        })
-        .reduce(|best, found| if found.0.1 > best.0.1 { found } else { best })
-        .unwrap_or_default();
-    let (first, last) = (way.parameters[0], way.parameters[last]);
+    let places = way.parameters.iter().copied();
+    let rows: Vec<(f64, f64)> = places.zip(sizes.iter().map(|sizes| sizes[k])).collect();
+    let found = maximum::among_rows(&rows, |known| maximum::beside(size, known));
+    let (at, value) = found.unwrap_or_default();
+    let last = rows.len() - 1;
+    let after = way
+        .parameters
+        .partition_point(|place| *place <= at)
+        .min(last);
+    let width = rows[after].0 - rows[after.saturating_sub(2)].0;
+    let (first, last) = (rows[0].0, rows[last].0);
     // Uncertainty of the place of a maximum, as part of the interval: the last width of Brent's iteration.
     let place_error = 1e-9;
     let beside = [-place_error, place_error].map(|off| (at + off * width).clamp(first, last));

@@ -21,6 +21,7 @@ mod hard_cases;
 mod interrupted;
 mod limits_properties;
 mod many_turns;
+mod narrow_peaks;
 mod number_formats;
 mod numeric;
 mod ode_solvers_defects;

@@ -11,7 +11,7 @@ use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::{self, Angle};
-use crate::numeric::root;
+use crate::numeric::{maximum, root};
 use crate::plan::cycle_over_angle;
 use crate::scene::{Extent, LEAST_RUN_TOLERANCE, Scene, Variable};
 
@@ -165,7 +165,7 @@ fn found(
     if known { Ok(found) } else { Err(unbounded()) }
 }
 
-/// Finds the largest sign·|speed|: best angle of a fine grid, then the zero of the acceleration beside it.
+/// Finds the largest sign·|speed|: zeros of the acceleration beside the best angles of a fine grid.
 fn extreme(task: &RunSetup<'_>, found: &PeriodicOrbit, sign: f64) -> Extreme {
     let (sense, whole) = (found.cycle.speed.signum(), found.rotation());
     let grid = task.equation().linkage().turn_grid(false).into_iter();
@@ -173,16 +173,14 @@ fn extreme(task: &RunSetup<'_>, found: &PeriodicOrbit, sign: f64) -> Extreme {
     let grid: Vec<f64> = grid.map(since).collect();
     let mut ways: Vec<f64> = angle::in_turns(&grid, 0..found.turns.into()).collect();
     ways.push(0.0);
-    ways.sort_by(f64::total_cmp);
-    ways.dedup();
+    ways.retain(|way| *way < (1.0 - 16.0 * f64::EPSILON) * whole);
+    let ways = angle::distinct(ways);
     let value = |way: f64| sign * sense * found.omega(way.rem_euclid(whole));
-    let best = (0..ways.len()).max_by(|a, b| value(ways[*a]).total_cmp(&value(ways[*b])));
-    let best = best.unwrap_or(0);
-    let before = match best {
-        0 => ways[ways.len() - 1] - whole,
-        _ => ways[best - 1],
-    };
-    let after = ways.get(best + 1).copied().unwrap_or(whole);
+    let mut rows: Vec<(f64, f64)> = ways.iter().map(|way| (*way, value(*way))).collect();
+    // Each place of the cycle has two neighbours.
+    let (first, last) = (rows[0], rows[rows.len() - 1]);
+    rows.insert(0, (last.0 - whole, last.1));
+    rows.push((first.0 + whole, first.1));
     let slope = |way: f64| {
         let way = way.rem_euclid(whole);
         // Any time but the start, at which the guide takes its sign from ahead.
@@ -190,13 +188,15 @@ fn extreme(task: &RunSetup<'_>, found: &PeriodicOrbit, sign: f64) -> Extreme {
         let (alpha, _) = task.maker.forward(t, found.angle(way), found.omega(way));
         alpha
     };
-    let way = root::bracketed(slope, before, after)
-        .filter(|way| value(*way) > value(ways[best]))
-        .unwrap_or(ways[best])
-        .rem_euclid(whole);
+    let refine = |[before, here, after]: [(f64, f64); 3]| {
+        let top = root::bracketed(slope, before.0, after.0).map(|way| (way, value(way)));
+        top.filter(|top| top.1 > here.1).unwrap_or(here)
+    };
+    let best = maximum::among_rows(&rows, refine);
+    let turned = best.map_or(0.0, |(way, _)| way.rem_euclid(whole));
     Extreme {
-        turned: way,
-        omega: found.omega(way),
+        turned,
+        omega: found.omega(turned),
     }
 }
 
