@@ -1,7 +1,11 @@
 //! Extremes that are narrow, or almost equal to others: speeds of a steady state, driving torques, joint forces.
 
+use std::f64::consts::PI;
+
 use slider_crank::plan::Method;
-use slider_crank::scene::{Crank, Load, Rod, Scene, Slider, Variables};
+use slider_crank::scene::{
+    Branch, Crank, Expression, Friction, Gravity, Load, Rod, Scene, Slider, Variables,
+};
 use slider_crank::simulate::{Options, Simulation, SteadyOptions, simulate, steady_state};
 
 fn run(scene: &Scene) -> Simulation {
@@ -10,6 +14,10 @@ fn run(scene: &Scene) -> Simulation {
         ..Options::default()
     };
     simulate(scene, &options).expect("a run")
+}
+
+fn formula(text: &str) -> Load {
+    Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
 #[track_caller]
@@ -84,4 +92,37 @@ fn the_largest_of_almost_equal_torques_is_found() {
         let range = run(&scene).summary.driving_torque.expect("a range");
         close(range.min_nm, -1.0 - 1e-4, 1e-13);
     }
+}
+
+#[test]
+fn a_cycle_that_jams_is_named() {
+    let scene = Scene::new(0.4633761676855147, 0.46399620349909326)
+        .branch(Branch::Left)
+        .crank(Crank {
+            inertia: 0.65,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.628 })
+        .torque(formula("69.13310413916454 - 0.9506168402945785*omega"))
+        .start(2.65, 58.0);
+    let scene = Scene {
+        friction: Some(Friction {
+            coefficient: 0.103,
+            static_coefficient: 0.103,
+        }),
+        gravity: Some(Gravity {
+            acceleration: 9.80665,
+            direction: -PI / 2.0,
+        }),
+        ..scene
+    };
+    let run = simulate(&scene.clone().revolutions(1.0), &Options::default()).expect("a run");
+    let stopped = run.summary.stopped.expect("a jam").to_string();
+    assert!(stopped.contains("jams"), "{stopped}");
+    let said = steady_state(&scene, &SteadyOptions::default()).unwrap_err();
+    let said = said.to_string();
+    assert!(
+        said.contains("jams") && !said.contains("not smooth"),
+        "{said}"
+    );
 }

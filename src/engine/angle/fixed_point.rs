@@ -15,6 +15,8 @@ pub enum NoCycle {
     Gains,
     /// Loss of energy in every cycle, or cycles not completed.
     Stops,
+    /// No cycle completed, at any energy.
+    Incomplete,
 }
 
 impl From<NotApplicable> for NoCycle {
@@ -219,8 +221,7 @@ fn above(
     Err(match (gains, turned) {
         (Some(_), _) => NoCycle::Gains,
         (None, true) => NoCycle::Stops,
-        // No energy sufficed for a cycle: the reason is not a lack of energy.
-        (None, false) => NotApplicable::NotSmooth.into(),
+        (None, false) => NoCycle::Incomplete,
     })
 }
 

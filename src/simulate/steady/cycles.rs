@@ -8,7 +8,7 @@ use super::super::options::Options;
 use super::super::row::NoRows;
 use super::super::run_setup::RunSetup;
 use super::super::simulation::Simulation;
-use super::super::stop::Why;
+use super::super::stop::{Stopped, Why};
 use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
@@ -61,6 +61,8 @@ pub(super) struct SceneCycleMap<'a> {
     left: u64,
     /// Failure of a run, for another reason than a crank that does not complete the cycle.
     pub refused: Option<Error>,
+    /// Reason for which the first of the runs that ended early did not complete its cycle.
+    pub stopped: Option<Stopped>,
 }
 
 impl<'a> SceneCycleMap<'a> {
@@ -74,6 +76,7 @@ impl<'a> SceneCycleMap<'a> {
             noise: task.scene.run.tolerance,
             left: task.options.max_evaluations,
             refused: None,
+            stopped: None,
         }
     }
 
@@ -124,7 +127,11 @@ impl<'a> SceneCycleMap<'a> {
         let turned = TAU * summary.revolutions * self.task.speed.signum();
         let whole = task.extent.angle().unwrap_or_default();
         let complete = summary.stopped.is_none() && turned > whole - PI;
-        complete.then_some(run).ok_or(NotApplicable::TooSlow)
+        if !complete {
+            self.stopped = self.stopped.take().or(run.summary.stopped);
+            return Err(NotApplicable::TooSlow);
+        }
+        Ok(run)
     }
 
     /// Runs the cycle that begins with a kinetic energy, J.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
-use super::super::stop::why_not_applicable;
+use super::super::stop::{Stopped, why_not_applicable};
 use super::cycles::{CycleRun, SceneCycleMap};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
@@ -127,7 +127,8 @@ fn solve(cycles: &mut SceneCycleMap<'_>, turns: u32, step: f64) -> Result<Period
         }
         return found(task, turns, cycle, None);
     }
-    let fixed = fixed_point(cycles, step).map_err(no_cycle)?;
+    let fixed = fixed_point(cycles, step);
+    let fixed = fixed.map_err(|why| no_cycle(why, cycles.stopped.take()))?;
     let cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
     found(task, turns, cycle, Some((fixed, cycles.noise())))
 }
@@ -217,7 +218,8 @@ fn not_computed(why: NotApplicable) -> Error {
     )
 }
 
-fn no_cycle(why: NoCycle) -> Error {
+/// Returns the error of a search without a result; `stopped`: end of the first run that did not complete its cycle.
+fn no_cycle(why: NoCycle, stopped: Option<Stopped>) -> Error {
     match why {
         NoCycle::Gains => Error::refused(
             "no steady state: at every speed a cycle gains energy",
@@ -227,6 +229,14 @@ fn no_cycle(why: NoCycle) -> Error {
             "no steady state: at every speed a cycle loses energy or is not completed, the crank stops",
             "add a load that drives the crank in the sense of motion.speed",
         ),
+        NoCycle::Incomplete => match stopped {
+            Some(stopped) => Error::refused(
+                format!("no steady state: at no speed the crank completes a cycle: {stopped}"),
+                "change what ends the cycle there",
+            ),
+            // The reason is not a lack of energy.
+            None => not_computed(NotApplicable::NotSmooth),
+        },
         NoCycle::NotApplicable(why) => not_computed(why),
     }
 }
