@@ -6,10 +6,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::driving_torque::ConstantSpeedMotion;
-use super::result::{FORCES, Peak, Peaks, Summary};
+use super::result::{FORCES, Peak, Peaks};
 use super::simulation::Simulation;
 use crate::mechanism::{Linkage, Reactions};
-use crate::numeric::angle::circular_distance;
+use crate::numeric::angle::{self, circular_distance};
 use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
@@ -56,7 +56,9 @@ fn largest(sizes: &[[f64; FORCES]], force: usize, stride: usize) -> f64 {
 fn with_midpoints(parameters: &[f64]) -> Vec<f64> {
     let between = parameters.windows(2);
     let between = between.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
-    between.chain(parameters.last().copied()).collect()
+    let mut rows: Vec<f64> = between.chain(parameters.last().copied()).collect();
+    rows.dedup();
+    rows
 }
 
 /// Finds the maximum of a force.
@@ -139,42 +141,67 @@ fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
     })
 }
 
-/// Parametrizes a run by time, with rows at equal times between which the crank turns by at most a degree.
+/// Parametrizes a run by time: at equal times between which the crank turns by at most a degree, and between them where
+/// the geometry varies on a smaller scale.
 fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
     let span = period.map_or(end, |period| period.min(end));
-    let step = first_step(scene, &run.summary);
+    let fastest = run.summary.omega_min.abs().max(run.summary.omega_max.abs());
+    // As many as of two turns, for loads that change while the crank hardly turns.
+    let least_rows = 720.0;
+    let step = end / (fastest * end).to_degrees().max(least_rows);
     let rows = (span / step).ceil();
-    let time = |index: usize| (index as f64 * step).min(span);
-    (rows <= MOST_FORCE_ROWS as f64).then(|| Parametrization {
-        parameters: (0..=rows as usize).map(time).collect(),
+    if rows.is_nan() || rows > MOST_FORCE_ROWS as f64 {
+        return None;
+    }
+    let times = (0..=rows as usize).map(|index| (index as f64 * step).min(span));
+    let times = angle::distinct(times.collect());
+    let times = with_narrow_peaks(&Linkage::new(&scene.geometry), run, times)?;
+    Some(Parametrization {
+        parameters: times,
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),
     })
 }
 
-/// Returns the time between rows, s: the crank turns by a degree at most, and by less where the run has narrow peaks.
-fn first_step(scene: &Scene, summary: &Summary) -> f64 {
-    let fastest = summary.omega_min.abs().max(summary.omega_max.abs());
-    let way = fastest * summary.last.t_s;
-    let narrow = narrowest_peak_width(&Linkage::new(&scene.geometry), scene.motion.angle, way);
-    let angle = (PI / 180.0).min(0.1 * narrow);
-    // As many as of two turns, for loads that change while the crank hardly turns.
-    let least_rows = 720.0;
-    summary.last.t_s / (way / angle).max(least_rows)
-}
-
-/// Returns the least width in the crank angle, rad, of the peaks on a way (rad) from an angle. A rod that is hardly
-/// long enough makes peaks of width sqrt((l − |e ± r|)/r) where the crank is normal to the guide; elsewhere no peak is
-/// narrower than the distance from there.
-fn narrowest_peak_width(linkage: &Linkage, angle: f64, way: f64) -> f64 {
+/// Divides the intervals between times in which the crank turns by more than an eighth of its distance from a branch
+/// point ±90° ± i arcosh((l ∓ e)/r) of the linkage, the scale of all that the geometry causes. None for too many times.
+fn with_narrow_peaks(linkage: &Linkage, run: &Simulation, times: Vec<f64>) -> Option<Vec<f64>> {
     let Linkage { r, l, e, .. } = *linkage;
-    let width = |side: f64| {
-        let distance = circular_distance(angle, side * FRAC_PI_2) - way;
-        ((l - (e + side * r).abs()) / r).abs().sqrt().max(distance)
+    let widths = [-1.0, 1.0].map(|side| {
+        let height = (l - (e + side * r).abs()).abs();
+        (side, (2.0 * height / r).max(f64::EPSILON).sqrt())
+    });
+    let share = 0.125;
+    if widths.iter().all(|(_, width)| share * width >= PI / 180.0) {
+        return Some(times);
+    }
+    let is_resolved = |from: f64, to: f64| {
+        let (half, middle) = (0.5 * (to - from).abs(), 0.5 * (from + to));
+        let distance = |(side, width): (f64, f64)| {
+            let along = circular_distance(middle, side * FRAC_PI_2) - half;
+            along.max(0.0).hypot(width)
+        };
+        widths.iter().all(|at| 2.0 * half <= share * distance(*at))
     };
-    width(1.0).min(width(-1.0))
+    let angle = |t: f64| Some((t, run.at(t)?.0));
+    let ends = times.into_iter().map(angle).collect::<Option<Vec<_>>>()?;
+    let mut left: Vec<_> = ends.into_iter().rev().collect();
+    let mut divided = vec![left.pop()?];
+    while let Some(next) = left.pop() {
+        let last = divided[divided.len() - 1];
+        let middle = 0.5 * (last.0 + next.0);
+        if is_resolved(last.1, next.1) || middle <= last.0 || middle >= next.0 {
+            divided.push(next);
+        } else {
+            left.extend([next, angle(middle)?]);
+        }
+        if divided.len() > MOST_FORCE_ROWS {
+            return None;
+        }
+    }
+    Some(divided.into_iter().map(|(t, _)| t).collect())
 }
 
 /// Returns the sizes of the joint forces, N, in the order of [`Peaks`].

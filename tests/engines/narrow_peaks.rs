@@ -94,6 +94,44 @@ fn the_largest_of_almost_equal_torques_is_found() {
     }
 }
 
+/// A rod hardly longer than the crank: the peak is as wide as the square root of the excess.
+#[test]
+fn a_run_near_singular_geometry_has_peaks() {
+    for excess in [1e-5, 6e-8] {
+        let crank = Crank {
+            mass: 0.73,
+            cg_lateral: 0.0069,
+            inertia: 0.003,
+            ..Crank::default()
+        };
+        let scene = Scene::new(0.045, 0.045 * (1.0 + excess))
+            .crank(crank)
+            .slider(Slider { mass: 1.1 })
+            .torque(Load::Viscous(0.0177))
+            .torque(Load::function(Variables::T, |now| {
+                0.2 + 0.1 * (3.0 * now.t).sin()
+            }))
+            .start(4.2, 10.0)
+            .duration(5.0);
+        let options = Options {
+            reactions: true,
+            method: Method::Time,
+            ..Options::default()
+        };
+        let run = simulate(&scene, &options).expect("a run");
+        assert!(run.summary.stopped.is_none());
+        let peaks = run.summary.peaks.as_ref();
+        let peaks = peaks.unwrap_or_else(|| panic!("{excess}: {:?}", run.summary.warnings));
+        let pins = (0..=200_000).filter_map(|k| {
+            let [x, y] = run.row(5.0 * f64::from(k) / 2e5)?.reactions?.wrist_pin;
+            Some(x.hypot(y))
+        });
+        let highest = pins.fold(0.0, f64::max);
+        let peak = peaks.wrist_pin.value_n;
+        assert!(peak >= highest * (1.0 - 1e-9), "{excess}: {peak} {highest}");
+    }
+}
+
 #[test]
 fn a_cycle_that_jams_is_named() {
     let scene = Scene::new(0.4633761676855147, 0.46399620349909326)
