@@ -74,7 +74,10 @@ impl Around<'_> {
             } else {
                 effects.torque
             };
-            self.variation(load).times(arm.abs())
+            match arm == 0.0 {
+                true => Variation::NONE,
+                false => self.variation(load).times(arm.abs()),
+            }
         };
         let each = loads.0.iter().map(one);
         each.fold(Variation::NONE, Variation::plus)

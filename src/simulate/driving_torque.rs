@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::energy_balance::EnergyBalance;
+use super::load_resolution;
 use super::result::TorqueRange;
 use super::row::RowMaker;
 use super::warning::NoRange;
@@ -20,6 +21,16 @@ pub(super) struct ConstantSpeedMotion<'a> {
     pub speed: f64,
     /// Last time, s.
     pub end: f64,
+}
+
+/// Times of a search at constant speed.
+pub(super) struct Samples {
+    /// Times that resolve geometry and loads, s.
+    pub times: Vec<f64>,
+    /// Times between which the loads are smooth and slow, s.
+    cuts: Vec<f64>,
+    /// Whether the times are those of one turn, which repeats.
+    pub is_one_turn: bool,
 }
 
 impl ConstantSpeedMotion<'_> {
@@ -64,8 +75,8 @@ impl ConstantSpeedMotion<'_> {
             let known = torque.is_finite().then_some(range);
             return known.ok_or_else(|| self.not_finite(0.0));
         }
-        let (times, is_one_turn) = self.sample_times()?;
-        let span = if is_one_turn { self.turn() } else { self.end };
+        let samples = self.samples()?;
+        let times = &samples.times;
         let torques: Vec<f64> = times.iter().map(|t| self.torque(*t)).collect();
         if let Some(i) = torques.iter().position(|torque| !torque.is_finite()) {
             return Err(self.not_finite(times[i]));
@@ -79,7 +90,7 @@ impl ConstantSpeedMotion<'_> {
         Ok(TorqueRange {
             min_nm: -largest(-1.0),
             max_nm: largest(1.0),
-            mean_nm: self.mean(span, is_one_turn).ok_or(NoRange::Mean)?,
+            mean_nm: self.mean(&samples).ok_or(NoRange::Mean)?,
         })
     }
 
@@ -87,11 +98,15 @@ impl ConstantSpeedMotion<'_> {
         TAU / self.speed.abs()
     }
 
-    /// Returns times, s, close enough to resolve all that geometry and loads cause: of one turn if all turns are equal
-    /// and the run is longer, otherwise of the run. The flag is true for the whole turn.
-    pub fn sample_times(&self) -> Result<(Vec<f64>, bool), NoRange> {
+    /// Returns times close enough to resolve all that geometry and loads cause: of one turn if all turns are equal and
+    /// the run is longer, otherwise of the run.
+    ///
+    /// # Errors
+    /// [`NoRange`] where there are too many.
+    pub fn samples(&self) -> Result<Samples, NoRange> {
         let turn = self.turn();
-        let reads = self.equation().loads().reads();
+        let loads = self.equation().loads();
+        let reads = loads.reads();
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
         let is_one_turn = repeats && self.end >= turn;
         // Bounds the work: turns that differ are all searched.
@@ -105,11 +120,29 @@ impl ConstantSpeedMotion<'_> {
         } else {
             self.speed.abs() * self.end
         };
-        Ok((self.times(turned), is_one_turn))
+        let to = self.start.radians() + self.speed * self.end;
+        let (low, high) = (self.start.radians().min(to), self.start.radians().max(to));
+        let rows = loads.corners_between(low, high).into_iter();
+        let rows = rows.map(|theta| (theta - self.start.radians()) / self.speed);
+        let mut cuts: Vec<f64> = rows.collect();
+        let mut times = self.times(turned);
+        times.extend(&cuts);
+        let times = angle::distinct(times);
+        let row = |t: f64| {
+            let angle = self.start.plus(self.speed * t);
+            Some(self.maker.row(t, angle, self.speed, Some(0.0)))
+        };
+        let pieces = load_resolution::unresolved(loads, &times, &row).ok_or(NoRange::TooQuick)?;
+        cuts.extend(pieces.iter().flat_map(|piece| [piece.from, piece.to]));
+        Ok(Samples {
+            times: load_resolution::with_pieces(times, &pieces),
+            cuts,
+            is_one_turn,
+        })
     }
 
-    /// Returns the times, s, of angles that resolve the loads, until the crank has turned by `until` (rad), with both
-    /// ends.
+    /// Returns the times, s, in any order, of angles that resolve the geometry, until the crank has turned by `until`
+    /// (rad), with both ends.
     fn times(&self, until: f64) -> Vec<f64> {
         let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
         let grid = self.equation().linkage().turn_grid(smooth);
@@ -118,24 +151,29 @@ impl ConstantSpeedMotion<'_> {
         let all = angle::in_turns(&grid, 0..=(until / TAU).ceil() as i64);
         let inside = all.filter(|turned| *turned <= until);
         let times = inside.chain([0.0, until]);
-        let mut times: Vec<f64> = times.map(|turned| turned / self.speed.abs()).collect();
-        times.sort_by(f64::total_cmp);
-        times
+        times.map(|turned| turned / self.speed.abs()).collect()
     }
 
     /// Computes the mean torque over time, N m; none if not finite. Over whole turns inertia and gravity do no work.
-    fn mean(&self, span: f64, is_one_turn: bool) -> Option<f64> {
+    fn mean(&self, samples: &Samples) -> Option<f64> {
+        let is_one_turn = samples.is_one_turn;
         if is_one_turn && self.equation().loads().are_none() && self.maker.guide.is_none() {
             return Some(0.0);
         }
+        let span = if is_one_turn { self.turn() } else { self.end };
         if span == 0.0 {
             return Some(self.torque(0.0));
         }
         let kinetic = self.equation().kinetic_energy(self.start.rest, self.speed);
         let way = self.speed * span;
-        let integral = integral_by_quarters(
+        let cuts = samples
+            .cuts
+            .iter()
+            .map(|t| self.start.rest + self.speed * t);
+        let integral = integral_by_pieces(
             self.start.rest,
             self.start.rest + way,
+            cuts,
             &|theta| self.torque((theta - self.start.rest) / self.speed),
             1e-12 * kinetic,
         );
@@ -151,27 +189,32 @@ impl ConstantSpeedMotion<'_> {
         let (from, to) = (self.start.rest, self.start.rest + (speed * self.end) % TAU);
         let largest = energy(from).abs().max(kinetic(from)).max(kinetic(to));
         let force = |theta: f64| equation.generalized_force(&equation.terms(theta), speed, 0.0);
-        let work = integral_by_quarters(from, to, &force, 1e-14 * largest);
+        let work = integral_by_pieces(from, to, [], &force, 1e-14 * largest);
         let residual = work.map_or(f64::NAN, |work| work - (energy(to) - energy(from)));
         EnergyBalance { residual, largest }
     }
 }
 
-/// Integrates f over a range of crank angles, cut at ±90°, where a rod that is hardly long enough makes narrow peaks.
-fn integral_by_quarters(from: f64, to: f64, f: &dyn Fn(f64) -> f64, tolerance: f64) -> Option<f64> {
+/// Integrates f over a range of crank angles, cut at some angles and at ±90°, where a rod that is hardly long enough
+/// makes narrow peaks.
+fn integral_by_pieces(
+    from: f64,
+    to: f64,
+    cuts: impl IntoIterator<Item = f64>,
+    f: &dyn Fn(f64) -> f64,
+    tolerance: f64,
+) -> Option<f64> {
     if from == to {
         return Some(0.0);
     }
     let (low, high) = (from.min(to), from.max(to));
-    let mut cuts = vec![low];
-    let mut cut = ((low - FRAC_PI_2) / PI).floor() * PI + FRAC_PI_2;
-    while cut < high {
-        if cut > low {
-            cuts.push(cut);
-        }
-        cut += PI;
-    }
-    cuts.push(high);
+    let first = ((low - FRAC_PI_2) / PI).floor() * PI + FRAC_PI_2;
+    let normals = std::iter::successors(Some(first), |cut| Some(cut + PI));
+    let cuts = normals.take_while(|cut| *cut < high).chain(cuts);
+    let mut cuts: Vec<f64> = cuts.filter(|cut| *cut > low && *cut < high).collect();
+    cuts.extend([low, high]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
     let sum: f64 = cuts
         .windows(2)
         .map(|w| gauss::adaptive(f, w[0], w[1], tolerance))

@@ -6,6 +6,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::driving_torque::ConstantSpeedMotion;
+use super::load_resolution;
 use super::result::{FORCES, Peak, Peaks};
 use super::simulation::Simulation;
 use crate::mechanism::{Linkage, Reactions};
@@ -108,11 +109,12 @@ fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
         speed,
         end: run.summary.last.t_s,
     };
-    let (parameters, is_one_turn) = drive.sample_times().ok()?;
+    let samples = drive.samples().ok()?;
+    let is_one_turn = samples.is_one_turn;
     let turn = TAU / speed.abs();
     let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
     Some(Parametrization {
-        parameters,
+        parameters: samples.times,
         sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
         time: Box::new(move |t| if is_one_turn { t.rem_euclid(turn) } else { t }),
     })
@@ -142,7 +144,7 @@ fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
 }
 
 /// Parametrizes a run by time: at equal times between which the crank turns by at most a degree, and between them where
-/// the geometry varies on a smaller scale.
+/// geometry or loads vary on a smaller scale.
 fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();
@@ -158,8 +160,10 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'
     let times = (0..=rows as usize).map(|index| (index as f64 * step).min(span));
     let times = angle::distinct(times.collect());
     let times = with_narrow_peaks(&Linkage::new(&scene.geometry), run, times)?;
+    let loads = run.dense.maker.as_ref()?.equation.loads();
+    let pieces = load_resolution::unresolved(loads, &times, &|t| run.row(t))?;
     Some(Parametrization {
-        parameters: times,
+        parameters: load_resolution::with_pieces(times, &pieces),
         sizes: Box::new(move |t| run.row(t)?.reactions.as_ref().map(sizes)),
         time: Box::new(|t| t),
     })

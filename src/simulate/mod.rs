@@ -15,6 +15,7 @@ mod energy_balance;
 mod forward;
 mod guide_friction;
 mod joint_force_maxima;
+mod load_resolution;
 mod options;
 mod passages;
 mod recorder;

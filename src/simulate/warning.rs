@@ -76,6 +76,9 @@ pub enum NoRange {
     /// The loads do not repeat, and the run has more turns than this, the largest number that is searched.
     #[error("the loads depend on the time or the crank angle, and the run has more than {0} turns")]
     TooManyTurns(f64),
+    /// The loads vary too quickly for a search.
+    #[error("the loads vary too quickly to be looked through as closely as it takes")]
+    TooQuick,
     /// The torque is not finite at a state.
     #[error("{} at t = {} s, theta = {} rad", not_finite(*at_limit, load.as_deref()), at.t, at.angle.radians())]
     NotFinite {

@@ -1,12 +1,20 @@
 //! Extremes that are narrow, or almost equal to others: speeds of a steady state, driving torques, joint forces.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Crank, Expression, Friction, Gravity, Load, Rod, Scene, Slider, Variables,
+    Branch, Crank, Every, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider,
+    Table, Variable, Variables,
 };
-use slider_crank::simulate::{Options, Simulation, SteadyOptions, simulate, steady_state};
+use slider_crank::simulate::{
+    Options, Simulation, SteadyOptions, simulate, simulate_rows, steady_state,
+};
+
+const R: f64 = 0.05;
+const L: f64 = 0.15;
+const E: f64 = 0.01;
+const MASS: f64 = 0.5;
 
 fn run(scene: &Scene) -> Simulation {
     let options = Options {
@@ -14,6 +22,28 @@ fn run(scene: &Scene) -> Simulation {
         ..Options::default()
     };
     simulate(scene, &options).expect("a run")
+}
+
+/// Crank with an inertia and a slider with a mass, on a rod without.
+fn machine() -> Scene {
+    Scene::new(R, L)
+        .offset(E)
+        .crank(Crank {
+            inertia: 0.01,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: MASS })
+}
+
+/// Inclination of the rod (rad), x' and x'' (m/rad) of the machine, by implicit differentiation of its constraint.
+fn pose(theta: f64) -> [f64; 3] {
+    let sin_phi = (E + R * theta.sin()) / L;
+    let phi = sin_phi.asin();
+    let (tan, cos) = (phi.tan(), phi.cos());
+    let rate = R * theta.cos() / (L * cos);
+    let dx = -R * theta.sin() - R * theta.cos() * tan;
+    let d2x = -R * theta.cos() + R * theta.sin() * tan - R * theta.cos() * rate / (cos * cos);
+    [phi, dx, d2x]
 }
 
 fn formula(text: &str) -> Load {
@@ -91,6 +121,123 @@ fn the_largest_of_almost_equal_torques_is_found() {
             .revolutions(1.2);
         let range = run(&scene).summary.driving_torque.expect("a range");
         close(range.min_nm, -1.0 - 1e-4, 1e-13);
+    }
+}
+
+/// Checks force and torque of a machine that runs for a second at ten radians per second under a pulse on its slider of
+/// this half-width (rad) at some angles, with the peak at the first one.
+#[track_caller]
+fn has_pulse(load: &str, half_width: f64, angles: &[f64]) {
+    let (omega, force) = (10.0, 20_000.0);
+    let scene = machine()
+        .force(formula(load))
+        .constant_speed(0.0, omega)
+        .duration(1.0);
+    let summary = run(&scene).summary;
+    let forces = |theta: f64| {
+        let [phi, dx, d2x] = pose(theta);
+        let inertia = MASS * d2x * omega * omega;
+        [(inertia + force) / phi.cos(), dx * (inertia + force)]
+    };
+    let peaks = summary.peaks.expect("asked for");
+    let [mut pin, mut least, mut most] = [0.0f64; 3];
+    for angle in angles {
+        let [along, about] = forces(*angle);
+        pin = pin.max(along);
+        (least, most) = (least.min(about), most.max(about));
+    }
+    for peak in [peaks.wrist_pin, peaks.crank_pin, peaks.crank_bearing] {
+        close(peak.value_n, pin, 1e-5);
+    }
+    let range = summary.driving_torque.expect("asked for");
+    match least < 0.0 {
+        true => close(range.min_nm, least, 1e-5),
+        false => close(range.max_nm, most, 1e-5),
+    }
+    // Kinetic energy of the slider, and the integral of the pulse.
+    let kinetic = |theta: f64| 0.5 * MASS * (pose(theta)[1] * omega).powi(2);
+    let pulse = |angle: &f64| force * pose(*angle)[1] * half_width * PI.sqrt();
+    let work = kinetic(omega) - kinetic(0.0) + angles.iter().map(pulse).sum::<f64>();
+    close(range.mean_nm, work / omega, 1e-4);
+}
+
+#[test]
+fn narrow_pulses_at_constant_speed_are_found() {
+    for width in ["1e-4", "1e-5", "1e-6"] {
+        let w: f64 = width.parse().expect("a number");
+        let load = format!("-20000*exp(-(sin((theta-1.2)/2)/{width})^2)");
+        has_pulse(&load, 2.0 * w, &[1.2, 1.2 + TAU]);
+        let load = format!("-20000*exp(-((t-0.503)/{width})^2)");
+        has_pulse(&load, 10.0 * w, &[5.03]);
+    }
+}
+
+#[test]
+fn a_row_of_a_table_between_degrees_is_found() {
+    let spike = 0.7123;
+    let (angles, torques) = (
+        [0.0, spike - 1e-3, spike, spike + 1e-3, 3.0],
+        [0.0, 0.0, 7.0, 0.0, 0.0],
+    );
+    let table = Table::new(
+        Variable::Theta,
+        &angles,
+        &torques,
+        Interpolation::Linear,
+        Some(TAU),
+    );
+    let table = Load::Table(table.expect("a table"));
+    let crank = |load: Load| {
+        let scene = Scene::new(R, L).crank(Crank {
+            inertia: 0.01,
+            ..Crank::default()
+        });
+        run(&scene.torque(load).constant_speed(0.3, 2.0).revolutions(1.5)).summary
+    };
+    let range = crank(table.clone()).driving_torque.expect("a range");
+    assert!((range.min_nm + 7.0).abs() < 1e-12, "{range:?}");
+    // Two triangles of area 7e-3 on one and a half turns.
+    close(range.mean_nm, -2.0 * 7e-3 / (1.5 * TAU), 1e-9);
+    let pressed = machine().slider(Slider { mass: 0.0 }).force(table);
+    for scene in [
+        pressed.clone().constant_speed(0.3, 2.0).revolutions(1.0),
+        pressed
+            .torque(formula("0.001*sin(20*t)"))
+            .start(0.3, 2.0)
+            .duration(1.0),
+    ] {
+        let peaks = run(&scene).summary.peaks.expect("asked for");
+        close(peaks.wrist_pin.value_n, 7.0 / pose(spike)[0].cos(), 1e-9);
+    }
+}
+
+/// The rows of the run itself meet the pulse.
+#[test]
+fn narrow_pulses_in_time_are_found() {
+    for width in ["1e-3", "1e-5", "1e-6"] {
+        let scene = machine()
+            .torque(formula("0.5*sin(20*t)"))
+            .force(formula(&format!("-20000*exp(-((t-0.503)/{width})^2)")))
+            .start(0.5, 0.5)
+            .duration(1.0)
+            .output_every(Every::Time(1e-3));
+        let options = Options {
+            reactions: true,
+            ..Options::default()
+        };
+        let mut rows = Vec::new();
+        let run = simulate_rows(&scene, &options, &mut rows).expect("a run");
+        let of_row = |row: &slider_crank::simulate::Row| {
+            let [x, y] = row.reactions.expect("asked for").wrist_pin;
+            x.hypot(y)
+        };
+        let highest = rows.iter().map(of_row).fold(0.0, f64::max);
+        assert!(highest > 15_000.0, "{width}: {highest}");
+        let peak = run.summary.peaks.expect("asked for").wrist_pin.value_n;
+        assert!(
+            peak >= highest * (1.0 - 1e-9) && peak < 1.01 * highest,
+            "{width}: {peak} {highest}"
+        );
     }
 }
 
