@@ -6,6 +6,7 @@
 //! (abs, min, floor, ...) are analytic where one case serves the whole interval; this case is continued into the plane.
 //! Elsewhere a function is a constant but for half its range, which adds to the error that nodes leave.
 
+mod arithmetic;
 mod cases;
 mod interval;
 mod partition;
@@ -13,7 +14,7 @@ mod rectangle;
 mod variation;
 
 use std::f64::consts::{FRAC_PI_2, LOG10_E, PI};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::Neg;
 
 pub use interval::Interval;
 pub use partition::{PanelResolution, partition};
@@ -268,55 +269,6 @@ impl Enclosed {
             1 => self,
             _ if n.is_multiple_of(2) => self.to_the(n / 2).square(),
             _ => self.to_the(n - 1) * self,
-        }
-    }
-}
-
-macro_rules! with_deviation {
-    ($operator:ident, $function:ident, $deviation:expr) => {
-        impl $operator for Enclosed {
-            type Output = Enclosed;
-
-            fn $function(self, other: Enclosed) -> Enclosed {
-                let real = self.real.$function(other.real);
-                let deviation: fn(Enclosed, Enclosed) -> f64 = $deviation;
-                let deviation = deviation(self, other);
-                let plane = self.plane.$function(other.plane);
-                if deviation < real.half() && plane.radius().is_finite() {
-                    return Enclosed {
-                        real,
-                        plane,
-                        deviation,
-                    };
-                }
-                Enclosed::new(real, (deviation == 0.0).then_some(plane))
-            }
-        }
-    };
-}
-
-with_deviation!(Add, add, |a, b| a.deviation + b.deviation);
-with_deviation!(Sub, sub, |a, b| a.deviation + b.deviation);
-with_deviation!(Mul, mul, Enclosed::deviation_of_product);
-
-impl Enclosed {
-    fn deviation_of_product(self, other: Enclosed) -> f64 {
-        let (a, b) = (self.deviation, other.deviation);
-        if a == 0.0 && b == 0.0 {
-            return 0.0;
-        }
-        a * other.real.largest() + b * self.real.largest() + a * b
-    }
-}
-
-impl Neg for Enclosed {
-    type Output = Enclosed;
-
-    fn neg(self) -> Enclosed {
-        Enclosed {
-            real: -self.real,
-            plane: -self.plane,
-            ..self
         }
     }
 }
