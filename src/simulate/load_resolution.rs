@@ -47,7 +47,8 @@ pub(super) fn unresolved(
     let end = |at: f64| Some(End { at, row: row(at)? });
     let places = parameters.iter().step_by(ROWS).chain(parameters.last());
     let ends = places.map(|at| end(*at)).collect::<Option<Vec<_>>>()?;
-    let mut left: Vec<[End; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    let pairs = ends.windows(2).map(|pair| [pair[0], pair[1]]);
+    let mut left: Vec<[End; 2]> = pairs.filter(|[a, b]| a.at < b.at).collect();
     let ellipses = ellipses(NODES, PART);
     let states: Vec<EnclosedState> = left.iter().map(between).collect();
     let effects = inverse_ranges(loads, &states, ellipses[0]);
