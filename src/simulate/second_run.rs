@@ -3,9 +3,12 @@
 
 use std::iter::{Chain, FlatMap, Peekable};
 use std::slice::Iter;
+use std::sync::LazyLock;
 
 use super::result::ErrorEstimate;
+use crate::engine::NODES;
 use crate::engine::step::Step;
+use crate::numeric::gauss;
 
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
@@ -75,10 +78,10 @@ pub(super) struct Comparison<'a> {
     largest_difference: [f64; 2],
 }
 
-/// Steps of the first run, each at its middle and at its end, as a part of its length.
-type Probes<'a> = FlatMap<Chain<Iter<'a, Step>, Iter<'a, Step>>, [Probe<'a>; 2], Split<'a>>;
+/// Places in the steps of the first run, in order.
+type Probes<'a> = FlatMap<Chain<Iter<'a, Step>, Iter<'a, Step>>, [Probe<'a>; 3], Split<'a>>;
 
-type Split<'a> = fn(&'a Step) -> [Probe<'a>; 2];
+type Split<'a> = fn(&'a Step) -> [Probe<'a>; 3];
 
 /// Place in a step of the first run.
 struct Probe<'a> {
@@ -86,12 +89,16 @@ struct Probe<'a> {
     t: f64,
 }
 
-fn probes(step: &Step) -> [Probe<'_>; 2] {
-    let middle = match step.has_polynomial() {
-        true => step.start.t + 0.5 * step.length(),
-        false => step.end.t,
+/// Node of a collocation step beside its middle, as a part of its length.
+static NODE: LazyLock<f64> = LazyLock::new(|| gauss::legendre(NODES as u32, NODES / 2).0);
+
+/// Returns where a collocation step errs most: at a node the speed, in the middle the angle; and its end.
+fn probes(step: &Step) -> [Probe<'_>; 3] {
+    let inside = match step.has_polynomial() {
+        true => [*NODE, 0.5].map(|part| step.start.t + part * step.length()),
+        false => [step.end.t; 2],
     };
-    [middle, step.end.t].map(|t| Probe { step, t })
+    [inside[0], inside[1], step.end.t].map(|t| Probe { step, t })
 }
 
 impl<'a> Comparison<'a> {

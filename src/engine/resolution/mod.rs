@@ -4,7 +4,7 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{Variation, ellipses, resolved};
+use crate::numeric::enclosure::{CORNER_SHARE, Variation, ellipses, resolved};
 
 pub use steps::{OnStep, unresolved_at};
 
@@ -41,8 +41,6 @@ pub struct NodeCriterion {
 
 /// Halvings of the interval that locate a corner or jump: positions on a panel are rounded by more.
 const HALVINGS: i32 = 46;
-/// Fraction of the allowed error that each corner may leave.
-const CORNER_SHARE: f64 = 1e-4;
 
 impl NodeCriterion {
     /// Returns the criterion for a step from one time to another (s), with `least` as 16 roundings of the time.

@@ -2,6 +2,9 @@
 
 use super::{Enclosed, Interval};
 
+/// Fraction of the allowed error that each corner may leave.
+pub const CORNER_SHARE: f64 = 1e-4;
+
 /// Piece of a motion: ranges of time, angle and speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionPiece {
@@ -88,11 +91,15 @@ impl Variation {
         .known()
     }
 
+    /// Whether the function deviates from an analytic one by more than a corner may leave.
+    fn deviates(&self, allowed: f64) -> bool {
+        self.deviation > CORNER_SHARE * allowed
+    }
+
     /// Returns the number of nodes that resolve the function to `allowed`, where it is enclosed in an ellipse of this
-    /// size: the error is 4M ρ⁻ⁿ/(ρ − 1), beside twice the deviation. None where that is too much.
+    /// size: the error is 4M ρ⁻ⁿ/(ρ − 1). None where the function is not analytic, or may not be.
     pub fn nodes(&self, ellipse: f64, allowed: f64) -> Option<usize> {
-        let allowed = allowed - 2.0 * self.deviation;
-        if allowed <= 0.0 || self.around.is_infinite() {
+        if self.deviates(allowed) || self.around.is_infinite() {
             return None;
         }
         let left = 4.0 * self.around / (allowed * (ellipse - 1.0));
@@ -129,7 +136,7 @@ pub fn resolved(
         nodes.filter(|nodes| *nodes <= most)
     };
     let nodes = few(first, smaller).or_else(|| {
-        (2.0 * first.deviation < allowed).then_some(())?;
+        (!first.deviates(allowed)).then_some(())?;
         few(variation(larger), larger)
     });
     (first, nodes)
