@@ -77,9 +77,9 @@ pub struct Counterweight {
 
 impl ForceAnalysis {
     /// Computes the diagrams of the cycle, with a counterweight for this part of the reciprocating mass; none where a
-    /// force is not finite, as of a crank that cannot turn fully.
+    /// force is not finite, as of a crank that cannot turn fully, or a load varies too often in a turn.
     pub fn diagrams(&self, scene: &Scene, part: f64) -> Option<Diagrams> {
-        let samples = self.samples();
+        let samples = self.samples()?;
         let mut values = samples.iter().flat_map(|sample| sample.values);
         if self.linkage().margin() <= 0.0 || !values.all(f64::is_finite) {
             return None;
@@ -146,8 +146,8 @@ impl ForceAnalysis {
 
     /// Computes shaking force, shaking moment and torque at the nodes of the Gauss-Legendre rule on the cells of the
     /// grid, whose distance from the branch points makes its error about 32⁻¹². Under loads that the grid need not
-    /// resolve cells are halved until their integrals no longer change.
-    fn samples(&self) -> Vec<fourier::Sample<4>> {
+    /// resolve cells are halved until their integrals no longer change; none where they are too many.
+    fn samples(&self) -> Option<Vec<fourier::Sample<4>>> {
         let whole = self.whole();
         let at = |[from, to]: [f64; 2]| {
             gauss::RULE_6.map(|(x, weight)| {
@@ -171,8 +171,13 @@ impl ForceAnalysis {
         let resolved = !self.equation.loads().vary_between_nodes();
         // Part of the largest torque by which the mean may change.
         let tolerance = 1e-11;
+        // Half a second.
+        let most_samples = 1_000_000;
         let mut closed = Vec::new();
         while let Some(([from, to], samples)) = open.pop() {
+            if closed.len() > most_samples {
+                return None;
+            }
             let middle = 0.5 * (from + to);
             let mean = |samples: &[_; 6]| -> f64 {
                 let part = |s: &fourier::Sample<4>| s.weight * s.values[3];
@@ -188,7 +193,7 @@ impl ForceAnalysis {
                 None => closed.extend(samples),
             }
         }
-        closed
+        Some(closed)
     }
 
     fn orders(&self, samples: &[fourier::Sample<4>]) -> Vec<Order> {

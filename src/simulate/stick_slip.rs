@@ -197,11 +197,10 @@ impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
 
     /// Only the normal force and the distance from jamming have a double sign change between close positions.
     fn shown_travel(&self, angle: Angle) -> f64 {
-        let has_friction = self.equation.friction().is_some();
-        let curve = self.equation.curve();
-        has_friction
-            .then(|| curve.shown_distance(angle.rest))
-            .unwrap_or(f64::INFINITY)
+        match self.equation.friction() {
+            Some(_) => self.equation.curve().shown_distance(angle.rest),
+            None => f64::INFINITY,
+        }
     }
 }
 
