@@ -2,47 +2,21 @@
 
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{Rule, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values};
 use crate::numeric::root;
 
-/// Largest sign·|speed| among the points of a panel, rad/s.
+/// Extreme |speed| among the points of a panel, rad/s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extreme {
     speed: f64,
-    /// Bound of the speed beside the points.
-    most: f64,
-    /// Points beside which the speed may be larger, one per bit.
-    beside: u64,
-}
-
-impl Extreme {
-    /// Finds the largest of values at points. The larger difference from a neighbour bounds the gain beside a point that
-    /// is no smaller than both.
-    fn of(values: &[f64]) -> Extreme {
-        let speed = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let (mut most, mut beside) = (speed, 0);
-        for (j, here) in values.iter().enumerate() {
-            let before = values[j.saturating_sub(1)];
-            let after = values[(j + 1).min(values.len() - 1)];
-            let (high, low) = (before.max(after), before.min(after));
-            let bound = here + (here - low);
-            if *here >= high && bound >= speed {
-                most = most.max(bound);
-                beside |= 1 << j;
-            }
-        }
-        Extreme {
-            speed,
-            most,
-            beside,
-        }
-    }
+    /// Bound of the difference between neighbours, and so of the gain between the points.
+    step: f64,
 }
 
 impl Panel {
-    /// Returns the largest sign·|speed| on the panel, rad/s, given that of some points: at one of them, or beside one
-    /// where the derivative of the speed vanishes.
-    fn largest_beside(&self, points: &[f64], found: Extreme, sign: f64) -> f64 {
+    /// Returns the largest sign·|speed| among some points, rad/s, and beside those that are no smaller than their
+    /// neighbours, where the derivative of the speed vanishes. The larger difference from a neighbour bounds the gain.
+    fn largest_at(&self, points: &[f64], sign: f64) -> f64 {
         let bend = self.slope.derivative();
         // The speed is dθ/dx over dt/dx.
         let rate = |x: f64| {
@@ -52,15 +26,27 @@ impl Panel {
             };
             bent - self.piece.dtheta(x) * bend.value(x)
         };
-        let mut best = found.speed;
-        for j in (0..points.len()).filter(|j| found.beside >> j & 1 == 1) {
-            let (from, to) = (
-                points[j.saturating_sub(1)],
-                points[(j + 1).min(points.len() - 1)],
+        let speed = |x: f64| sign * self.speed(x).abs();
+        let mut values = [0.0; MAX_DEGREE + 1];
+        let values = &mut values[..points.len()];
+        values.copy_from_slice(points);
+        self.slope.values(values);
+        for (value, x) in values.iter_mut().zip(points) {
+            *value = sign * (self.piece.dtheta(*x) / *value).abs();
+        }
+        let mut best = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        for (j, here) in values.iter().enumerate() {
+            let (before, after) = (j.saturating_sub(1), (j + 1).min(points.len() - 1));
+            let (high, low) = (
+                values[before].max(values[after]),
+                values[before].min(values[after]),
             );
+            if *here < high || here + (here - low) <= best {
+                continue;
+            }
             // At an extreme the speed is insensitive to the position.
-            if let Some(x) = root::within(rate, from, to, 1e-9) {
-                best = best.max(sign * self.speed(x).abs());
+            if let Some(x) = root::within(rate, points[before], points[after], 1e-9) {
+                best = best.max(speed(x));
             }
         }
         best
@@ -70,41 +56,45 @@ impl Panel {
     pub fn extreme_between(&self, from: f64, until: f64, sign: f64) -> f64 {
         let ends = [from, until].map(|t| self.position(t));
         let half = 0.5 * (ends[1] - ends[0]);
-        let count = self.rule.degree() + 1;
         let points = self.rule.values(|x| ends[0] + half * (1.0 + x));
-        let values = points.map(|x| sign * self.speed(x).abs());
-        self.largest_beside(&points[..count], Extreme::of(&values[..count]), sign)
+        self.largest_at(&points[..=self.rule.degree()], sign)
     }
 }
 
 /// Returns the slowest and the fastest point, from dt/dx at the points.
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
     let half = 0.5 * piece.span().abs();
-    let mut speeds = *slopes;
-    let speeds = &mut speeds[..=rule.degree()];
-    for (speed, x) in speeds.iter_mut().zip(rule.points()) {
-        // |dθ/dx| over dt/dx.
-        let dtheta = match piece.turning {
-            Turning::Nowhere => half,
-            _ => piece.dtheta(*x).abs(),
-        };
-        *speed = -dtheta / *speed;
+    // Time, s, for half the piece at the speed of each point: |dθ/dx| over dt/dx.
+    let mut slowness = *slopes;
+    if piece.turning != Turning::Nowhere {
+        for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
+            *slowness = half * *slowness / piece.dtheta(*x).abs();
+        }
     }
-    let slow = Extreme::of(speeds);
-    speeds.iter_mut().for_each(|speed| *speed = -*speed);
-    [slow, Extreme::of(speeds)]
+    let slowness = &slowness[..=rule.degree()];
+    let (mut slow, mut fast, mut step) = (slowness[0], slowness[0], 0.0f64);
+    for pair in slowness.windows(2) {
+        slow = slow.max(pair[1]);
+        fast = fast.min(pair[1]);
+        step = step.max((pair[1] - pair[0]).abs());
+    }
+    let step = half * step / (fast * fast);
+    [slow, fast].map(|slowness| Extreme {
+        speed: half / slowness,
+        step,
+    })
 }
 
 /// Returns the largest sign·|speed| on panels, rad/s; `sign` is +1 or −1. Only panels whose points admit it are
 /// searched between points.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     let of = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
-    let at_points = panels.iter().map(|panel| of(panel).speed);
+    let at_points = panels.iter().map(|panel| sign * of(panel).speed);
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
     for panel in panels {
-        let found = of(panel);
-        if found.most > best {
-            best = best.max(panel.largest_beside(panel.rule.points(), found, sign));
+        let Extreme { speed, step } = of(panel);
+        if sign * speed + step > best {
+            best = best.max(panel.largest_at(panel.rule.points(), sign));
         }
     }
     best

@@ -14,14 +14,14 @@ macro_rules! with_deviation {
                 let deviation: fn(Enclosed, Enclosed) -> f64 = $deviation;
                 let deviation = deviation(self, other);
                 let plane = self.plane.$function(other.plane);
-                if deviation < real.half() && plane.radius().is_finite() {
+                if plane.is_finite() && (deviation == 0.0 || deviation < real.half()) {
                     return Enclosed {
                         real,
                         plane,
                         deviation,
                     };
                 }
-                Enclosed::new(real, (deviation == 0.0).then_some(plane))
+                Enclosed::not_analytic(real)
             }
         }
     };

@@ -80,7 +80,7 @@ impl Enclosed {
 
     /// Returns the enclosure of real values, and of those in the plane where the function is analytic.
     fn new(real: Interval, plane: Option<Rectangle>) -> Enclosed {
-        match plane.filter(|plane| plane.radius().is_finite()) {
+        match plane.filter(|plane| plane.is_finite()) {
             Some(plane) => Enclosed {
                 real,
                 plane,

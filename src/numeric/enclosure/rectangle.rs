@@ -41,6 +41,12 @@ impl Rectangle {
         Rectangle::new(re, Interval::point(0.0))
     }
 
+    /// Whether all bounds are finite, and far from overflow.
+    pub fn is_finite(self) -> bool {
+        (self.re.low.abs() + self.re.high.abs() + self.im.low.abs() + self.im.high.abs())
+            .is_finite()
+    }
+
     /// Returns the largest distance of a value from the middle.
     pub fn radius(self) -> f64 {
         self.re.half().hypot(self.im.half())
