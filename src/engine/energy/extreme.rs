@@ -2,21 +2,84 @@
 
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, SERIES_ROUNDING, Values};
 use crate::numeric::root;
 
-/// Extreme |speed| among the points of a panel, rad/s.
+/// Best of the points whose value is no smaller than at their neighbours. Beside a point a value gains at most the
+/// larger difference from a neighbour.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Extreme {
-    speed: f64,
-    /// Bound of the difference between neighbours, and so of the gain between the points.
-    step: f64,
+pub(super) struct Peak {
+    point: usize,
+    value: f64,
+    /// Bound of the values beside the point.
+    bound: f64,
+    /// Bound of the values beside any other such point.
+    rival: f64,
+}
+
+impl Peak {
+    const NONE: Peak = Peak {
+        point: 0,
+        value: f64::NEG_INFINITY,
+        bound: f64::NEG_INFINITY,
+        rival: f64::NEG_INFINITY,
+    };
+
+    /// Counts a point in, with the larger difference of its value from a neighbour.
+    fn admit(&mut self, point: usize, value: f64, step: f64) {
+        let bound = value + step;
+        if value > self.value {
+            *self = Peak {
+                point,
+                value,
+                bound,
+                rival: self.rival.max(self.bound),
+            };
+        } else {
+            self.rival = self.rival.max(bound);
+        }
+    }
+}
+
+/// Calls `visit` with the points where sign·value is no smaller than at the neighbours, the sign, and the larger
+/// difference from a neighbour.
+fn local_extremes(values: &[f64], mut visit: impl FnMut(usize, f64, f64)) {
+    let mut before = 0.0f64;
+    for (j, value) in values.iter().enumerate() {
+        let after = values.get(j + 1).map_or(0.0, |next| next - value);
+        if before >= 0.0 && after <= 0.0 {
+            visit(j, 1.0, before.max(-after));
+        }
+        if before <= 0.0 && after >= 0.0 {
+            visit(j, -1.0, after.max(-before));
+        }
+        before = after;
+    }
+}
+
+/// Returns the slowest and the fastest point from dt/dx at the points; their values are ±dt/dθ over half the length of
+/// the piece, the slowest positive.
+pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Peak; 2] {
+    let mut slowness = *slopes;
+    if piece.turning != Turning::Nowhere {
+        let half = 0.5 * piece.span().abs();
+        for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
+            *slowness = half * *slowness / piece.dtheta(*x).abs();
+        }
+    }
+    let slowness = &slowness[..=rule.degree()];
+    let mut found = [Peak::NONE; 2];
+    local_extremes(slowness, |j, sign, step| {
+        found[usize::from(sign < 0.0)].admit(j, sign * slowness[j], step);
+    });
+    found
 }
 
 impl Panel {
-    /// Returns the largest sign·|speed| among some points, rad/s, and beside those that are no smaller than their
-    /// neighbours, where the derivative of the speed vanishes. The larger difference from a neighbour bounds the gain.
-    fn largest_at(&self, points: &[f64], sign: f64) -> f64 {
+    /// Returns the largest sign·|speed| at or beside one of some points, where the derivative of the speed vanishes,
+    /// rad/s.
+    fn largest_beside(&self, points: &[f64], index: usize, sign: f64) -> f64 {
+        let (from, to) = (index.saturating_sub(1), (index + 1).min(points.len() - 1));
         let bend = self.slope.derivative();
         // The speed is dθ/dx over dt/dx.
         let rate = |x: f64| {
@@ -27,28 +90,27 @@ impl Panel {
             bent - self.piece.dtheta(x) * bend.value(x)
         };
         let speed = |x: f64| sign * self.speed(x).abs();
-        let mut values = [0.0; MAX_DEGREE + 1];
-        let values = &mut values[..points.len()];
-        values.copy_from_slice(points);
-        self.slope.values(values);
-        for (value, x) in values.iter_mut().zip(points) {
-            *value = sign * (self.piece.dtheta(*x) / *value).abs();
+        // At an extreme the speed is insensitive to the position.
+        let zero = root::within(rate, points[from], points[to], 1e-9);
+        zero.map_or(f64::NEG_INFINITY, speed)
+            .max(speed(points[index]))
+    }
+
+    /// Returns the largest sign·|speed| at and between some points, rad/s; `known` if none is larger.
+    fn largest_among(&self, points: &[f64], sign: f64, known: f64) -> f64 {
+        let mut speeds = [0.0; MAX_DEGREE + 1];
+        let speeds = &mut speeds[..points.len()];
+        speeds.copy_from_slice(points);
+        self.slope.values(speeds);
+        for (speed, x) in speeds.iter_mut().zip(points) {
+            *speed = (self.piece.dtheta(*x) / *speed).abs();
         }
-        let mut best = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        for (j, here) in values.iter().enumerate() {
-            let (before, after) = (j.saturating_sub(1), (j + 1).min(points.len() - 1));
-            let (high, low) = (
-                values[before].max(values[after]),
-                values[before].min(values[after]),
-            );
-            if *here < high || here + (here - low) <= best {
-                continue;
+        let mut best = known;
+        local_extremes(speeds, |j, of, step| {
+            if of == sign && exceeds(sign * speeds[j] + step, best) {
+                best = best.max(self.largest_beside(points, j, sign));
             }
-            // At an extreme the speed is insensitive to the position.
-            if let Some(x) = root::within(rate, points[before], points[after], 1e-9) {
-                best = best.max(speed(x));
-            }
-        }
+        });
         best
     }
 
@@ -57,44 +119,38 @@ impl Panel {
         let ends = [from, until].map(|t| self.position(t));
         let half = 0.5 * (ends[1] - ends[0]);
         let points = self.rule.values(|x| ends[0] + half * (1.0 + x));
-        self.largest_at(&points[..=self.rule.degree()], sign)
+        self.largest_among(&points[..=self.rule.degree()], sign, f64::NEG_INFINITY)
     }
 }
 
-/// Returns the slowest and the fastest point, from dt/dx at the points.
-pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Extreme; 2] {
-    let half = 0.5 * piece.span().abs();
-    // Time, s, for half the piece at the speed of each point: |dθ/dx| over dt/dx.
-    let mut slowness = *slopes;
-    if piece.turning != Turning::Nowhere {
-        for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
-            *slowness = half * *slowness / piece.dtheta(*x).abs();
-        }
-    }
-    let slowness = &slowness[..=rule.degree()];
-    let (mut slow, mut fast, mut step) = (slowness[0], slowness[0], 0.0f64);
-    for pair in slowness.windows(2) {
-        slow = slow.max(pair[1]);
-        fast = fast.min(pair[1]);
-        step = step.max((pair[1] - pair[0]).abs());
-    }
-    let step = half * step / (fast * fast);
-    [slow, fast].map(|slowness| Extreme {
-        speed: half / slowness,
-        step,
-    })
+/// Tells whether a bound exceeds a known value by more than rounding.
+fn exceeds(bound: f64, known: f64) -> bool {
+    bound - known > SERIES_ROUNDING * known.abs() || known == f64::NEG_INFINITY
 }
 
 /// Returns the largest sign·|speed| on panels, rad/s; `sign` is +1 or −1. Only panels whose points admit it are
 /// searched between points.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
-    let of = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
-    let at_points = panels.iter().map(|panel| sign * of(panel).speed);
+    let peak = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
+    // A bound beyond zero admits any speed; no rival, none.
+    let speed = |panel: &Panel, value: f64| match sign * value < 0.0 {
+        true => -0.5 * panel.piece.span().abs() / value,
+        false => sign * f64::INFINITY,
+    };
+    let at_points = panels.iter().map(|panel| speed(panel, peak(panel).value));
     let mut best = at_points.fold(f64::NEG_INFINITY, f64::max);
     for panel in panels {
-        let Extreme { speed, step } = of(panel);
-        if sign * speed + step > best {
-            best = best.max(panel.largest_at(panel.rule.points(), sign));
+        let Peak {
+            point,
+            bound,
+            rival,
+            ..
+        } = peak(panel);
+        if exceeds(speed(panel, bound), best) {
+            best = best.max(panel.largest_beside(panel.rule.points(), point, sign));
+        }
+        if exceeds(speed(panel, rival), best) {
+            best = panel.largest_among(panel.rule.points(), sign, best);
         }
     }
     best

@@ -1,7 +1,7 @@
 //! Panel of the crank angle: dt/dθ and t as Chebyshev series of the largest degree, which resolves half a turn of a
 //! usual engine to rounding.
 
-use super::extreme::{Extreme, extremes};
+use super::extreme::{Peak, extremes};
 use super::kinetic::{Energy, Noise, TimeSensitivity};
 use super::piece::{Piece, Turning};
 use super::profile::{NotApplicable, Profile};
@@ -23,7 +23,7 @@ pub(in crate::engine) struct Panel {
     /// Error bound of the duration, s.
     pub error: f64,
     /// Slowest and fastest point.
-    pub(super) extremes: [Extreme; 2],
+    pub(super) extremes: [Peak; 2],
     /// Tail of the series of dt/dx: its last two coefficients, relative to the largest.
     pub tail: f64,
     /// Error bound of the turning point at the end, rad.
