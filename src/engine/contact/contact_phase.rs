@@ -53,7 +53,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let (depth, rate) = (self.now.depth, self.now.depth_rate);
         let longest = if rate < 0.0 && depth > 0.0 {
             // The step is to end before the contact does.
-            0.8 * depth / -rate
+            self.settings.share * 0.8 * depth / -rate
         } else {
             f64::INFINITY
         };
@@ -110,7 +110,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// impossible: beyond `until`, without force, with a vanishing depth rate, or with a missed load.
     fn by_root(&mut self, approach: f64, from: f64, to: f64) -> Halt<bool> {
         let (model, phase) = (self.model, self.phase);
-        let (mut s, mut ds) = (from, to - from);
+        let (mut s, mut ds) = (from, self.settings.share * (to - from));
         let scale = self.scale(0.0);
         let shortest = 1e-3 * (to - from).abs();
         while s != to {

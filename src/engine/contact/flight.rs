@@ -18,7 +18,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let (model, near) = (self.model, self.near);
         let before = model.gap(&near, &self.y, &self.now.rates);
         // Twice the time in which a parabola closes, so that the closing lies inside the step.
-        let longest = (2.0 * closes_after(before)).max(END_CORRECTION * self.flight_h);
+        let longest =
+            (self.settings.share * 2.0 * closes_after(before)).max(END_CORRECTION * self.flight_h);
         self.h = self.flight_h;
         let (mut stages, h) = self.controlled_step(longest)?;
         self.flight_h = self.h;

@@ -123,6 +123,8 @@ pub trait Contact<const N: usize> {
 pub struct ContactSettings<'a> {
     /// Tolerance of the local error, relative to the sizes.
     pub tolerance: f64,
+    /// Part of the longest step that a phase admits.
+    pub share: f64,
     /// Last time, s.
     pub t_end: f64,
     /// Limit of the evaluations of the rates.

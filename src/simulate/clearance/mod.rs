@@ -82,7 +82,7 @@ impl<'a, const N: usize> Loose<'a, N> {
         };
         let recorder = Recorder::new(task, rows, schedule);
         let tolerance = task.scene.run.tolerance;
-        let (ended, follower) = self.integrate(Some(recorder), tolerance, self.t_end);
+        let (ended, follower) = self.integrate(Some(recorder), tolerance, 1.0, self.t_end);
         let ContactFollower { recorder, seen, .. } = follower;
         let last = seen.ends_at.unwrap_or(self.state(&ended.last));
         let record = recorder.map(|mut recorder| {
@@ -94,11 +94,12 @@ impl<'a, const N: usize> Loose<'a, N> {
         Ok(self.concluded(&ended, &seen, record, &last, wall_s))
     }
 
-    /// Integrates at a tolerance until a time, s.
+    /// Integrates at a tolerance, with a share of the longest steps of the phases, until a time, s.
     fn integrate<'b>(
         &'b self,
         recorder: Option<Recorder<'b>>,
         tolerance: f64,
+        share: f64,
         t_end: f64,
     ) -> (ContactEnd<N>, ContactFollower<'b, N>) {
         let (task, start) = (self.task, &self.start);
@@ -114,6 +115,7 @@ impl<'a, const N: usize> Loose<'a, N> {
         };
         let settings = ContactSettings {
             tolerance,
+            share,
             t_end,
             limit: task.options.limit(),
         };
@@ -131,10 +133,10 @@ impl<'a, const N: usize> Loose<'a, N> {
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.
     fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
-        // Steps of a contact are bounded by its phases, too: nearer tolerances may err alike.
-        let ratio = 1e3;
-        let tolerance = self.task.scene.run.tolerance / ratio;
-        let (ended, follower) = self.integrate(None, tolerance.max(LEAST_SECOND_TOLERANCE), t_end);
+        // Steps of a contact are bounded by its phases, too: bounds that stay would err alike.
+        let (ratio, share) = (1e3, 0.5);
+        let tolerance = (self.task.scene.run.tolerance / ratio).max(LEAST_SECOND_TOLERANCE);
+        let (ended, follower) = self.integrate(None, tolerance, share, t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),
             record: follower.seen.record,
