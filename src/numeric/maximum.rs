@@ -61,16 +61,21 @@ pub fn beside_best(f: impl FnMut(f64) -> f64, known: &[(f64, f64)]) -> (f64, f64
 }
 
 /// Locates the local maxima of a function that places in order resolve, except at the first and the last of them, and
-/// their values. A maximum may be a corner; a plateau counts once.
+/// their values. A maximum may be a corner; a plateau counts once, at its first place.
 pub fn peaks(f: impl Fn(f64) -> f64, places: &[f64]) -> Vec<(f64, f64)> {
-    let mut known: Vec<(f64, f64)> = places.iter().map(|at| (*at, f(*at))).collect();
-    known.dedup_by(|next, before| next.1 == before.1);
-    let tops = known.windows(3);
-    let tops = tops.filter(|w| w[1].1 > w[0].1 && w[1].1 > w[2].1);
+    let known: Vec<(f64, f64)> = places.iter().map(|at| (*at, f(*at))).collect();
+    let levels: Vec<&[(f64, f64)]> = known.chunk_by(|a, b| a.1 == b.1).collect();
+    let tops = levels.windows(3);
+    let tops = tops.filter(|w| w[1][0].1 > w[0][0].1 && w[1][0].1 > w[2][0].1);
     let refined = tops.map(|w| {
-        let found = beside(&f, [w[0], w[1], w[2]]);
+        let around = [w[0][w[0].len() - 1], w[1][0], w[2][0]];
+        // A smooth maximum has the same value at two places at most.
+        if w[1].len() > 2 {
+            return around[1];
+        }
+        let found = beside(&f, around);
         // Values tell the place of a smooth maximum to the root of their rounding, slopes to their rounding.
-        let (from, to) = (w[0].0, w[2].0);
+        let (from, to) = (around[0].0, around[2].0);
         let slope = |at: f64| difference::slope(&f, at, (to - from) / 32.0);
         let by_slope = root::bracketed(slope, from, to).map(|at| (at, f(at)));
         let is_equal = |other: &(f64, f64)| found.1 - other.1 <= 4.0 * f64::EPSILON * found.1.abs();

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::kinematics::Located;
 use crate::mechanism::{Equilibrium, Limits, NamedPosition, Statics};
-use crate::numeric::{angle, difference, root};
+use crate::numeric::angle;
 use crate::scene::{Load, Scene, Variables};
 
 /// Values in place of the scene's own loads and friction.
@@ -32,8 +32,8 @@ pub struct StaticAnalysis {
     pub sought: &'static str,
     /// Static friction coefficient at the guide.
     pub friction: f64,
-    /// Minima of the magnitude of the slider force (N) or crank torque (N m), without friction: one place in each
-    /// stroke, zero where the loads balance each other.
+    /// Minima of the magnitude of the slider force (N) or crank torque (N m), without friction: zero where the loads
+    /// balance each other.
     pub least: Vec<Located>,
     /// Minima of the magnitude of the edge of the friction band that is nearer to zero.
     pub least_with_friction: Vec<Located>,
@@ -44,7 +44,7 @@ pub struct StaticAnalysis {
     /// Warnings about the result.
     pub warnings: Vec<String>,
     #[serde(skip)]
-    statics: Statics,
+    pub(super) statics: Statics,
     #[serde(skip)]
     seek_torque: bool,
 }
@@ -144,22 +144,8 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         statics,
         seek_torque: options.force.is_some(),
     };
-    result.least = result.least_of(|balance| balance.band.map(|band| band.value));
-    if friction > 0.0 {
-        result.least_with_friction = result.least_of(nearer_edge);
-    }
+    [result.least, result.least_with_friction] = result.least();
     Ok(result)
-}
-
-/// Returns the edge of the band nearer to zero; none if zero lies in the band, where friction alone holds.
-fn nearer_edge(balance: &Equilibrium) -> Option<f64> {
-    let band = balance.band?;
-    let (min, max) = (band.min?, band.max?);
-    match (min > 0.0, max < 0.0) {
-        (true, _) => Some(min),
-        (_, true) => Some(max),
-        _ => None,
-    }
 }
 
 impl StaticAnalysis {
@@ -185,43 +171,11 @@ impl StaticAnalysis {
         angle::turn(step).map(|theta| self.row(theta))
     }
 
-    fn balance(&self, theta: f64) -> Equilibrium {
+    pub(super) fn balance(&self, theta: f64) -> Equilibrium {
         if self.seek_torque {
             self.statics.crank_torque(theta)
         } else {
             self.statics.slider_force(theta)
         }
-    }
-
-    /// Locates the least magnitudes of a value over the turn from 0 to 360 degrees; loads may differ in the next turn.
-    fn least_of(&self, value: impl Fn(&Equilibrium) -> Option<f64>) -> Vec<Located> {
-        let value = |theta: f64| value(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
-        let mut grid = self.statics.equation().linkage().turn_grid(false);
-        grid.push(grid[0] + TAU + (grid[1] - grid[0]));
-        let size: Vec<f64> = grid.iter().map(|theta| value(*theta).abs()).collect();
-        let mut found: Vec<Located> = (1..grid.len() - 1)
-            .filter(|i| size[*i] < size[i - 1] && size[*i] <= size[i + 1])
-            .filter_map(|i| {
-                let (a, b) = (grid[i - 1], grid[i + 1]);
-                // Between the end of the turn and its beginning a value may jump over zero.
-                let small = 1e-6 * size[i - 1].max(size[i + 1]);
-                let zero = root::bracketed(value, a, b);
-                let (value, theta) = match zero.filter(|theta| value(*theta).abs() <= small) {
-                    Some(theta) => (0.0, theta),
-                    None => {
-                        let slope = |theta: f64| difference::slope(value, theta, 1e-3);
-                        let theta = root::bracketed(slope, a, b)?;
-                        (value(theta), theta)
-                    }
-                };
-                let located = Located {
-                    value,
-                    theta_rad: angle::in_turn(theta),
-                };
-                located.value.is_finite().then_some(located)
-            })
-            .collect();
-        found.sort_by(|a, b| a.theta_rad.total_cmp(&b.theta_rad));
-        found
     }
 }

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod equilibrium;
+mod least;
 
 pub use crate::mechanism::{drum_torque, friction_from_tilt};
 pub use calibration::{Calibration, Measured, calibrate};

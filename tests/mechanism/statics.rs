@@ -421,6 +421,93 @@ fn torque_of_a_drum_and_friction_of_a_tilt() {
     );
 }
 
+/// A slider under a constant force F and a torque τ: no force is missing where F x' = −τ. One of the two zeros lies
+/// within half a degree of the dead centre, at which the force has a pole.
+#[test]
+fn a_zero_beside_a_dead_centre_is_found() {
+    let (r, l, force) = (0.05, 0.15, 7.0);
+    let dx = |theta: f64| {
+        let (sin, cos) = theta.sin_cos();
+        -r * sin * (1.0 + r * cos / (l * l - r * r * sin * sin).sqrt())
+    };
+    for near in [0.004, PI - 0.007, PI + 0.0003] {
+        let scene = Scene::new(r, l)
+            .torque(Load::Constant(-force * dx(near)))
+            .force(Load::Constant(force));
+        let result = statics(&scene, &StaticsOptions::default()).unwrap();
+        // The other zero, in the same stroke: x' is monotone from its extreme near 73 deg from the outer dead centre.
+        let top = if near < PI { 1.28 } else { TAU - 1.28 };
+        let [mut low, mut high] = match near < 1.0 {
+            true => [top, PI],
+            false => [if near < PI { 0.0 } else { TAU }, top],
+        };
+        let rest = |theta: f64| dx(theta) - dx(near);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            let is_low = (rest(middle) > 0.0) == (rest(low) > 0.0);
+            *(if is_low { &mut low } else { &mut high }) = middle;
+        }
+        let mut expected = [near, low];
+        expected.sort_by(f64::total_cmp);
+        let zeros = result.least.iter().filter(|found| found.value == 0.0);
+        let zeros: Vec<f64> = zeros.map(|found| found.theta_rad).collect();
+        assert_eq!(zeros.len(), 2, "{:?}", result.least);
+        for (found, expected) in zeros.iter().zip(expected) {
+            close("angle of no force", *found, expected, 1.0, 1e-11);
+        }
+    }
+}
+
+/// The torque of a table dips within half a degree, to a value of either sign: the force −τ/x' is least at the row of
+/// the dip, or zero on both sides of it.
+#[test]
+fn dips_between_the_degrees_are_found() {
+    let (r, l, at, half) = (0.05, 0.15, 1.1052, 0.0041);
+    for dip in [0.3, -0.2] {
+        let table = Table::new(
+            Variable::Theta,
+            &[0.0, at - half, at, at + half, TAU],
+            &[2.0, 2.0, dip, 2.0, 2.0],
+            Interpolation::Linear,
+            Some(TAU),
+        );
+        let scene = Scene::new(r, l).torque(Load::Table(table.unwrap()));
+        let result = statics(&scene, &StaticsOptions::default()).unwrap();
+        let least = result.least.iter();
+        let found: Vec<_> = least
+            .filter(|found| (found.theta_rad - at).abs() < half)
+            .collect();
+        let (sin, cos) = at.sin_cos();
+        let dx: f64 = -r * sin * (1.0 + r * cos / (l * l - r * r * sin * sin).sqrt());
+        if dip > 0.0 {
+            assert_eq!(found.len(), 1, "{:?}", result.least);
+            close("angle", found[0].theta_rad, at, 1.0, 1e-9);
+            close("force", found[0].value, -dip / dx, dip / dx.abs(), 1e-6);
+        } else {
+            assert_eq!(found.len(), 2, "{:?}", result.least);
+            let aside = half * (-dip) / (2.0 - dip);
+            for (found, expected) in found.iter().zip([at - aside, at + aside]) {
+                assert_eq!(found.value, 0.0);
+                close("angle of no force", found.theta_rad, expected, 1.0, 1e-12);
+            }
+        }
+    }
+}
+
+/// The torque τ₀ sin θ of a mechanism without offset vanishes at the dead centres with x': the force −τ₀ sin θ/x' does
+/// not.
+#[test]
+fn no_zero_where_the_torque_vanishes_at_a_dead_centre() {
+    let torque = Load::function(Variables::THETA, |now| now.theta.sin());
+    let scene = Scene::new(0.05, 0.15).torque(torque);
+    let result = statics(&scene, &StaticsOptions::default()).unwrap();
+    assert!(
+        result.least.iter().all(|found| found.value != 0.0),
+        "{:?}",
+        result.least
+    );
+}
+
 /// A rod that hangs below the guide wherever it reaches: with enough friction the whole reach is one range of locking,
 /// through 270 or 90 degrees.
 #[test]
