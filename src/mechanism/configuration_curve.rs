@@ -139,8 +139,8 @@ impl Curve {
     /// it does between them; infinite where no branch point is near or far.
     pub fn shown_distance(&self, q: f64) -> f64 {
         match &self.chart {
-            Chart::Crank => shown_distance(q, self.linkage.branch_points()),
-            Chart::Rod(swapped) => shown_distance(q, swapped.branch_points()),
+            Chart::Crank => self.linkage.shown_distance(q),
+            Chart::Rod(swapped) => swapped.shown_distance(q),
             Chart::Rocker(rocker) => shown_distance(q, rocker.branch_points()),
         }
     }

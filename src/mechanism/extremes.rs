@@ -133,6 +133,12 @@ impl Linkage {
         [[-FRAC_PI_2, below], [FRAC_PI_2, above]]
     }
 
+    /// Returns the distance (rad) from a crank angle at which the next sample of a function of the geometry shows all
+    /// that it does between them.
+    pub fn shown_distance(&self, theta: f64) -> f64 {
+        shown_distance(theta, self.branch_points())
+    }
+
     /// Returns crank angles of one turn, rad, dense enough for all functions of the geometry, which vary on the scale
     /// of the distance from the branch points. They are at most 1° apart; for `smooth` functions, of geometry and mass
     /// alone, at most 0.0625 rad, less than the distance between extremes.

@@ -3,14 +3,14 @@
 //! The grid of rows is close enough to resolve geometry, loads and motion; Brent's method refines beside the rows at
 //! which a force may be largest.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::driving_torque::ConstantSpeedMotion;
 use super::load_resolution;
 use super::result::{FORCES, Peak, Peaks};
 use super::simulation::Simulation;
 use crate::mechanism::{Linkage, Reactions};
-use crate::numeric::angle::{self, circular_distance};
+use crate::numeric::angle;
 use crate::numeric::maximum;
 use crate::scene::{Scene, Variable};
 
@@ -169,25 +169,16 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'
     })
 }
 
-/// Divides the intervals between times in which the crank turns by more than an eighth of its distance from a branch
-/// point ±90° ± i arcosh((l ∓ e)/r) of the linkage, the scale of all that the geometry causes. None for too many times.
+/// Divides the intervals between times, a degree apart at most, in which the crank turns further than shows all that
+/// the geometry causes. None for too many times.
 fn with_narrow_peaks(linkage: &Linkage, run: &Simulation, times: Vec<f64>) -> Option<Vec<f64>> {
-    let Linkage { r, l, e, .. } = *linkage;
-    let widths = [-1.0, 1.0].map(|side| {
-        let height = (l - (e + side * r).abs()).abs();
-        (side, (2.0 * height / r).max(f64::EPSILON).sqrt())
-    });
-    let share = 0.125;
-    if widths.iter().all(|(_, width)| share * width >= PI / 180.0) {
+    let mut normals = [-FRAC_PI_2, FRAC_PI_2].into_iter();
+    if normals.all(|normal| linkage.shown_distance(normal) >= 1f64.to_radians()) {
         return Some(times);
     }
     let is_resolved = |from: f64, to: f64| {
-        let (half, middle) = (0.5 * (to - from).abs(), 0.5 * (from + to));
-        let distance = |(side, width): (f64, f64)| {
-            let along = circular_distance(middle, side * FRAC_PI_2) - half;
-            along.max(0.0).hypot(width)
-        };
-        widths.iter().all(|at| 2.0 * half <= share * distance(*at))
+        let middle = 0.5 * (from + to);
+        (to - from).abs() <= linkage.shown_distance(middle)
     };
     let angle = |t: f64| Some((t, run.at(t)?.0));
     let ends = times.into_iter().map(angle).collect::<Option<Vec<_>>>()?;
