@@ -15,7 +15,7 @@ const PART: f64 = 1e-3;
 /// Largest number of pieces that are looked at.
 const MOST_PIECES: usize = 400_000;
 
-/// Piece of a run on which the given rows do not resolve the loads.
+/// Piece of a run, divided until few rows resolve the loads on it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     /// First value of the parameter.
@@ -48,14 +48,15 @@ pub(super) fn unresolved(
     let places = parameters.iter().step_by(ROWS).chain(parameters.last());
     let ends = places.map(|at| end(*at)).collect::<Option<Vec<_>>>()?;
     let pairs = ends.windows(2).map(|pair| [pair[0], pair[1]]);
-    let mut left: Vec<[End; 2]> = pairs.filter(|[a, b]| a.at < b.at).collect();
+    let first: Vec<[End; 2]> = pairs.filter(|[a, b]| a.at < b.at).collect();
     let ellipses = ellipses(NODES, PART);
-    let states: Vec<EnclosedState> = left.iter().map(between).collect();
+    let states: Vec<EnclosedState> = first.iter().map(between).collect();
     let effects = inverse_ranges(loads, &states, ellipses[0]);
     // Rounding of the parameter.
     let least = 4.0 * f64::EPSILON * ends.last()?.at.abs();
     let mut looked_at = 0;
-    while let Some(ends) = left.pop() {
+    let mut left: Vec<_> = first.into_iter().map(|ends| (ends, false)).collect();
+    while let Some((ends, is_divided)) = left.pop() {
         let [a, b] = ends;
         let nodes_on = |state: EnclosedState| {
             let variation = |ellipse| loads.variation(&state, effects, ellipse);
@@ -67,10 +68,10 @@ pub(super) fn unresolved(
             - parameters.partition_point(|at| *at <= a.at);
         let middle = 0.5 * (a.at + b.at);
         let is_least = b.at - a.at <= least;
-        // Both sides of a jump are rows.
-        let parts = nodes.map_or(1, |nodes| nodes / 2);
+        // Both sides of a jump are rows, and the ends of what is divided.
+        let parts = nodes.map_or(1, |nodes| (nodes / 2).max(1));
         if nodes.is_some() || is_least {
-            if parts > inside {
+            if is_divided || parts > inside {
                 let (from, to) = (a.at, b.at);
                 pieces.push(Piece { from, to, parts });
             }
@@ -79,8 +80,8 @@ pub(super) fn unresolved(
         let table_row = table_row(loads, &ends, row).map(|at| known(parameters, at, &ends));
         let at = table_row.unwrap_or(middle);
         let middle = end(at)?;
-        left.push([middle, b]);
-        left.push([a, middle]);
+        left.push(([middle, b], true));
+        left.push(([a, middle], true));
         looked_at += 1;
         if looked_at > MOST_PIECES {
             return None;

@@ -158,7 +158,7 @@ fn has_pulse(load: &str, half_width: f64, angles: &[f64]) {
     let kinetic = |theta: f64| 0.5 * MASS * (pose(theta)[1] * omega).powi(2);
     let pulse = |angle: &f64| force * pose(*angle)[1] * half_width * PI.sqrt();
     let work = kinetic(omega) - kinetic(0.0) + angles.iter().map(pulse).sum::<f64>();
-    close(range.mean_nm, work / omega, 1e-4);
+    close(range.mean_nm, work / omega, 1e-5);
 }
 
 #[test]
