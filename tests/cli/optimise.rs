@@ -174,6 +174,7 @@ fn limits_that_no_design_keeps_are_said_with_the_one_that_misses_them_least() {
 fn what_cannot_be_looked_for_is_refused_with_what_can() {
     let folder = Folder::with(SCENE);
     let rod = "geometry.rod=300mm:600mm";
+    let subject = |limit| vec!["--vary", rod, "--least", "stroke", "--subject", limit];
     for (more, words) in [
         (
             vec!["--vary", "geometry.rod=1mm,2mm", "--least", "stroke"],
@@ -187,17 +188,7 @@ fn what_cannot_be_looked_for_is_refused_with_what_can() {
             vec!["--vary", rod, "--least", "class"],
             vec!["`class` is a word"],
         ),
-        (
-            vec![
-                "--vary",
-                rod,
-                "--least",
-                "stroke",
-                "--subject",
-                "class >= 1",
-            ],
-            vec!["`class` is a word"],
-        ),
+        (subject("class >= 1"), vec!["`class` is a word"]),
         (
             vec!["--vary", rod, "--least", "fluctuation", "--fluctuation=nan"],
             vec!["a coefficient of fluctuation of NaN"],
@@ -211,25 +202,11 @@ fn what_cannot_be_looked_for_is_refused_with_what_can() {
             vec!["--least <FIGURE>|--most <FIGURE>"],
         ),
         (
-            vec![
-                "--vary",
-                rod,
-                "--least",
-                "stroke",
-                "--subject",
-                "stroke = 1 m",
-            ],
+            subject("stroke = 1 m"),
             vec!["no limit of a figure", "transmission_min >= 40 deg"],
         ),
         (
-            vec![
-                "--vary",
-                rod,
-                "--least",
-                "stroke",
-                "--subject",
-                "stroke <= 1 N",
-            ],
+            subject("stroke <= 1 N"),
             vec!["`N` is not the unit of a length"],
         ),
         (

@@ -597,6 +597,14 @@ fn long_records_of_what_repeats_have_a_force() {
     assert_eq!(found.rows.len(), truth.t.len());
 }
 
+/// Inverts angles measured with this noise, rad.
+fn of_angles(motion: &Motion, truth: &Truth, noise: f64, seed: u64) -> Inverse {
+    let record = measure(truth, Sensor::Angle(noise), &mut Random(seed * 7919));
+    let angles = Measurement::new(Measured::Theta, record.t, record.values).expect("a motion");
+    let found = inverse(&scene(motion, 1.0), &angles, &InverseOptions::default());
+    found.unwrap_or_else(|error| panic!("seed {seed}: {error}"))
+}
+
 /// 300 turns with 16 samples in each: the intensity that is likeliest by all samples is far from that of the
 /// segments.
 #[test]
@@ -613,11 +621,7 @@ fn a_long_record_has_a_finite_motion() {
     };
     let truth = long.run();
     for seed in 1..=2 {
-        let mut random = Random(seed * 7919);
-        let record = measure(&truth, Sensor::Angle(1e-3), &mut random);
-        let motion = Measurement::new(Measured::Theta, record.t, record.values).expect("a motion");
-        let found = inverse(&scene(&long, 1.0), &motion, &InverseOptions::default());
-        let found = found.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let found = of_angles(&long, &truth, 1e-3, seed);
         let pairs = found.rows.iter().zip(&truth.theta);
         let far = pairs.map(|(row, theta)| (row.theta - theta).abs());
         let far = far.fold(0.0, f64::max);
@@ -659,11 +663,7 @@ fn a_ripple_within_each_turn_that_the_noise_hides_is_warned_of() {
     };
     let truth = ripple.run();
     for seed in 1..=3 {
-        let mut random = Random(seed * 7919);
-        let record = measure(&truth, Sensor::Angle(2e-2), &mut random);
-        let motion = Measurement::new(Measured::Theta, record.t, record.values).expect("a motion");
-        let found = inverse(&scene(&ripple, 1.0), &motion, &InverseOptions::default());
-        let summary = found.expect("an inversion").summary;
+        let summary = of_angles(&ripple, &truth, 2e-2, seed).summary;
         let warned = summary.warnings.iter().any(|w| w.contains("hides how"));
         assert!(warned, "seed {seed}: {}", summary.fit.prior);
     }
