@@ -4,73 +4,83 @@ use std::f64::consts::TAU;
 
 use super::StaticAnalysis;
 use crate::kinematics::Located;
-use crate::mechanism::{Equilibrium, Limits, SEAM};
+use crate::mechanism::{Equilibrium, Limits};
 use crate::numeric::{angle, maximum, root};
 
 impl StaticAnalysis {
     /// Locates the least magnitudes over the turn from 0 to 360 degrees, without friction and with it; loads may differ
     /// in the next turn. A zero that lasts counts where it begins.
     pub(super) fn least(&self) -> [Vec<Located>; 2] {
-        let linkage = self.statics.equation().linkage();
+        let equation = self.statics.equation();
         let of = |balance: Equilibrium| balance.band.map_or(f64::NAN, |band| band.value);
-        let value = |theta: f64| of(self.balance(theta.rem_euclid(TAU)));
-        let mut corners = self.statics.equation().loads().corners_between(0.0, TAU);
-        let centres = Limits::new(linkage, 0.0).dead_centres.into_iter();
-        corners.extend(centres.map(|centre| centre.theta).chain([0.0]));
-        let corners: Vec<f64> = angle::in_turns(&corners, -1..=1).collect();
-        // A value may be constant through the end of the turn.
-        let mut grid = linkage.grid_between(SEAM, SEAM + 2.0 * TAU, &corners);
         // V' − τ − F x': the crank torque, and the slider force times x', which has no poles at the dead centres.
         let torque = |theta: f64| of(self.statics.crank_torque(theta.rem_euclid(TAU)));
-        let sizes = grid.iter().map(|theta| torque(*theta).abs());
-        let rounding = 16.0 * f64::EPSILON * sizes.fold(0.0, f64::max);
-        let torque = |theta: f64| {
-            let torque = torque(theta);
-            if torque.abs() <= rounding {
-                0.0
-            } else {
-                torque
-            }
+        let turn = equation.linkage().turn_grid(false);
+        let torques = turn.iter().map(|theta| torque(*theta).abs());
+        let rounding = 16.0 * f64::EPSILON * torques.fold(0.0, f64::max);
+        let torque = |theta: f64| match torque(theta) {
+            torque if torque.abs() <= rounding => 0.0,
+            torque => torque,
         };
+        // The turn is cut where the value is largest: nothing least lasts through there.
+        let larger = |most: (f64, f64), theta: &f64| {
+            let size = of(self.balance(theta.rem_euclid(TAU))).abs();
+            if size > most.0 { (size, *theta) } else { most }
+        };
+        let (_, cut) = turn.iter().fold((0.0, turn[0]), larger);
+        let mut corners = equation.loads().corners_between(0.0, TAU);
+        let centres = Limits::new(equation.linkage(), 0.0).dead_centres;
+        corners.extend(centres.iter().map(|centre| centre.theta).chain([0.0]));
+        let corners: Vec<f64> = angle::in_turns(&corners, -1..=1).collect();
+        let mut grid = equation.linkage().grid_between(cut, cut + TAU, &corners);
         for sign in [1.0, -1.0] {
             let extremes = maximum::peaks(|theta| sign * torque(theta), &grid);
             grid.extend(extremes.iter().map(|(theta, _)| theta));
             grid.sort_by(f64::total_cmp);
         }
-        let zero = |ends: &[f64]| {
-            let [before, after] = [ends[0], ends[1]].map(torque);
-            let zero = root::bracketed(torque, ends[0], ends[1])?;
+        let known: Vec<(f64, f64)> = grid.iter().map(|theta| (*theta, torque(*theta))).collect();
+        let zero = |ends: &[(f64, f64)]| {
+            let [(from, before), (to, after)] = [ends[0], ends[1]];
+            let changes = before.min(after) < 0.0 && before.max(after) > 0.0;
+            let zero = changes
+                .then(|| root::bracketed(torque, from, to))
+                .flatten()?;
             // Between the end of the turn and its beginning a value may jump over zero.
             let small = 1e-6 * before.abs().max(after.abs());
-            let is_between = before != 0.0 && after != 0.0 && torque(zero).abs() <= small;
-            is_between.then_some(zero)
+            (torque(zero).abs() <= small).then_some(zero)
         };
-        let zeros: Vec<f64> = grid.windows(2).filter_map(zero).collect();
+        let zeros: Vec<f64> = known.windows(2).filter_map(zero).collect();
         grid.extend(&zeros);
         grid.sort_by(f64::total_cmp);
         // Where torque and x' vanish together the force is finite.
         grid.retain(|theta| !self.is_pole(*theta) || torque(*theta) != 0.0);
         let is_zero = |theta: f64| torque(theta) == 0.0 || zeros.contains(&theta);
-        let without = |theta: f64| if is_zero(theta) { 0.0 } else { value(theta) };
-        let nearer_edge =
-            |theta: f64| nearer_edge(&self.balance(theta.rem_euclid(TAU))).unwrap_or(f64::NAN);
+        let without = |theta: f64, balance| if is_zero(theta) { 0.0 } else { of(balance) };
+        let with = |_, balance| nearer_edge(&balance).unwrap_or(f64::NAN);
+        let is_with = self.friction > 0.0;
         [
-            self.minima(&grid, without),
-            match self.friction > 0.0 {
-                true => self.minima(&grid, nearer_edge),
-                false => Vec::new(),
-            },
+            self.minima(cut, &grid, without),
+            is_with
+                .then(|| self.minima(cut, &grid, with))
+                .unwrap_or_default(),
         ]
     }
 
-    /// Locates the minima of the magnitude of a value that these angles resolve, rad.
-    fn minima(&self, grid: &[f64], value: impl Fn(f64) -> f64) -> Vec<Located> {
+    /// Locates the minima of the magnitude of a value of the balance, over a turn from an angle on that a grid resolves,
+    /// rad.
+    fn minima(
+        &self,
+        from: f64,
+        grid: &[f64],
+        value: impl Fn(f64, Equilibrium) -> f64,
+    ) -> Vec<Located> {
+        let value = |theta: f64| value(theta, self.balance(theta.rem_euclid(TAU)));
         let height = |theta: f64| match self.is_pole(theta) {
             true => f64::NEG_INFINITY,
             false => -value(theta).abs(),
         };
         let least = maximum::peaks(height, grid).into_iter();
-        let least = least.filter(|(theta, _)| (SEAM..SEAM + TAU).contains(theta));
+        let least = least.filter(|(theta, _)| (from..from + TAU).contains(theta));
         let located = |(theta, _)| Located {
             value: value(theta),
             theta_rad: angle::in_turn(theta),
