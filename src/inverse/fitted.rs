@@ -44,8 +44,10 @@ pub(super) struct Fitted {
     pub coded: Option<f64>,
     /// θ, ω, θ̈ at each sample under each of the errors that all samples share.
     pub moved: Vec<Vec<[f64; 3]>>,
+    /// Number of parameters of the noise.
+    pub of_noise: f64,
     /// Lower bound of the standard deviation of a sample, rad or m.
-    floor: f64,
+    pub floor: f64,
 }
 
 impl Fitted {
@@ -67,16 +69,20 @@ impl Fitted {
         };
         let polynomial = |reason: &str| {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
-            let fitted = Fitted::of_polynomial(&record, found, reason);
+            let fitted = Fitted::of_polynomial(&record, &found, reason);
             let degree = fitted.summary.degree;
             let of =
                 |source: &Source| source.polynomial(&record, &fitted.motion, degree, measurement);
             let moved = sources.iter().map(of).collect();
-            Ok::<Fitted, String>(Fitted { moved, ..fitted })
+            Ok::<_, String>((Fitted { moved, ..fitted }, found.fit))
         };
         match (options.fit, degree) {
             (FitKind::Polynomial, _) | (FitKind::Auto, Some(_)) => {
-                return polynomial("it was asked for");
+                let (fitted, fit) = polynomial("it was asked for")?;
+                return Ok(match degree {
+                    None => fitted.averaged(&fit, &record, None),
+                    Some(_) => fitted,
+                });
             }
             (FitKind::Smoother, Some(degree)) => {
                 return Err(format!("a smoother has no degree, and {degree} is given"));
@@ -87,11 +93,11 @@ impl Fitted {
         let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten()
-            .filter(|polynomial| polynomial.converged && !polynomial.patterned);
-        let is_exact = |polynomial: &mut Fitted| {
+            .filter(|(polynomial, _)| polynomial.converged && !polynomial.patterned);
+        let is_exact = |(polynomial, _): &mut (Fitted, _)| {
             polynomial.summary.rms <= polynomial.floor && record.is_computed()
         };
-        if let Some(exact) = simple.take_if(is_exact) {
+        if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
         }
         let smoothed = Fitted::smoothed(
@@ -102,24 +108,15 @@ impl Fitted {
             options.stop.as_ref(),
         );
         Ok(match simple {
-            Some(polynomial)
+            Some((polynomial, fit))
                 if smoothed.summary.outliers == 0
                     && smoothed.coded.is_none()
-                    && polynomial.information() <= smoothed.information() =>
+                    && polynomial.is_preferred_to(&smoothed) =>
             {
-                polynomial
+                polynomial.averaged(&fit, &record, Some(&smoothed))
             }
             _ => smoothed,
         })
-    }
-
-    /// Returns Akaike's criterion AICc for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297), σ a parameter; of
-    /// a smoother by its effective parameters (Hurvich, Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
-    fn information(&self) -> f64 {
-        let n = self.residuals.len() as f64;
-        let parameters = self.summary.parameters + 1.0;
-        let spread = self.summary.rms.max(self.floor);
-        2.0 * n * spread.ln() + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
     }
 
     fn smoothed(
@@ -189,6 +186,9 @@ impl Fitted {
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.converged = smoothed.converged;
+        // σ and the intensity of the process noise; begin, end and factor of each stretch; decay of the correlation.
+        let correlated = f64::from(u8::from(smoothed.noise.correlated.is_some()));
+        fitted.of_noise = 2.0 + 3.0 * problem.intensities.0.len() as f64 + correlated;
         fitted.cycle = prior.cycle;
         fitted.told = (smoothed.repeating.as_ref())
             .map_or(0.0, |torque| torque.told as f64 / f64::from(prior.cycle));
@@ -213,20 +213,20 @@ impl Fitted {
         fitted
     }
 
-    fn of_polynomial(record: &Record<'_>, polynomial: Polynomial, reason: &str) -> Fitted {
+    fn of_polynomial(record: &Record<'_>, polynomial: &Polynomial, reason: &str) -> Fitted {
         let Polynomial {
             fit,
             motion,
             converged,
         } = polynomial;
-        let mut fitted = Fitted::of_motion(record, motion);
+        let mut fitted = Fitted::of_motion(record, motion.clone());
         let whiteness = Whiteness::of(fitted.residuals.iter().copied());
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         // Rounding errors have patterns of their own.
         fitted.patterned = whiteness.is_violated() && fitted.summary.rms > record.floor;
-        fitted.converged = converged;
+        fitted.converged = *converged;
         fitted.summary = FitSummary {
             kind: "polynomial",
             reason: reason.to_owned(),
@@ -281,6 +281,7 @@ impl Fitted {
             farthest_outlier: None,
             coded: None,
             moved: Vec::new(),
+            of_noise: 1.0,
             floor: record.floor,
         }
     }

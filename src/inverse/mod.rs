@@ -73,6 +73,7 @@ mod row;
 mod rows;
 mod samples;
 mod scales;
+mod selection;
 mod sensors_beside;
 mod shared_errors;
 mod smoother;

@@ -33,6 +33,7 @@ impl Polynomial {
         degree: Option<usize>,
     ) -> Result<Polynomial, String> {
         let mut theta = first.to_vec();
+        let given = degree;
         let mut degree = degree;
         for iteration in 0..ITERATIONS {
             let lines = parallel::list(theta.len(), |i| {
@@ -46,7 +47,7 @@ impl Polynomial {
                 weight: (!record.is_linear()).then_some(&weight),
                 floor: record.floor,
             };
-            let fit = PolynomialFit::new(&equations, degree).map_err(|few| {
+            let fit = PolynomialFit::among(&equations, degree, given).map_err(|few| {
                 let (found, needed) = (few.found, few.needed);
                 format!("{found} samples are too few for a polynomial: it needs {needed}")
             })?;

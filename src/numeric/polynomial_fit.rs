@@ -48,7 +48,11 @@ pub struct PolynomialFit {
     pub sigma: f64,
     /// Condition number of the matrix of powers, in the Frobenius norm.
     pub condition: f64,
+    /// Expansion up to the highest degree that was tried.
     basis: Expansion<f64>,
+    /// Standard deviation of the noise by the polynomial of each degree.
+    deviations: Vec<f64>,
+    rows: usize,
 }
 
 impl PolynomialFit {
@@ -62,17 +66,30 @@ impl PolynomialFit {
         equations: &Equations<'_>,
         degree: Option<usize>,
     ) -> Result<PolynomialFit, TooFewArguments> {
+        PolynomialFit::among(equations, degree, degree)
+    }
+
+    /// Fits a polynomial of a degree, or of the likeliest one, among those up to `most`, or up to the highest that is chosen.
+    ///
+    /// # Errors
+    /// The errors of [`PolynomialFit::new`].
+    pub fn among(
+        equations: &Equations<'_>,
+        degree: Option<usize>,
+        most: Option<usize>,
+    ) -> Result<PolynomialFit, TooFewArguments> {
         let most_in_double_double = 10_000;
         if equations.t.len() <= most_in_double_double {
-            PolynomialFit::with::<DoubleDouble>(equations, degree)
+            PolynomialFit::with::<DoubleDouble>(equations, degree, most)
         } else {
-            PolynomialFit::with::<f64>(equations, degree)
+            PolynomialFit::with::<f64>(equations, degree, most)
         }
     }
 
     fn with<T: Real>(
         equations: &Equations<'_>,
         degree: Option<usize>,
+        most: Option<usize>,
     ) -> Result<PolynomialFit, TooFewArguments> {
         let Equations {
             t,
@@ -82,7 +99,8 @@ impl PolynomialFit {
         } = *equations;
         let rows = t.len();
         let highest_chosen = 12;
-        let most = degree.unwrap_or(rows.saturating_sub(3).min(highest_chosen));
+        let given = most;
+        let most = most.unwrap_or(rows.saturating_sub(3).min(highest_chosen));
         let too_few = |found| TooFewArguments {
             found,
             needed: most + 2,
@@ -92,7 +110,7 @@ impl PolynomialFit {
         }
         let mut found: Expansion<T> =
             orthogonal::fit(t, target, weight, |squares| squares.len() <= most);
-        if found.coefficients.len() <= most && degree.is_some() {
+        if found.coefficients.len() <= most && given.is_some() {
             return Err(too_few(found.coefficients.len()));
         }
         let squares: Vec<f64> = found.squares.iter().map(|s| s.value()).collect();
@@ -100,16 +118,24 @@ impl PolynomialFit {
         // Targets that were computed in floats are off by some units in the last place.
         let floor_of = |size: f64| floor.max(2.0 * f64::EPSILON * size);
         let degree = degree.unwrap_or_else(|| likeliest(&squares, rows, floor_of(size)));
+        let degree = degree.min(squares.len() - 1);
+        let basis = found.convert(T::value);
+        let deviation = |(degree, squares): (usize, &f64)| {
+            let free = (rows - degree - 1) as f64;
+            (squares / free).sqrt().max(floor)
+        };
+        let deviations: Vec<f64> = squares.iter().enumerate().map(deviation).collect();
         found.truncate(degree);
-        let free = (rows - degree - 1) as f64;
-        let sigma = (squares[degree] / free).sqrt().max(floor);
         let powers = Powers::new(&found.convert(T::into));
+        let sigma = deviations[degree];
         Ok(PolynomialFit {
             coefficients: powers.coefficients,
             standard_errors: powers.errors.iter().map(|e| e * sigma).collect(),
             sigma,
             condition: powers.condition,
-            basis: found.convert(T::value),
+            basis,
+            deviations,
+            rows,
         })
     }
 
@@ -118,39 +144,82 @@ impl PolynomialFit {
         self.coefficients.len() - 1
     }
 
-    /// Returns the polynomial and its derivatives at `t`, by the recurrence of the basis differentiated twice.
+    /// Returns the root mean squares of the residuals of the polynomials of degree 0, 1, ...
+    pub fn residuals(&self) -> impl Iterator<Item = f64> {
+        self.basis
+            .squares
+            .iter()
+            .map(|squares| (squares / self.rows as f64).sqrt())
+    }
+
+    /// Returns the polynomial and its derivatives at `t`.
     pub fn state(&self, t: f64) -> PolynomialState {
+        let mut state = PolynomialState::default();
+        for (q, coefficient) in self
+            .basis_at(t)
+            .zip(&self.basis.coefficients)
+            .take(self.coefficients.len())
+        {
+            for k in 0..3 {
+                state.value[k] += coefficient * q[k];
+                state.rounding[k] += 2.0 * f64::EPSILON * (coefficient * q[k]).abs();
+                for l in 0..=k {
+                    state.covariance[entry(k, l)] += self.sigma * q[k] * (self.sigma * q[l]);
+                }
+            }
+        }
+        state
+    }
+
+    /// Returns the covariance of p, p′ and p″ at `t` where the degree is in doubt: that of each degree, with the square of its
+    /// difference from this polynomial, by the weights of degree 0, 1, ...
+    pub fn averaged(&self, t: f64, weights: &[f64]) -> [f64; 6] {
+        let own = self.state(t).value;
+        let (mut value, mut spread, mut sum) = ([0.0; 3], [0.0; 6], [0.0; 6]);
+        for (j, (q, weight)) in self.basis_at(t).zip(weights).enumerate() {
+            let variance = self.deviations[j] * self.deviations[j];
+            for k in 0..3 {
+                value[k] += self.basis.coefficients[j] * q[k];
+                for l in 0..=k {
+                    let off = (value[k] - own[k]) * (value[l] - own[l]);
+                    spread[entry(k, l)] += q[k] * q[l];
+                    sum[entry(k, l)] += weight * (variance * spread[entry(k, l)] + off);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Returns the polynomials of the basis and their first two derivatives at `t`, by the recurrence differentiated twice.
+    fn basis_at(&self, t: f64) -> impl Iterator<Item = [f64; 3]> {
         let Expansion {
             middle,
             half,
             centres,
             norms,
-            coefficients,
             ..
         } = &self.basis;
         let (s, per) = ((t - middle) / half, 1.0 / half);
-        let mut state = PolynomialState::default();
         let (mut before, mut now) = ([0.0; 3], [1.0 / norms[0], 0.0, 0.0]);
-        for j in 0..coefficients.len() {
-            for k in 0..3 {
-                state.value[k] += coefficients[j] * now[k];
-                state.rounding[k] += 2.0 * f64::EPSILON * (coefficients[j] * now[k]).abs();
-                for l in 0..=k {
-                    let entry = k * (k + 1) / 2 + l;
-                    state.covariance[entry] += self.sigma * now[k] * (self.sigma * now[l]);
-                }
+        (0..norms.len()).map(move |j| {
+            let found = now;
+            if let Some(norm) = norms.get(j + 1) {
+                let (x, back) = (s - centres[j], norms[j]);
+                let next = [
+                    x * now[0] - back * before[0],
+                    x * now[1] + per * now[0] - back * before[1],
+                    x * now[2] + 2.0 * per * now[1] - back * before[2],
+                ];
+                (before, now) = (now, next.map(|q| q / norm));
             }
-            let Some(norm) = norms.get(j + 1) else { break };
-            let (x, back) = (s - centres[j], norms[j]);
-            let next = [
-                x * now[0] - back * before[0],
-                x * now[1] + per * now[0] - back * before[1],
-                x * now[2] + 2.0 * per * now[1] - back * before[2],
-            ];
-            (before, now) = (now, next.map(|q| q / norm));
-        }
-        state
+            found
+        })
     }
+}
+
+/// Place of an entry in the rows of a lower triangle.
+const fn entry(row: usize, column: usize) -> usize {
+    row * (row + 1) / 2 + column
 }
 
 /// Returns the degree with the least −2 ln(likelihood) + k ln(n), at the likeliest noise variance above the floor.

@@ -668,3 +668,47 @@ fn a_ripple_within_each_turn_that_the_noise_hides_is_warned_of() {
         assert!(warned, "seed {seed}: {}", summary.fit.prior);
     }
 }
+
+/// Motions within a turn that are no polynomials: where one of them is chosen, the band holds though its degree was chosen, too.
+#[test]
+fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
+    let of = |name, start, torque| Motion {
+        name,
+        start,
+        end: 0.2,
+        rows: 120,
+        torque,
+    };
+    let motions = [
+        of("push", [0.6, 2.0], |t, _, _| 3.0 * (15.0 * t).sin()),
+        of("brake", [0.6, 30.0], |_, _, omega| -0.3 * omega),
+        of("swing", [0.8, 0.0], |_, theta, _| 8.0 * (2.0 - theta)),
+    ];
+    let (mut polynomials, mut records, mut covered) = (0, 0, 0.0);
+    for motion in &motions {
+        let truth = motion.run();
+        for (k, noise) in [1e-4, 3e-4, 1e-3, 3e-3, 1e-2]
+            .iter()
+            .cycle()
+            .take(20)
+            .enumerate()
+        {
+            let mut random = Random((k as u64 + 1) * 7919);
+            let sensor = match k % 2 {
+                0 => Sensor::Angle(*noise),
+                _ => Sensor::AngleModel(*noise, 1.0),
+            };
+            let record = measure(&truth, sensor, &mut random);
+            let found = found(motion, &record, 1.0);
+            let [_, part] = judge(&truth, &record, &found);
+            if found.summary.fit.kind == "polynomial" {
+                polynomials += 1;
+                covered += part;
+            }
+            records += 1;
+        }
+    }
+    let covered = covered / f64::from(polynomials);
+    assert!(polynomials >= 10, "{polynomials} of {records}");
+    assert!(covered > 0.92, "{covered}");
+}
