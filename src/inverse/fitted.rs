@@ -92,8 +92,10 @@ impl Fitted {
         let may_be_simple = options.fit == FitKind::Auto && record.beside.is_empty();
         let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
-            .flatten()
-            .filter(|(polynomial, _)| polynomial.converged && !polynomial.patterned);
+            .flatten();
+        // What a polynomial leaves is motion or noise: the smoother compares both.
+        let suspected = simple.as_ref().is_some_and(|(found, _)| found.patterned);
+        simple = simple.filter(|(polynomial, _)| polynomial.converged && !polynomial.patterned);
         let is_exact = |(polynomial, _): &mut (Fitted, _)| {
             polynomial.summary.rms <= polynomial.floor && record.is_computed()
         };
@@ -105,6 +107,7 @@ impl Fitted {
             angles,
             equation,
             sources,
+            suspected,
             options.stop.as_ref(),
         );
         Ok(match simple {
@@ -124,10 +127,11 @@ impl Fitted {
         angles: &CrankAngles<'_>,
         equation: &Equation,
         sources: &[Source],
+        suspected: bool,
         stop: Option<&Stop>,
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
-        let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic);
+        let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic, suspected);
         Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)

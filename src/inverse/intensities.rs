@@ -134,12 +134,14 @@ impl Problem<'_> {
         intensities
     }
 
-    /// Returns the likeliest smoothed motion and the priors compared; stretches are added while the likelihood gains.
+    /// Returns the likeliest smoothed motion and the priors compared, of noise that is `suspected` to be correlated or not;
+    /// stretches are added while the likelihood gains.
     pub fn likeliest_with_intensities(
         &mut self,
         kinematic: &Smoothed,
+        suspected: bool,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
-        let mut best = self.likeliest_of_all(kinematic);
+        let mut best = self.likeliest_of_all(kinematic, suspected);
         // Periodic priors, noise below that of instruments and long records represented by stretches have no intensities.
         while best.0.prior.cycle == 0
             && best.0.noise.sigma > self.record.instrument_noise()
@@ -150,7 +152,7 @@ impl Problem<'_> {
             self.intensities = self.intensities_of(&best.0);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
-                let next = self.likeliest_of_all(kinematic);
+                let next = self.likeliest_of_all(kinematic, suspected);
                 let rise = next.0.noise.likelihood - best.0.noise.likelihood - more * self.cost();
                 if rise > ENOUGH_RISE {
                     best = next;
@@ -164,10 +166,14 @@ impl Problem<'_> {
         best
     }
 
-    fn likeliest_of_all(&mut self, kinematic: &Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+    fn likeliest_of_all(
+        &mut self,
+        kinematic: &Smoothed,
+        suspected: bool,
+    ) -> (Smoothed, Vec<(Prior, f64)>) {
         match self.record.codes {
             Some(codes) => self.likeliest_of_codes(codes, kinematic.clone()),
-            None => self.likeliest(kinematic.clone()),
+            None => self.likeliest(kinematic.clone(), suspected),
         }
     }
 }

@@ -82,8 +82,8 @@ impl Problem<'_> {
     }
 
     /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
-    /// first. Noise of the samples is correlated where the prediction errors say so, and the likelihood agrees.
-    pub fn likeliest(&self, kinematic: Smoothed) -> (Smoothed, Vec<(Prior, f64)>) {
+    /// first. Noise of the samples is correlated where that is suspected or the prediction errors say so, and the likelihood agrees.
+    pub fn likeliest(&self, kinematic: Smoothed, suspected: bool) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, &[]);
         let Some(mut found) = self.first_converged(&white, &kinematic) else {
             return (kinematic, listed(&white));
@@ -91,7 +91,7 @@ impl Problem<'_> {
         let mut tried = listed(&white);
         let innovations = found.estimates.iter().map(|e| e.innovation);
         let is_noise = self.record.codes.is_none() && !self.record.is_computed();
-        if is_noise && Whiteness::of(innovations).is_violated() {
+        if is_noise && (suspected || Whiteness::of(innovations).is_violated()) {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);

@@ -712,3 +712,27 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
     assert!(polynomials >= 10, "{polynomials} of {records}");
     assert!(covered > 0.92, "{covered}");
 }
+
+/// Noise of correlation 0.9 on Duarte's motion, a polynomial of degree 4 within a turn: the smoother could follow it with
+/// prediction errors that are white, yet correlated noise is likelier.
+#[test]
+fn correlated_noise_within_one_turn_is_no_motion() {
+    let duarte = Motion {
+        name: "Duarte",
+        start: [0.0649, 0.522],
+        end: 2.5,
+        rows: 126,
+        torque: |t, theta, omega| {
+            let alpha = 2.0 * 2.166 - 6.0 * 2.129 * t + 12.0 * 0.472 * t * t;
+            needed([theta, omega, alpha])
+        },
+    };
+    let truth = duarte.run();
+    let mut told = 0;
+    for seed in 1..=20 {
+        let record = measure(&truth, Sensor::Correlated(1e-3), &mut Random(seed * 7919));
+        let found = found(&duarte, &record, 1.0);
+        told += usize::from(found.summary.fit.noise_correlation_s.is_some());
+    }
+    assert!(told >= 15, "{told} of 20");
+}

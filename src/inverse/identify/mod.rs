@@ -108,7 +108,7 @@ fn identify_among(
     }
     let first = coarse(&problem, &theta);
     let mut smooth = problem.kinematic(first, smooth.noise.sigma);
-    let (likeliest, _) = problem.likeliest(smooth.clone());
+    let (likeliest, _) = problem.likeliest(smooth.clone(), false);
     if likeliest.noise.correlated.is_some() {
         smooth.noise = likeliest.noise;
     }
