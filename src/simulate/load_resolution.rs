@@ -22,7 +22,7 @@ pub(super) struct Piece {
     pub from: f64,
     /// Last value of the parameter.
     pub to: f64,
-    /// Number of parts in which rows resolve the loads.
+    /// Number of parts in which rows resolve the loads; 0 where the given rows do.
     pub parts: usize,
 }
 
@@ -68,10 +68,11 @@ pub(super) fn unresolved(
             - parameters.partition_point(|at| *at <= a.at);
         let middle = 0.5 * (a.at + b.at);
         let is_least = b.at - a.at <= least;
-        // Both sides of a jump are rows, and the ends of what is divided.
-        let parts = nodes.map_or(1, |nodes| (nodes / 2).max(1));
+        // Both sides of a jump are rows.
+        let parts = nodes.map_or(1, |nodes| nodes / 2);
         if nodes.is_some() || is_least {
-            if is_divided || parts > inside {
+            let parts = if parts > inside { parts } else { 0 };
+            if is_divided || parts > 0 {
                 let (from, to) = (a.at, b.at);
                 pieces.push(Piece { from, to, parts });
             }
@@ -97,8 +98,9 @@ pub(super) fn with_pieces(mut parameters: Vec<f64>, pieces: &[Piece]) -> Vec<f64
         let part = (to - from) / parts as f64;
         (0..parts).map(move |k| from + k as f64 * part).chain([to])
     };
-    if !pieces.is_empty() {
-        parameters.extend(pieces.iter().flat_map(rows));
+    let mut pieces = pieces.iter().filter(|piece| piece.parts > 0).peekable();
+    if pieces.peek().is_some() {
+        parameters.extend(pieces.flat_map(rows));
         parameters.sort_by(f64::total_cmp);
         parameters.dedup();
     }
