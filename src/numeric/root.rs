@@ -10,8 +10,31 @@ pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
 
 /// Solves f(x) = 0 between a and b to `width`, where the last bits of the root are not needed.
 pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
-    let (mut a, mut b) = (a, b);
-    let (mut fa, mut fb) = (f(a), f(b));
+    let ends = [a, b].map(|at| (at, f(at)));
+    brent(f, ends, width)
+}
+
+/// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known.
+///
+/// # Errors
+/// The first error of f.
+pub fn between<E>(
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+    ends: [(f64, f64); 2],
+) -> Result<Option<f64>, E> {
+    let mut failed = None;
+    let known = |at: f64| {
+        f(at).unwrap_or_else(|error| {
+            failed = Some(error);
+            f64::NAN
+        })
+    };
+    let root = brent(known, ends, 0.0);
+    failed.map_or(Ok(root), Err)
+}
+
+fn brent(mut f: impl FnMut(f64) -> f64, ends: [(f64, f64); 2], width: f64) -> Option<f64> {
+    let [(mut a, mut fa), (mut b, mut fb)] = ends;
     if fa == 0.0 {
         return Some(a);
     }

@@ -2,11 +2,13 @@
 //! time.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Branch, Clearance, Crank, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
+    Branch, Clearance, Crank, Friction, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
 use slider_crank::simulate::{
     Estimated, Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
@@ -384,6 +386,36 @@ fn the_flywheel_gives_the_wanted_fluctuation() {
             }
         }
     }
+}
+
+/// The fluctuation is nearly in proportion to the inverse of the inertia: few steady states are searched for a flywheel.
+#[test]
+fn a_flywheel_costs_few_steady_states() {
+    let evaluations = |fluctuation: Option<f64>| {
+        let count = Arc::new(AtomicU64::new(0));
+        let counted = count.clone();
+        let reads = Variables::THETA.or(Variables::OMEGA);
+        let torque = Load::function(reads, move |now| {
+            counted.fetch_add(1, Relaxed);
+            3.0 + 5.0 * now.theta.sin() - 0.1 * now.omega
+        });
+        let mut scene = crank(0.02)
+            .slider(Slider { mass: 0.5 })
+            .torque(torque.with_period(Period::TURN))
+            .start(0.0, 30.0);
+        scene.friction = Some(Friction {
+            coefficient: 0.1,
+            static_coefficient: 0.1,
+        });
+        let options = SteadyOptions {
+            fluctuation,
+            ..SteadyOptions::default()
+        };
+        steady_state(&scene, &options).unwrap();
+        count.load(Relaxed)
+    };
+    let [without, with] = [None, Some(1e-3)].map(evaluations);
+    assert!(with < 6 * without, "{with} and {without}");
 }
 
 /// δ = ΔE/(I ω²) for a heavy flywheel, with ΔE = 2 τ1 for a torque τ1 sin θ (Norton, Design of Machinery, ch. 11).

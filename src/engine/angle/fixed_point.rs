@@ -65,23 +65,9 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     let first = map.first();
     let (low, high, approached) = bracket(map, first, step)?;
     // Close to the root rounding may change a sign: the values that made the bracket are kept.
-    let known = |kinetic: f64| {
-        let mut ends = [low, high].into_iter();
-        ends.find(|end| end.kinetic == kinetic).map(|end| end.gain)
-    };
-    let mut failed = None;
-    let kinetic = root::bracketed(
-        |kinetic| {
-            let gain = known(kinetic).map_or_else(|| map.gain(kinetic), Ok);
-            gain.unwrap_or_else(|why| {
-                failed = Some(why);
-                f64::NAN
-            })
-        },
-        low.kinetic,
-        high.kinetic,
-    );
-    let kinetic = kinetic.ok_or(failed.unwrap_or(NotApplicable::NotSmooth))?;
+    let ends = [low, high].map(|end| (end.kinetic, end.gain));
+    let kinetic = root::between(|kinetic| map.gain(kinetic), ends)?;
+    let kinetic = kinetic.ok_or(NotApplicable::NotSmooth)?;
     let (slope, slope_error) = slope(map, kinetic)?;
     Ok(FixedPoint {
         kinetic,

@@ -26,32 +26,22 @@ pub(super) fn size(
             "a flywheel is for a speed that varies",
         ));
     }
+    // Nearly linear in the inertia: the fluctuation is nearly proportional to its inverse.
+    let excess_of = |fluctuation: f64| 1.0 - wanted / fluctuation;
     let excess = |added: f64| -> Result<f64, Error> {
         let found = find(&with(scene, added), speed, options)?;
-        Ok((found.fluctuation() / wanted).ln())
+        Ok(excess_of(found.fluctuation()))
     };
-    let (low, high) = match present.value > wanted {
-        true => heavier(scene, &excess)?,
-        false => lighter(scene, wanted, &excess)?,
+    let now = (0.0, excess_of(present.value));
+    let ends = match now.1 > 0.0 {
+        true => heavier(scene, now, &excess)?,
+        false => lighter(scene, wanted, now, &excess)?,
     };
-    let mut failed = None;
-    let added = root::bracketed(
-        |added| {
-            excess(added).unwrap_or_else(|error| {
-                failed = Some(error);
-                f64::NAN
-            })
-        },
-        low,
-        high,
-    );
-    let Some(added) = added else {
-        return Err(failed.unwrap_or_else(|| {
-            Error::refused(
-                format!("no flywheel was found for a coefficient of fluctuation of {wanted}"),
-                "ask for another coefficient",
-            )
-        }));
+    let Some(added) = root::between(excess, ends)? else {
+        return Err(Error::refused(
+            format!("no flywheel was found for a coefficient of fluctuation of {wanted}"),
+            "ask for another coefficient",
+        ));
     };
     let scene = with(scene, added);
     scene.check()?;
@@ -60,7 +50,7 @@ pub(super) fn size(
     let fluctuation = verified.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
     let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;
-    let slope = (excess(added + step)? - excess(added)?) / step;
+    let slope = (excess(added + step)? - excess_of(fluctuation.value)) / step;
     let off = (fluctuation.value - wanted).abs() + fluctuation.error;
     Ok(Flywheel {
         wanted_fluctuation: wanted,
@@ -74,19 +64,23 @@ pub(super) fn size(
     })
 }
 
+/// Inertia added, kg m², and the excess of the fluctuation.
+type End = (f64, f64);
 type Excess<'a> = dyn Fn(f64) -> Result<f64, Error> + 'a;
 
 /// Brackets the inertia to be added, kg m², for a smaller fluctuation, from none upwards.
-fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
+fn heavier(scene: &Scene, mut low: End, excess: &Excess<'_>) -> Result<[End; 2], Error> {
     let own = Equation::new(scene).terms(scene.motion.angle).inertia.m;
-    let (mut low, mut high) = (0.0, 0.1 * own);
+    // A tenth more than a fluctuation in proportion to the inverse of the inertia needs.
+    let mut high = 1.1 * own * low.1 / (1.0 - low.1);
     // With a trillion times the inertia the fluctuation is next to rounding.
     let largest = 1e12 * own;
     while high < largest {
-        if excess(high)? <= 0.0 {
-            return Ok((low, high));
+        let end = (high, excess(high)?);
+        if end.1 <= 0.0 {
+            return Ok([low, end]);
         }
-        (low, high) = (high, 2.0 * high);
+        (low, high) = (end, 2.0 * high);
     }
     Err(Error::refused(
         format!("no flywheel up to {high:.1e} kg m2 makes the coefficient of fluctuation so small"),
@@ -96,30 +90,30 @@ fn heavier(scene: &Scene, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
 
 /// Brackets the inertia to be taken away, kg m² and negative, for a larger fluctuation: from all that can be taken
 /// away, or where the crank then stops, from as much as lets it go on.
-fn lighter(scene: &Scene, wanted: f64, excess: &Excess<'_>) -> Result<(f64, f64), Error> {
+fn lighter(scene: &Scene, wanted: f64, now: End, excess: &Excess<'_>) -> Result<[End; 2], Error> {
     let crank = scene.crank.unwrap_or_default();
     let most = crank.inertia - crank.mass * (crank.cg.powi(2) + crank.cg_lateral.powi(2));
-    let (mut kept, mut stops, mut tried) = (0.0, -most, -most);
-    let mut largest = excess(0.0)?;
+    let (mut kept, mut stops, mut tried) = (now, -most, -most);
+    let mut largest = now.1;
     // Bisection towards an inertia with which the crank stops, to the last digit.
     for _ in 0..f64::MANTISSA_DIGITS {
         match excess(tried) {
-            Ok(excess) if excess >= 0.0 => return Ok((tried, kept)),
+            Ok(excess) if excess >= 0.0 => return Ok([(tried, excess), kept]),
             Ok(excess) => {
                 largest = largest.max(excess);
                 if tried == -most {
                     break;
                 }
-                kept = tried;
+                kept = (tried, excess);
             }
             Err(_) => stops = tried,
         }
-        tried = 0.5 * (kept + stops);
+        tried = 0.5 * (kept.0 + stops);
     }
     Err(Error::refused(
         format!(
             "a coefficient of fluctuation of {wanted} needs a crank of less inertia than its mass has, or less than none; the largest that was reached is {:.6}",
-            wanted * largest.exp()
+            wanted / (1.0 - largest)
         ),
         "ask for a smaller coefficient",
     ))
