@@ -57,12 +57,12 @@ impl StaticAnalysis {
         let is_zero = |theta: f64| torque(theta) == 0.0 || zeros.contains(&theta);
         let without = |theta: f64, balance| if is_zero(theta) { 0.0 } else { of(balance) };
         let with = |_, balance| nearer_edge(&balance).unwrap_or(f64::NAN);
-        let is_with = self.friction > 0.0;
         [
             self.minima(cut, &grid, without),
-            is_with
-                .then(|| self.minima(cut, &grid, with))
-                .unwrap_or_default(),
+            match self.friction > 0.0 {
+                true => self.minima(cut, &grid, with),
+                false => Vec::new(),
+            },
         ]
     }
 
