@@ -64,6 +64,11 @@ pub(super) fn counted(count: usize, noun: &str) -> String {
 /// Sizes of the numbers that messages write without exponent.
 const WITHOUT_EXPONENT: Range<f64> = 1e-6..1e15;
 
+/// Formats a number with all its digits.
+pub(crate) fn unrounded(value: f64) -> String {
+    rounded(value, 17, WITHOUT_EXPONENT)
+}
+
 /// Formats a number with at most `digits` significant digits, without trailing zeros; without exponent if its size is
 /// in `plain`.
 pub(crate) fn rounded(value: f64, digits: usize, plain: Range<f64>) -> String {

@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::MotionState;
 use crate::mechanism::Jam;
-use crate::scene::Load;
+use crate::scene::{Load, unrounded};
 
 /// End of a run before its goal.
 #[derive(Clone, Debug)]
@@ -55,7 +55,7 @@ pub enum Why {
     /// The last turning points led no further than between two angles: the crank does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {} rad and {} rad",
-        Turns(*turns), reach[0], reach[1]
+        Turns(*turns), unrounded(reach[0]), unrounded(reach[1])
     )]
     Caught {
         /// Number of turns asked for.
@@ -75,7 +75,8 @@ pub enum Why {
     },
     /// The crank stalled near a balance of its torques.
     #[error(
-        "the crank stalled at theta = {theta} rad, {torques}{}",
+        "the crank stalled at theta = {} rad, {torques}{}",
+        unrounded(*theta),
         turns.map_or_else(String::new, |turns| format!(" and does not complete {}", Turns(turns)))
     )]
     Stalled {
@@ -101,8 +102,8 @@ pub enum Why {
     Locked,
     /// A load has no finite value.
     #[error(
-        "a load has no finite value at t = {} s, theta = {} rad, omega = {} rad/s{}",
-        asked.t, asked.angle.radians(), asked.speed, outside(load.as_ref())
+        "a load has no finite value at {}{}",
+        state(asked), outside(load.as_ref())
     )]
     NoValue {
         /// State of the evaluation.
@@ -180,13 +181,8 @@ impl Why {
 
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let MotionState { t, angle, speed } = self.at;
-        let theta = angle.radians();
         let why = &self.why;
-        write!(
-            f,
-            "{why}: stopped at t = {t} s, theta = {theta} rad, omega = {speed} rad/s"
-        )?;
+        write!(f, "{why}: stopped at {}", state(&self.at))?;
         why.cure().map_or(Ok(()), |cure| write!(f, "; {cure}"))
     }
 }
@@ -212,6 +208,11 @@ impl fmt::Display for Turns {
         let unit = if self.0 == 1.0 { "turn" } else { "turns" };
         write!(f, "{} {unit}", self.0)
     }
+}
+
+fn state(at: &MotionState) -> String {
+    let [t, theta, omega] = [at.t, at.angle.radians(), at.speed].map(unrounded);
+    format!("t = {t} s, theta = {theta} rad, omega = {omega} rad/s")
 }
 
 fn held(by: Option<&Torques>) -> String {
@@ -242,7 +243,7 @@ pub struct Torques {
 impl fmt::Display for Torques {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = if self.by_motor { "motor" } else { "crank" };
-        let (drive, load) = (self.drive, self.load);
+        let [drive, load] = [self.drive, self.load].map(unrounded);
         write!(f, "{what} torque {drive} N m, load {load} N m")
     }
 }
