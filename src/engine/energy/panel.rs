@@ -220,13 +220,14 @@ impl Panel {
         let (mut low, mut high) = (-1.0, 1.0);
         let mut x = 2.0 * after / total - 1.0;
         for _ in 0..60 {
-            let excess = time.value(x) - after;
+            let [reached, slope] = time.values_with(&self.slope, x);
+            let excess = reached - after;
             if excess > 0.0 {
                 high = x;
             } else {
                 low = x;
             }
-            let newton = x - excess / self.slope.value(x);
+            let newton = x - excess / slope;
             let next = if newton >= low && newton <= high {
                 newton
             } else {

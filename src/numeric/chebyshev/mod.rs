@@ -84,6 +84,20 @@ impl Series {
         (self.coefficients[0] - b2) + x * b1
     }
 
+    /// Returns the values of this series and another of its degree at `x`: two recurrences side by side take the time of
+    /// one.
+    pub fn values_with(&self, other: &Series, x: f64) -> [f64; 2] {
+        let twice = 2.0 * x;
+        let (mut b1, mut b2) = ([0.0; 2], [0.0; 2]);
+        let pairs = self.terms().iter().zip(other.terms());
+        for (c, d) in pairs.skip(1).rev() {
+            for (j, c) in [*c, *d].into_iter().enumerate() {
+                (b1[j], b2[j]) = ((c - b2[j]) + twice * b1[j], b1[j]);
+            }
+        }
+        [0, 1].map(|j| ([self, other][j].coefficients[0] - b2[j]) + x * b1[j])
+    }
+
     /// Replaces some places by the values there.
     pub fn values(&self, places: &mut [f64]) {
         for places in places.chunks_mut(2 * LANES) {
