@@ -83,7 +83,9 @@ fn heavier(scene: &Scene, mut low: End, excess: &Excess<'_>) -> Result<[End; 2],
         (low, high) = (end, 2.0 * high);
     }
     Err(Error::refused(
-        format!("no flywheel up to {high:.1e} kg m2 makes the coefficient of fluctuation so small"),
+        format!(
+            "no flywheel up to {largest:.1e} kg m2 makes the coefficient of fluctuation so small"
+        ),
         "ask for a larger coefficient",
     ))
 }
