@@ -35,7 +35,8 @@ pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use model::{LoadKey, LoadOf, MovedScene, Scene};
 #[cfg(feature = "cli")]
-pub(crate) use number::{rounded, unrounded};
+pub(crate) use number::rounded;
+pub(crate) use number::unrounded;
 pub use parts::{
     Branch, Crank, Every, Extent, Friction, Geometry, Gravity, InertiaAbout, Motion, MotionKind,
     Rod, RodModel, Run, Slider,
