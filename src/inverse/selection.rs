@@ -1,6 +1,6 @@
-//! Choice between polynomial and smoother, and the uncertainty that the choice adds (Burnham and Anderson, Model Selection
-//! and Multimodel Inference, 2nd ed. 2002, chapter 4): the degree and the kind are estimated, too, and a term that is left out
-//! for its size may be as large as its error.
+//! Choice between polynomial and smoother, and the uncertainty that the choice adds (Burnham and Anderson, Model
+//! Selection and Multimodel Inference, 2nd ed. 2002, chapter 4): the degree and the kind are estimated, too, and a term
+//! that is left out for its size may be as large as its error.
 
 use super::fitted::Fitted;
 use super::record::Record;
@@ -8,8 +8,8 @@ use crate::numeric::parallel;
 use crate::numeric::polynomial_fit::PolynomialFit;
 
 /// Akaike's criterion AICc for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297) by the root mean square of the
-/// residuals and the number of parameters with those of the noise; of a smoother by its effective parameters (Hurvich, Simonoff
-/// and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
+/// residuals and the number of parameters with those of the noise; of a smoother by its effective parameters (Hurvich,
+/// Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
 pub(super) fn criterion(samples: usize, spread: f64, parameters: f64) -> f64 {
     let n = samples as f64;
     2.0 * n * spread.max(f64::MIN_POSITIVE).ln()

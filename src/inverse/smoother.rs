@@ -82,7 +82,8 @@ impl Problem<'_> {
     }
 
     /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
-    /// first. Noise of the samples is correlated where that is suspected or the prediction errors say so, and the likelihood agrees.
+    /// first. Noise of the samples is correlated where that is suspected or the prediction errors say so, and the
+    /// likelihood agrees.
     pub fn likeliest(&self, kinematic: Smoothed, suspected: bool) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, &[]);
         let Some(mut found) = self.first_converged(&white, &kinematic) else {
