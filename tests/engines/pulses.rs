@@ -116,6 +116,53 @@ fn random_pulses_are_met_by_every_method() {
     assert!(compared > 2 * count, "{compared} of {count}");
 }
 
+/// A bell in time that turns a bare crank: before and after it the speed is constant, and the angle moves as if the
+/// whole impulse acted at the middle of the bell. The time is rounded, which is much of a narrow bell.
+#[test]
+fn the_rounding_of_the_time_under_a_narrow_pulse_is_stated() {
+    let mut chance = Chance(11);
+    for case in 0..200 {
+        let (speed, duration) = (chance.between(5.0, 60.0), chance.between(1.0, 10.0));
+        let centre = duration * chance.between(0.1, 0.9);
+        let width = 10f64.powf(chance.between(-4.5, -2.5));
+        let gain = speed * chance.between(-0.5, 1.0);
+        let inertia = MACHINE[2];
+        let height = inertia * gain / (width * PI.sqrt());
+        let torque = format!("{height:?}*exp(-((t-{centre:?})/{width:?})^2)");
+        let crank = Crank {
+            inertia,
+            ..Crank::default()
+        };
+        let scene = Scene::new(MACHINE[0], MACHINE[1])
+            .crank(crank)
+            .torque(formula(&torque))
+            .start(0.0, speed)
+            .duration(duration);
+        let summary = run(&scene, Method::Angle).expect("a run").summary;
+        let stated = summary.error_estimate.expect("errors");
+        let end = [
+            (
+                summary.last.theta_rad,
+                speed * duration + gain * (duration - centre),
+                stated.theta_rad,
+            ),
+            (
+                summary.last.omega_rad_per_s,
+                speed + gain,
+                stated.omega_rad_per_s,
+            ),
+        ];
+        for (value, exact, stated) in end {
+            let of_reference = 4.0 * f64::EPSILON * exact.abs();
+            let off = (value - exact).abs();
+            assert!(
+                off <= 2.0 * stated + of_reference,
+                "case {case}: off by {off:e}, stated {stated:e}, {torque}"
+            );
+        }
+    }
+}
+
 /// Seed, and angle and speed at the end. 141: a pulse over the speed that is passed inside a pulse in time, behind its
 /// edge; 368: pulses in time far narrower than the run; both by DOP853 of SciPy at 1e-13, in pieces between all edges.
 /// 266: a bell over the speed whose edges are passed 185 times; by the extrapolated midpoint rule in quadruple

@@ -1,9 +1,11 @@
 //! Generalized forces at the points of a panel, from the kinetic energy there.
 
+use std::array::from_fn;
+
 use super::Dynamics;
 use super::panel::{PanelStart, PanelTable};
 use crate::numeric::LANES;
-use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
 use crate::numeric::enclosure::Interval;
 
 /// Generalized forces at the points of a panel, N m.
@@ -13,8 +15,10 @@ pub(super) struct Forces {
     pub non_conservative: Values,
     /// Speeds, rad/s.
     pub speeds: Values,
-    /// Times after the start of the panel, s.
+    /// Times after the rounded time at the start of the panel, s.
     times: Values,
+    /// State loads.
+    state_loads: Values,
 }
 
 impl Forces {
@@ -25,6 +29,7 @@ impl Forces {
             non_conservative: zero,
             speeds: zero,
             times: zero,
+            state_loads: zero,
         }
     }
 
@@ -61,13 +66,13 @@ impl Forces {
                 let mut slopes = [0.0; MAX_DEGREE + 1];
                 self.fill_slopes(panel, &mut slopes)?;
                 self.times = panel.rule.integrals(&slopes);
+                for time in &mut self.times[..count] {
+                    *time += start.t_low;
+                }
             }
-            let whole = count - count % LANES;
-            for j in (0..whole).step_by(LANES) {
-                self.add_state_loads::<D, LANES>(dynamics, panel, start, j);
-            }
-            for j in whole..count {
-                self.add_state_loads::<D, 1>(dynamics, panel, start, j);
+            self.state_loads = self.state_loads_at(dynamics, panel, start, &self.times);
+            for j in 0..count {
+                self.non_conservative[j] += self.state_loads[j];
             }
         }
         let (force, non_conservative) =
@@ -106,19 +111,44 @@ impl Forces {
         is_finite(filled).then_some(())
     }
 
-    /// Adds the state loads at N points.
-    fn add_state_loads<D: Dynamics, const N: usize>(
-        &mut self,
+    /// Returns the state loads at the points, at these times after the rounded start of the panel, s.
+    fn state_loads_at<D: Dynamics>(
+        &self,
         dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
-        first: usize,
-    ) {
-        let state = |j| panel.state(start.turns, j, start.t + self.times[j], self.speeds[j]);
-        let forces = dynamics.state_loads(&std::array::from_fn::<_, N, _>(|i| state(first + i)));
-        for (non_conservative, force) in self.non_conservative[first..].iter_mut().zip(forces) {
-            *non_conservative += force;
+        times: &Values,
+    ) -> Values {
+        let count = panel.rule.degree() + 1;
+        let state = |j: usize| panel.state(start.turns, j, start.t + times[j], self.speeds[j]);
+        let mut forces = [0.0; MAX_DEGREE + 1];
+        let whole = count - count % LANES;
+        for j in (0..whole).step_by(LANES) {
+            let states = from_fn::<_, LANES, _>(|i| state(j + i));
+            forces[j..j + LANES].copy_from_slice(&dynamics.state_loads(&states));
         }
+        for j in whole..count {
+            [forces[j]] = dynamics.state_loads(&[state(j)]);
+        }
+        forces
+    }
+
+    /// Returns the error of the work on a panel due to times rounded at the points, independently, over machine epsilon,
+    /// J: a late load acts at another angle. A load that does not change in time is not late.
+    pub fn uncertain_by_time<D: Dynamics>(
+        &self,
+        dynamics: &D,
+        panel: &PanelTable<D::Place>,
+        start: PanelStart,
+    ) -> f64 {
+        let count = panel.rule.degree() + 1;
+        let frozen = self.state_loads_at(dynamics, panel, start, &[0.0; MAX_DEGREE + 1]);
+        let due_to_time = |j: usize| self.state_loads[j] - frozen[j];
+        let between = (1..count).map(|j| (due_to_time(j) - due_to_time(j - 1)).powi(2));
+        let change = between.sum::<f64>().sqrt();
+        // Two deviations, of 0.29 units each, of two roundings: of the time, and of what a load makes of it.
+        let roundings = 2.0 * 0.29 * std::f64::consts::SQRT_2;
+        roundings * (start.t * largest(&self.speeds[..count])).abs() * change
     }
 
     /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.

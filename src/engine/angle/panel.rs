@@ -10,8 +10,10 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 /// State at the start of a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PanelStart {
-    /// Time, s.
+    /// Rounded time, s.
     pub t: f64,
+    /// Remainder of the rounded time, s.
+    pub t_low: f64,
     /// Kinetic energy, J.
     pub kinetic: f64,
     /// Whole turns to be added to the angles of the panel.

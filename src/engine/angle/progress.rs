@@ -48,12 +48,14 @@ impl Progress {
         }
     }
 
-    /// Moves on over a piece of a panel and returns the motion on it.
+    /// Moves on over a piece of a panel and returns the motion on it. Rounded times change the work by `mistimed`, over
+    /// machine epsilon, J.
     pub fn pass<P: Copy>(
         &mut self,
         table: &PanelTable<P>,
         piece: Piece,
         solution: &PanelSolution,
+        mistimed: f64,
     ) -> SolvedPanel {
         let rule = table.rule;
         let force = solution.non_conservative();
@@ -72,7 +74,7 @@ impl Progress {
         let count = rule.degree() + 1;
         let misplaced = [&table.table.force, &table.table.push]
             .map(|forces| uncertain(&piece, &forces[..count]));
-        let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1]);
+        let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1] + mistimed);
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;

@@ -17,6 +17,7 @@ use super::{Dynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::MotionState;
 use crate::numeric::enclosure::Interval;
+use crate::numeric::exact::two_sum;
 
 /// State of a run over the angle, with the panels of a cycle.
 pub(super) struct PanelStepper<'a, D: Dynamics> {
@@ -25,6 +26,8 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     pub(super) panels: CyclePanels<D::Place>,
     /// Store that the panels are left to after the run; none for a comparison.
     shared: Option<&'a RefCell<Panels<D::Place>>>,
+    /// True for a second run, which states the roundoff of both.
+    is_second: bool,
     /// Motion on the last panel.
     solution: PanelSolution,
     /// Known run that supplies the first guess.
@@ -85,6 +88,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             fine,
             panels: CyclePanels::new(panels),
             shared,
+            is_second: resolution.cuts_unevenly,
             solution: PanelSolution::new(),
             guide: resolution.guide,
             start: MotionState { angle, ..from },
@@ -129,8 +133,10 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             if self.limit.is_reached(self.cost()) {
                 return Err(NotApplicable::WorkLimit);
             }
+            let (t, t_low) = two_sum(self.start.t, self.progress.t.0);
             let start = PanelStart {
-                t: self.start.t + self.progress.t.0,
+                t,
+                t_low: t_low + self.progress.t.1,
                 kinetic: self.progress.kinetic,
                 turns: self.start.angle.turns + self.progress.turns,
                 direction: self.start.speed.signum(),
@@ -155,7 +161,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
                 Switching::Never => {
                     panel.past.remember(&solution.kinetic);
                     self.panels.remember_rest();
-                    return Ok(self.pass(piece, None));
+                    return Ok(self.pass(start, piece, None));
                 }
                 Switching::At(share) => {
                     panel.past.remember(&solution.kinetic);
@@ -163,7 +169,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
                     let [first, rest] = piece.cut(share);
                     let rest = self.panels.rest(self.dynamics, rest.from, self.fine)?;
                     self.panels.remember_rest();
-                    return Ok(self.pass(first, Some(rest)));
+                    return Ok(self.pass(start, first, Some(rest)));
                 }
             }
         }
@@ -220,10 +226,21 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
     }
 
     /// Moves on over a piece of the next panel; `rest` is the remainder of the panel in this turn.
-    fn pass(&mut self, piece: Piece, rest: Option<PanelTable<D::Place>>) -> SolvedPanel {
-        let solved = self
-            .progress
-            .pass(self.panels.next(), piece, &self.solution);
+    fn pass(
+        &mut self,
+        start: PanelStart,
+        piece: Piece,
+        rest: Option<PanelTable<D::Place>>,
+    ) -> SolvedPanel {
+        let (panel, solution) = (self.panels.next(), &self.solution);
+        let mistimed = if self.is_second && self.dynamics.reads_time() {
+            self.evaluations += panel.rule.degree() as u64 + 1;
+            let forces = &solution.forces;
+            forces.uncertain_by_time(self.dynamics, panel, start)
+        } else {
+            0.0
+        };
+        let solved = self.progress.pass(panel, piece, solution, mistimed);
         self.evaluations += self.solution.evaluations;
         if self.panels.advance(rest) {
             self.progress.turns += self.start.speed.signum();
