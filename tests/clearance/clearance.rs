@@ -430,6 +430,58 @@ fn a_smaller_clearance_is_nearer_to_the_ideal_joint() {
     }
 }
 
+/// Gravity along the guide lets slider and rod fall through the clearance and bounce, with the crank at rest: the contact
+/// force is the only other force on them.
+#[test]
+fn the_contact_force_of_a_falling_slider_is_its_change_of_momentum() {
+    let (standard, duration) = (9.80665, 0.03);
+    let rod = Rod {
+        mass: 1.56,
+        cg: 0.155,
+        inertia: 0.0146,
+        ..Rod::default()
+    };
+    let gravity = Gravity {
+        acceleration: standard,
+        direction: 0.0,
+    };
+    for (joint, mass) in [(Joint::WristPin, 1.95), (Joint::CrankPin, 1.95 + 1.56)] {
+        for law in [ContactLaw::LankaraniNikravesh, ContactLaw::Hertz] {
+            let radial = 2e-4;
+            let clearance = Clearance {
+                law,
+                eccentricity: Some(0.0),
+                ..steel(joint, radial, 0.01, 0.9)
+            };
+            for tolerance in [1e-4, 1e-6] {
+                let scene = Scene {
+                    clearance: Some(clearance),
+                    ..Scene::new(0.14, 0.31)
+                        .rod(rod)
+                        .slider(Slider { mass: 1.95 })
+                        .gravity(gravity)
+                        .constant_speed(0.0, 0.0)
+                        .duration(duration)
+                        .tolerance(tolerance)
+                };
+                let contact = run(&scene).clearance.expect("a loose joint");
+                assert!(contact.impacts >= 2, "{} impacts", contact.impacts);
+                let impulse = mass * (standard * duration - contact.last.v_m_per_s);
+                let off = contact.force_mean_n * duration / impulse - 1.0;
+                assert!(off.abs() < 5.0 * tolerance, "{off:e} at {tolerance:e}");
+                // The first fall is the deepest; without loss all its energy is stored.
+                if law == ContactLaw::Hertz {
+                    let (depth, stiffness) =
+                        (contact.penetration_peak_m, contact.stiffness_n_per_m_1_5);
+                    let stored = 0.4 * stiffness.expect("a wall") * depth.powf(2.5);
+                    let off = stored / (mass * standard * (radial + depth)) - 1.0;
+                    assert!(off.abs() < 5.0 * tolerance, "{off:e} at {tolerance:e}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_massless_link_keeps_its_length_and_the_energy() {
     for joint in [Joint::CrankPin, Joint::WristPin] {

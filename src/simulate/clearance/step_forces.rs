@@ -8,10 +8,10 @@ use super::motion::touch;
 use crate::engine::PIECES;
 use crate::engine::contact::{AcceptedStep, Phase, Sample};
 use crate::numeric::interpolate::Quintic;
-use crate::numeric::{maximum, root};
+use crate::numeric::{gauss, maximum, root};
 
 impl<const N: usize> ContactFollower<'_, N> {
-    /// Adds time, impulse and peak of the contact force, by Simpson's rule along the quintic of the depth.
+    /// Adds time, impulse and peak of the contact force.
     pub(super) fn follow_contact(&mut self, accepted: &mut AcceptedStep<'_, N>) {
         let begin = accepted.start[0];
         let end = self.until(accepted);
@@ -29,15 +29,16 @@ impl<const N: usize> ContactFollower<'_, N> {
         self.seen.record.spread(begin, end, &tally);
     }
 
-    /// Returns the statistics of the first `h` seconds of a step in contact.
+    /// Returns the statistics of the first `h` seconds of a step in contact: by Gauss's rule along the quintic of the
+    /// depth, over the square root of a depth that changes evenly, in which the force is smooth.
     fn pressed(&self, accepted: &mut AcceptedStep<'_, N>, approach: f64, h: f64) -> Tally {
         let (length, begin) = (accepted.length(), accepted.start[0]);
-        let (before, after) = (&accepted.before, &accepted.after);
+        let (before, after) = (accepted.before, accepted.after);
         let end = |s: &Sample<N>| {
             let bend = 0.5 * length * length * s.depth_acceleration;
             [length * s.depth_rate, bend]
         };
-        let along = Quintic::new(end(before), end(after), after.depth - before.depth);
+        let along = Quintic::new(end(&before), end(&after), after.depth - before.depth);
         let law = self.model.mechanism.force();
         let depth = |u: f64| {
             let [deeper, rate, bend] = along.at(u);
@@ -52,9 +53,24 @@ impl<const N: usize> ContactFollower<'_, N> {
             )
         };
         let part = h / length;
-        let (first, middle, last) = (at(0.0), at(0.5 * part), at(part));
-        let mut tally = simpson([first.0, middle.0, last.0], h);
-        tally.deepest = first.1.max(middle.1).max(last.1);
+        let [first, last] = [at(0.0), at(part)];
+        let mut tally = Tally {
+            touching: h,
+            peak: first.0.max(last.0),
+            deepest: first.1.max(last.1),
+            ..Tally::default()
+        };
+        let [from, to] = [first.1, last.1].map(f64::sqrt);
+        for (w, weight) in *gauss::RULE_6 {
+            let root = from + (to - from) * w;
+            let (u, rate) = match from + to > 0.0 {
+                true => (w * (from + root) / (from + to), 2.0 * root / (from + to)),
+                false => (w, 1.0),
+            };
+            let (force, _) = at(part * u);
+            tally.impulse += h * weight * rate * force;
+            tally.squared += h * weight * rate * force * force;
+        }
         // A maximum inside the step lies where the derivative falls through zero.
         let top = |derivative: &dyn Fn(f64) -> f64| {
             let falls = derivative(0.0) > 0.0 && derivative(part) < 0.0;
@@ -62,13 +78,18 @@ impl<const N: usize> ContactFollower<'_, N> {
                 .then(|| root::bracketed(derivative, 0.0, part))
                 .flatten()
         };
+        // The quintic gives the place, the motion a value that may be the largest, 5 % above that of the quintic.
+        let peak_over_quintic = 1.05;
         if let Some(u) = top(&|u| depth(u)[1]) {
-            tally.deepest = tally.deepest.max(at(u).1);
+            let mut deepest = at(u).1;
+            if peak_over_quintic * deepest > self.seen.total.deepest {
+                let s = self.model.state(&accepted.at(begin + u * length));
+                deepest = self.model.mechanism.depth(&s).0;
+            }
+            tally.deepest = tally.deepest.max(deepest);
         }
         if let Some(u) = top(&|u| law.growth(depth(u), approach)) {
             let mut force = at(u).0;
-            // The quintic gives the place, the motion a force that may be the largest, 5 % above that of the quintic.
-            let peak_over_quintic = 1.05;
             if peak_over_quintic * force > self.seen.total.peak {
                 let s = self.model.state(&accepted.at(begin + u * length));
                 let touch = touch(Phase::Contact { approach }, None);
