@@ -6,7 +6,7 @@
 
 use super::branch_tracking::LARGEST_VALUE_ERROR;
 use super::measurement_model::{Scale, Sensor};
-use crate::mechanism::{Limits, Linkage};
+use crate::mechanism::{DeadCentre, Limits, Linkage};
 use crate::numeric::median::{median, range};
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
 use crate::numeric::root::bracketed;
@@ -24,21 +24,9 @@ const ERRORS_OFF: f64 = 3.0;
 /// Returns the sensor as it is and, if turning points are off the dead centres, sensors corrected to match them.
 pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<Sensor<'a>> {
     let mut list = vec![sensor];
-    if sensor.measured != Measured::X {
-        return list;
-    }
-    let dead_centres = Limits::new(sensor.linkage, 0.0).dead_centres;
-    let mut found: Vec<StrokeEnd> = Vec::new();
-    for dead_centre in dead_centres {
-        let bend = sensor.linkage.pose(dead_centre.theta).d2x;
-        let turn = turning_point(measurement, -bend.signum(), sensor.linkage.r);
-        found.extend(turn.map(|[shown, error]| StrokeEnd {
-            at: dead_centre.x,
-            shown,
-            error,
-        }));
-    }
-    found.retain(|turn| (turn.shown - turn.at).abs() < LARGEST_VALUE_ERROR * sensor.linkage.r);
+    let mut found = stroke_ends(&sensor, measurement);
+    let at = |turn: &StrokeEnd| sensor.scale.shift + sensor.scale.stretch * turn.at;
+    found.retain(|turn| (turn.shown - at(turn)).abs() < LARGEST_VALUE_ERROR * sensor.linkage.r);
     if !found.iter().any(StrokeEnd::is_off) {
         return list;
     }
@@ -54,6 +42,37 @@ pub(super) fn sensors<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Vec<
     }));
     list.extend(scales.into_iter().map(|scale| Sensor { scale, ..sensor }));
     list
+}
+
+/// Returns the sensor with the zero that puts the turning points about the dead centres, if the samples show both.
+pub(super) fn centred<'a>(sensor: Sensor<'a>, measurement: &Measurement) -> Sensor<'a> {
+    let [a, b] = &stroke_ends(&sensor, measurement)[..] else {
+        return sensor;
+    };
+    let shift = 0.5 * (a.shown + b.shown - a.at - b.at);
+    let scale = Scale {
+        shift,
+        ..Scale::TRUE
+    };
+    Sensor { scale, ..sensor }
+}
+
+/// Returns the turning points of a position sensor next to the dead centres.
+fn stroke_ends(sensor: &Sensor<'_>, measurement: &Measurement) -> Vec<StrokeEnd> {
+    if sensor.measured != Measured::X {
+        return Vec::new();
+    }
+    let of = |dead_centre: DeadCentre| {
+        let bend = sensor.linkage.pose(dead_centre.theta).d2x;
+        let [shown, error] = turning_point(measurement, -bend.signum(), sensor.linkage.r)?;
+        Some(StrokeEnd {
+            at: dead_centre.x,
+            shown,
+            error,
+        })
+    };
+    let dead_centres = Limits::new(sensor.linkage, 0.0).dead_centres;
+    dead_centres.into_iter().filter_map(of).collect()
 }
 
 /// Returns the scale of a sensor on a mechanism with other lengths. Where the turning points are off its dead centres, the

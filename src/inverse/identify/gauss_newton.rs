@@ -69,7 +69,7 @@ impl<'a> Search<'a> {
                 Some(_) => f64::INFINITY,
                 None => smooth.noise.sigma,
             },
-            correlated: smooth.noise.correlated,
+            correlated: None,
         };
         Search { trials, path }
     }
@@ -79,7 +79,14 @@ impl<'a> Search<'a> {
     pub fn run(mut self) -> Result<Found, Error> {
         let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
         let first = self.path.clone();
-        let alone = self.climbed(start.clone(), false).ok();
+        let mut alone = self.climbed(start.clone(), false).ok();
+        // The noise is judged beside the values found: what a first guess of them leaves is correlated, too.
+        if let Some(found) = alone.as_ref().filter(|found| found.settled) {
+            self.trials.correlated = self.trials.correlation(found)?;
+            if self.trials.correlated.is_some() {
+                alone = self.climbed(found.values.clone(), false).ok();
+            }
+        }
         let from = match alone.as_ref().filter(|found| found.settled) {
             Some(found) => found.values.clone(),
             None => {

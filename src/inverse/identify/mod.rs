@@ -20,6 +20,7 @@ pub use values::{FreeValue, IdentifiedValue};
 
 use self::gauss_newton::Search;
 use self::optimum::Found;
+use super::alignment;
 use super::branch_choice::crank_angles;
 use super::first_path::coarse;
 use super::grid::Grid;
@@ -92,13 +93,16 @@ fn identify_among(
         measured: measurement.measured(),
         scale: Scale::TRUE,
     };
+    let sensor = match free.iter().any(|one| one.is_sensor_zero) {
+        true => alignment::centred(sensor, measurement),
+        false => sensor,
+    };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion)?;
     let (mut problem, smooth) = kinematic(measurement, &angles, &equation, None);
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }
     problem.record.beside.clear();
-    problem.record.sensor.scale = Scale::TRUE;
     let theta = match problem.record.is_linear() {
         true => problem.record.values.clone(),
         false => angles.theta.clone(),
@@ -107,11 +111,9 @@ fn identify_among(
         problem.grid = Grid::finer(&problem.record.times, &theta, LONGEST);
     }
     let first = coarse(&problem, &theta);
-    let mut smooth = problem.kinematic(first, smooth.noise.sigma);
-    let (likeliest, _) = problem.likeliest(smooth.clone(), false);
-    if likeliest.noise.correlated.is_some() {
-        smooth.noise = likeliest.noise;
-    }
+    let smooth = problem.kinematic(first, smooth.noise.sigma);
+    // The first path is by the zero and gain that fit the scene's lengths, the identification by the lengths alone.
+    problem.record.sensor.scale = Scale::TRUE;
     let search = Search::new(scene_at, all, count, &problem, &smooth);
     // A crank read backwards is a possible reason why the equation does not describe the record.
     let found = search.run();

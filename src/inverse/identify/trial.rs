@@ -6,8 +6,10 @@ use super::super::likelihood::{Linear, Stretch};
 use super::super::maximum::ENOUGH_RISE;
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
+use super::super::residual_tests::Whiteness;
 use super::super::scales::{Autoregression, Intensities, Noise, Scales};
 use super::super::state_space::with_dimension;
+use super::optimum::Optimum;
 use super::values::FreeValue;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -27,7 +29,7 @@ pub(super) struct Trials<'a> {
     pub scales: Scales,
     /// Standard deviation of a sample about the motion without mechanics, rad or m; infinite for codes (known noise).
     pub noise: f64,
-    /// First-order autoregression of the sample noise, if the smoothed motion has one.
+    /// First-order autoregression of the sample noise, if the record has one.
     pub correlated: Option<Autoregression>,
 }
 
@@ -133,6 +135,21 @@ impl<'a> Trials<'a> {
             true => found,
             false => here,
         }
+    }
+
+    /// Returns the autoregression of the sample noise beside these values; none if their residuals are white, or if it
+    /// is not likelier than its two parameters cost (Schwarz 1978) beside a missing torque with white noise.
+    pub fn correlation(&self, at: &Optimum) -> Result<Option<Autoregression>, Error> {
+        let is_white = !Whiteness::of(at.innovations.iter().copied()).is_violated();
+        if is_white || self.noise.is_infinite() || self.problem.record.is_computed() {
+            return Ok(None);
+        }
+        let model = self.model(&at.values, &at.path, at.noise.sigma)?;
+        let white = self.likeliest(&model);
+        let guesses = Autoregression::guesses(self.scales.spacing);
+        let other = self.linear(&model).correlated(&white, &guesses);
+        let cost = (at.innovations.len() as f64).ln();
+        Ok(other.correlated.filter(|_| other.likelihood > white.likelihood + cost))
     }
 
     /// Computes the derivatives of the standardised prediction errors by one value: central differences about a fixed
