@@ -3,11 +3,11 @@
 use std::ops::Range;
 
 use super::grid::Path;
-use super::harmonics::Increments;
+use super::harmonics::{Increments, ways};
 use super::likelihood::{Linear, Stretch};
-use super::maximum::ENOUGH_RISE;
+use super::maximum::{ENOUGH_RISE, better};
 use super::prior::{LADDERS, Prior, SMOOTH, TORQUE};
-use super::problem::{Problem, ways};
+use super::problem::Problem;
 use super::scales::{Autoregression, Noise, Scales};
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
@@ -117,8 +117,7 @@ impl Problem<'_> {
     }
 
     /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost (Schwarz 1978)
-    /// beside the torque as it is without. Not of records so long that stretches stand for them: the columns of each node
-    /// would take fifty times the time.
+    /// beside the torque as it is without.
     fn repeating(
         &self,
         turns: f64,
@@ -127,7 +126,7 @@ impl Problem<'_> {
         correlated: &[Autoregression],
     ) -> Vec<Candidate> {
         let torque = tried.iter().find(|one| one.prior == TORQUE);
-        let torque = torque.filter(|_| self.sampled() == self.all() && turns >= 2.0);
+        let torque = torque.filter(|_| turns >= 2.0);
         let Some(Candidate { noise, .. }) = torque else {
             return Vec::new();
         };
@@ -141,6 +140,11 @@ impl Problem<'_> {
                 ..TORQUE
             };
             let about = abouts.iter().find(|about| about.prior == plain)?;
+            let plain = tried.iter().find(|one| one.prior == plain)?;
+            let before = Noise {
+                spectrum: before.spectrum,
+                ..better(before, plain.noise)
+            };
             let about = About {
                 prior,
                 stretches: self.repeated(about, prior),

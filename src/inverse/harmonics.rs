@@ -2,7 +2,9 @@
 
 use std::iter;
 
-use super::linearised::State;
+use super::grid::hermite;
+use super::linearised::{Linearised, State};
+use super::matrix::Matrix;
 use super::prior::Prior;
 
 /// A torque that repeats, N m.
@@ -14,6 +16,8 @@ pub(super) struct Repeating {
     pub told: usize,
     /// Unit of the speed, rad/s.
     pub speed: f64,
+    /// Covariance of θ, ω and u by that of the coefficients, in the mean of the nodes.
+    pub covariance: Matrix<3>,
 }
 
 impl Repeating {
@@ -36,6 +40,54 @@ impl Repeating {
         }
         [by_theta, by_omega]
     }
+
+    /// Adds what the torque does in each step to its prediction from states at its ends.
+    pub fn act(&self, states: &[State], steps: &mut [Linearised]) {
+        let ways: Vec<_> = ways(states, steps, self.speed).collect();
+        let mut before = ways.first().map_or(0.0, |[begin, ..]| self.at(*begin));
+        for (step, [_, middle, end]) in steps.iter_mut().zip(ways) {
+            let [half, whole] = [middle, end].map(|place| self.at(place) - before);
+            before += whole;
+            let responses = responses(step.h, step.lever);
+            for (to, [by_half, by_whole]) in step.defect.iter_mut().zip(responses) {
+                *to += by_half * half + by_whole * whole;
+            }
+        }
+    }
+
+    /// Returns the torque at a crank angle, rad, and a speed in units of its own.
+    fn at(&self, [theta, speed]: [f64; 2]) -> f64 {
+        let pairs = cosines_and_sines(theta / f64::from(self.prior.cycle), self.prior.harmonics);
+        let of = self.coefficients.chunks_exact(self.prior.of_harmonic());
+        let torques = pairs.chunks_exact(2).zip(of).map(|(pair, some)| {
+            let (alone, with_speed) = some.split_at(2);
+            dot(alone, pair) + speed * dot(with_speed, pair)
+        });
+        torques.sum()
+    }
+}
+
+/// Responses of θ, ω and u at the end of a step h to torques in its middle and at its end, by Simpson's rule for θ̈.
+pub(super) fn responses(h: f64, lever: f64) -> [[f64; 2]; 3] {
+    [
+        [h * h * lever / 3.0, 0.0],
+        [h * lever * (2.0 / 3.0), h * lever / 6.0],
+        [0.0, 1.0],
+    ]
+}
+
+/// Crank angles, rad, and speeds, in units of one, at begin, middle and end of each step.
+pub(super) fn ways(
+    states: &[State],
+    steps: &[Linearised],
+    speed: f64,
+) -> impl Iterator<Item = [[f64; 2]; 3]> {
+    let pairs = states.windows(2).zip(steps);
+    pairs.map(move |(ends, step)| {
+        let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
+        let middle = hermite([0.0, step.h], [a, b], 0.5 * step.h);
+        [a, middle, b].map(|[theta, omega]| [theta, omega / speed])
+    })
 }
 
 /// Harmonics in the middle and at the end of each step less those at its begin.

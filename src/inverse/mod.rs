@@ -61,6 +61,7 @@ mod noise_search;
 mod options;
 mod outliers;
 mod periodic;
+mod periodic_smoother;
 mod polynomial;
 mod prior;
 mod problem;

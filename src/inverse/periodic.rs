@@ -9,13 +9,13 @@
 //! what is left is a linear regression with the information Σ EᵀE/S. The derivatives of p by θ and ω, with the β of the last
 //! iteration, are those of the equation of motion, too: u less p is the state of the linear model.
 
-use nalgebra::DMatrixView;
+use nalgebra::{DMatrix, DMatrixView};
 
-use super::harmonics::{Increments, dot};
+use super::harmonics::{Increments, dot, responses};
 use super::kalman::{Companion, Evidence, Gaussian, Innovation, Return, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::Matrix;
-use super::regression::{ROWS_AT_ONCE, Regression, Spectrum};
+use super::regression::{ROWS_AT_ONCE, Regression};
 use super::state_space::Deviations;
 
 /// Derivatives of the state by the coefficients, along the filter.
@@ -41,19 +41,15 @@ impl<'a, const N: usize> Columns<'a, N> {
         }
     }
 
-    /// Adds `sign` times what the coefficients add to the state in a step: Simpson's rule for θ̈.
+    /// Adds `sign` times what the coefficients add to the state in a step.
     fn respond(&mut self, node: usize, sign: f64) {
         let Linearised { h, lever, .. } = self.steps[node];
         let (half, whole) = self.increments.of(node);
-        let mut rows = self.of.chunks_exact_mut(half.len());
-        let mut to = |list: &[(f64, &[f64])]| {
-            let Some(row) = rows.next() else { return };
-            list.iter()
-                .for_each(|(factor, from)| add(row, sign * factor, from));
-        };
-        to(&[(h * h * lever / 3.0, half)]);
-        to(&[(h * lever * (2.0 / 3.0), half), (h * lever / 6.0, whole)]);
-        to(&[(1.0, whole)]);
+        let rows = self.of.chunks_exact_mut(half.len());
+        for (row, [by_half, by_whole]) in rows.zip(responses(h, lever)) {
+            add(row, sign * by_half, half);
+            add(row, sign * by_whole, whole);
+        }
     }
 
     /// Multiplies the rows by a matrix that is triangular below its second row, as transitions and their inverses are.
@@ -139,9 +135,15 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 /// Derivatives of the smoothed states by the coefficients.
 pub(super) struct Sensitivities<'a, const N: usize> {
     regressed: Regressed<'a, N>,
+    found: Derivatives,
+}
+
+/// Derivatives of smoothed states and prediction errors by the coefficients.
+#[derive(Default)]
+pub(super) struct Derivatives {
     /// The rows of each node, one after the other.
     list: Vec<f64>,
-    /// Derivatives of the prediction errors over their standard deviations, one row for each sample.
+    /// Those of the prediction errors over their standard deviations, one row for each sample.
     errors: Vec<f64>,
 }
 
@@ -150,51 +152,57 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
         let regressed = Regressed::new(model, to);
         let rows = model.observed.len();
         Sensitivities {
-            list: Vec::with_capacity(rows * regressed.columns.of.len()),
-            errors: Vec::with_capacity(rows * regressed.columns.errors.len()),
+            found: Derivatives {
+                list: Vec::with_capacity(rows * regressed.columns.of.len()),
+                errors: Vec::with_capacity(rows * regressed.columns.errors.len()),
+            },
             regressed,
         }
     }
 
-    /// Adds what the coefficients with a spectrum do to the smoothed states and prediction errors; returns the coefficients,
-    /// and the number of harmonics that the samples determine.
-    pub fn add(
+    pub fn derivatives(self) -> Derivatives {
+        let Sensitivities {
+            regressed,
+            mut found,
+        } = self;
+        let columns = regressed.columns;
+        found.list[..columns.of.len()].copy_from_slice(&columns.of);
+        found
+    }
+}
+
+impl Derivatives {
+    /// Adds what coefficients do to the smoothed states and prediction errors, with a factor A of their covariance Aᵀ A.
+    pub fn add<const N: usize>(
         self,
-        spectrum: Option<Spectrum>,
+        coefficients: &[f64],
+        factor: &DMatrix<f64>,
         path: &mut [Gaussian<N>],
         innovations: &mut [Option<f64>],
-    ) -> Option<(Vec<f64>, usize)> {
-        let Regressed { columns, to, .. } = self.regressed;
-        to.multiply();
-        let posterior = to.solved(spectrum?)?;
-        // Factor A of the covariance Aᵀ A of the coefficients.
-        let factor = posterior.factor();
-        let told = posterior.told(&factor, to.prior());
-        let count = columns.errors.len();
+    ) {
+        let Derivatives { list, errors } = self;
+        let count = coefficients.len();
         let size = N * count;
-        let (mut list, coefficients) = (self.list, posterior.coefficients);
-        list[..size].copy_from_slice(&columns.of);
         let known = innovations.iter_mut().flatten();
-        for (row, innovation) in self.errors.chunks_exact(count).zip(known) {
-            *innovation += dot(row, &coefficients);
+        for (row, innovation) in errors.chunks_exact(count).zip(known) {
+            *innovation += dot(row, coefficients);
         }
         for (columns, states) in list
             .chunks(ROWS_AT_ONCE * size)
             .zip(path.chunks_mut(ROWS_AT_ONCE))
         {
-            let spread = &factor * DMatrixView::from_slice(columns, count, columns.len() / count);
+            let spread = factor * DMatrixView::from_slice(columns, count, columns.len() / count);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);
                 for i in 0..N {
-                    state.mean[i] += dot(rows[N * k + i], &coefficients);
+                    state.mean[i] += dot(rows[N * k + i], coefficients);
                     for j in 0..N {
                         state.covariance[i][j] += spread.column(i).dot(&spread.column(j));
                     }
                 }
             }
         }
-        Some((coefficients, told))
     }
 }
 
@@ -204,20 +212,20 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
     }
 
     fn predicted(&mut self, _: usize, _: &Gaussian<N>) {
-        self.list.extend(&self.regressed.columns.of);
+        self.found.list.extend(&self.regressed.columns.of);
     }
 
     fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
         self.regressed.updated(node, sample, found);
         let per = 1.0 / found.variance.sqrt();
         let rows = self.regressed.columns.errors.iter();
-        self.errors.extend(rows.map(|value| value * per));
+        self.found.errors.extend(rows.map(|value| value * per));
     }
 
     fn returned(&mut self, node: usize, way: &Return<N>, _: [&Gaussian<N>; 2]) {
         let columns = &mut self.regressed.columns;
         let (count, size) = (columns.errors.len(), columns.of.len());
-        let off = &mut self.list[(node + 1) * size..][..size];
+        let off = &mut self.found.list[(node + 1) * size..][..size];
         // The smoothed rows of the next node take the place of those that were predicted.
         columns.room.copy_from_slice(&columns.of);
         columns.room.swap_with_slice(off);

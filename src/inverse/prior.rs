@@ -40,6 +40,15 @@ impl Prior {
         }
     }
 
+    /// This prior beside a part that repeats and is known.
+    pub fn beside_known(self) -> Prior {
+        Prior {
+            cycle: 0,
+            harmonics: 0,
+            ..self
+        }
+    }
+
     /// Number of coefficients of what repeats.
     pub fn coefficients(self) -> usize {
         self.of_harmonic() * self.harmonics

@@ -4,17 +4,16 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path, hermite};
-use super::harmonics::{Increments, Repeating};
+use super::harmonics::{Increments, ways};
 use super::kalman;
 use super::likelihood::{Linear, Stretch};
-use super::linearised::{Linearised, Motion, Rates, State};
-use super::periodic::Sensitivities;
+use super::linearised::{Linearised, Motion, Rates};
+use super::matrix::Matrix;
 use super::prior::Prior;
 use super::record::Record;
-use super::regression::Regression;
 use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::{Deviations, with_dimension};
+use super::state_space::with_dimension;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -99,11 +98,13 @@ impl<'a> Problem<'a> {
                 ..ends
             }
         });
-        let steps: Vec<Linearised> = steps.collect();
-        let increments = match motion.prior.cycle {
-            0 => Increments::default(),
-            _ => Increments::new(ways(states, &steps, path.speed()), motion.prior),
-        };
+        let mut steps: Vec<Linearised> = steps.collect();
+        let mut increments = Increments::default();
+        match (motion.prior.cycle, &path.repeating) {
+            (0, Some(known)) => known.act(states, &mut steps),
+            (0, None) => {}
+            _ => increments = Increments::new(ways(states, &steps, path.speed()), motion.prior),
+        }
         Stretch {
             steps,
             increments,
@@ -145,7 +146,8 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    /// Moves a path to the smoothed motion about it, computed in pieces side by side; returns the motion.
+    /// Returns the smoothed motion about a path, computed in pieces side by side. What repeats is found along the sampled
+    /// stretches, where it is left in the path; along all nodes of a longer record it is known.
     pub fn smoothed(
         &self,
         motion: &Motion<'_>,
@@ -153,11 +155,17 @@ impl<'a> Problem<'a> {
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        let linear = Linear {
+        let mut linear = Linear {
             stretches: &[],
             prior: motion.prior,
             scales,
         };
+        if motion.prior.cycle > 0 && path.ranges == self.sampled() {
+            let states = motion.prior.states() + usize::from(noise.correlated.is_some());
+            return with_dimension!(states, N => self.smoothed_together::<N>(motion, path, &linear, noise));
+        }
+        linear.prior = motion.prior.beside_known();
+        let motion = &self.motion(linear.prior);
         let nodes = self.grid.len();
         let times = &self.grid.times;
         let shared = MEMORY_TIME_CONSTANTS / noise.corner;
@@ -165,17 +173,18 @@ impl<'a> Problem<'a> {
         let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
         let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
             if self.is_stopped() {
-                return None;
+                return;
             }
             let from = times.partition_point(|t| *t < times[core.start] - shared);
             let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
             let (from, to) = (from.max(known.start), to.min(known.end));
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
             let model = linear.deviations(&stretch, noise);
-            let (all, coefficients) = with_dimension!(model.dimension(), N =>
-                self.estimated::<N>(motion, path, from, &model, noise));
+            let all = with_dimension!(model.dimension(), N => {
+                let (deviations, innovations) = kalman::smooth::<N>(&model, &mut ());
+                self.estimated(motion, path, from, &deviations, &innovations, noise)
+            });
             found.copy_from_slice(&all[core.start - from..core.end - from]);
-            coefficients
         };
         let mut found = vec![Estimate::default(); path.states.len()];
         let mut jobs = Vec::new();
@@ -189,42 +198,25 @@ impl<'a> Problem<'a> {
             };
             jobs.extend(cores.zip(mine.chunks_mut(length)).map(job));
         }
-        let coefficients = parallel::map(jobs.into_iter(), job);
-        // What repeats is found along the whole path, in one piece.
-        let coefficients = coefficients.into_iter().flatten().next();
-        path.repeating = coefficients.map(|(coefficients, told)| Repeating {
-            prior: motion.prior,
-            coefficients,
-            told,
-            speed: path.speed(),
-        });
+        parallel::map(jobs.into_iter(), job);
         found
     }
 
-    fn estimated<const N: usize>(
+    /// Returns the motion at nodes from the first of a piece, with the deviations of a path from it.
+    pub fn estimated<const N: usize>(
         &self,
         motion: &Motion<'_>,
         path: &Path,
         from: usize,
-        model: &Deviations<'_>,
+        deviations: &[kalman::Gaussian<N>],
+        innovations: &[Option<f64>],
         noise: &Noise,
-    ) -> (Vec<Estimate>, Option<(Vec<f64>, usize)>) {
-        let (mut deviations, mut innovations, coefficients);
-        match motion.prior.cycle {
-            0 => {
-                (deviations, innovations) = kalman::smooth::<N>(model, &mut ());
-                coefficients = None;
-            }
-            _ => {
-                let mut to = Regression::new(motion.prior);
-                let mut sensitivities = Sensitivities::new(model, &mut to);
-                (deviations, innovations) = kalman::smooth::<N>(model, &mut sensitivities);
-                coefficients = sensitivities.add(noise.spectrum, &mut deviations, &mut innovations);
-            }
-        }
+    ) -> Vec<Estimate> {
         let piece = path.piece(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
-        let dimension = model.prior.states();
+        let dimension = motion.prior.states();
+        let known = path.repeating.as_ref().filter(|_| motion.prior.cycle == 0);
+        let beside = known.map_or([[0.0; 3]; 3], |known| known.covariance);
         let estimate =
             |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
                 let mut state = piece.states[at];
@@ -236,7 +228,9 @@ impl<'a> Problem<'a> {
                 let slopes = path.slopes(motion.prior, &state);
                 let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
                 let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
-                let p = &deviation.covariance;
+                let p: Matrix<3> = std::array::from_fn(|i| {
+                    std::array::from_fn(|k| variance * deviation.covariance[i][k] + beside[i][k])
+                });
                 let across: [f64; 3] =
                     std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
                 let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
@@ -244,25 +238,11 @@ impl<'a> Problem<'a> {
                 Estimate {
                     state,
                     alpha: rates.alpha,
-                    covariance: covariance.map(|value| value * variance),
+                    covariance,
                     innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
                 }
             };
-        let found = deviations.iter().zip(&innovations).enumerate();
-        (found.map(estimate).collect(), coefficients)
+        let found = deviations.iter().zip(innovations).enumerate();
+        found.map(estimate).collect()
     }
-}
-
-/// Crank angles, rad, and speeds, in units of one, at begin, middle and end of each step.
-pub(super) fn ways(
-    states: &[State],
-    steps: &[Linearised],
-    speed: f64,
-) -> impl Iterator<Item = [[f64; 2]; 3]> {
-    let pairs = states.windows(2).zip(steps);
-    pairs.map(move |(ends, step)| {
-        let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
-        let middle = hermite([0.0, step.h], [a, b], 0.5 * step.h);
-        [a, middle, b].map(|[theta, omega]| [theta, omega / speed])
-    })
 }

@@ -93,10 +93,6 @@ impl Regression {
         }
     }
 
-    pub fn prior(&self) -> Prior {
-        self.prior
-    }
-
     /// Adds a row E with its error e; `per` is 1/√S.
     pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
         for (value, score) in row.iter().zip(&mut self.score) {

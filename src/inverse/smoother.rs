@@ -57,7 +57,8 @@ impl Problem<'_> {
         if found.estimates.len() == self.grid.len() {
             return found;
         }
-        let motion = self.motion(found.prior);
+        let motion = self.motion(found.prior.beside_known());
+        path.repeating = found.repeating.clone();
         let is_linear = found.prior == KINEMATIC && self.record.is_linear();
         let mut whole = Smoothed {
             converged: false,

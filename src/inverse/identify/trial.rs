@@ -149,7 +149,9 @@ impl<'a> Trials<'a> {
         let guesses = Autoregression::guesses(self.scales.spacing);
         let other = self.linear(&model).correlated(&white, &guesses);
         let cost = (at.innovations.len() as f64).ln();
-        Ok(other.correlated.filter(|_| other.likelihood > white.likelihood + cost))
+        Ok(other
+            .correlated
+            .filter(|_| other.likelihood > white.likelihood + cost))
     }
 
     /// Computes the derivatives of the standardised prediction errors by one value: central differences about a fixed
