@@ -224,6 +224,12 @@ fn recovered(
     ));
     warnings.extend(locked);
     warnings.extend(warnings::of_fit(&fitted, measurement));
+    warnings.extend(warnings::of_sensor(
+        &fitted,
+        measurement.measured(),
+        &equation,
+        &found.rows,
+    ));
     let summary = InverseSummary {
         error_budget: shared.budget(&found.rows),
         ..InverseSummary::new(

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::InverseOptions;
 use super::fitted::Fitted;
 use super::row::InverseRow;
+use crate::mechanism::Equation;
 use crate::numeric::median::median;
 use crate::scene::{Measured, Measurement, Scene};
 
@@ -61,6 +62,25 @@ pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) 
         ));
     }
     warnings
+}
+
+/// Returns the warning of a torque that repeats by a measured crank angle: an error of the angle that repeats, too, looks the
+/// same at one speed, whatever the band.
+pub(super) fn of_sensor(
+    fitted: &Fitted,
+    measured: Measured,
+    equation: &Equation,
+    rows: &[InverseRow],
+) -> Option<String> {
+    const ERROR: f64 = 1e-3;
+    let torque = |row: &InverseRow| equation.terms(row.theta).inertia.m * ERROR * row.omega.powi(2);
+    let torque = median(rows.iter().map(torque))?;
+    (fitted.cycle > 0 && measured == Measured::Theta).then(|| {
+        format!(
+            "the torque that repeats rests on the samples alone, up to harmonic {} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({ERROR:e} rad once in a turn for {torque:.1e} N m), and what varies faster is hidden by noise; neither is in the band",
+            fitted.told
+        )
+    })
 }
 
 /// Returns warnings about the estimated motion.

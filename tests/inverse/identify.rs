@@ -96,6 +96,63 @@ fn friction_of_a_run_down_lies_within_its_band() {
     assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
 }
 
+/// Lengths and zero from a position of the slider: the motion has a closed form, for rod and slider have no mass. What wrong
+/// lengths leave is no correlated noise, and a zero of a twelfth of the crank leaves a turning crank one that turns.
+#[test]
+fn lengths_from_a_position_of_the_slider_lie_within_their_bands() {
+    const TRUTHS: [f64; 4] = [0.0503, 0.1488, 0.004, 0.004];
+    const KEYS: [&str; 3] = ["geometry.crank", "geometry.rod", "geometry.offset"];
+    let text = format!(
+        "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\noffset = \"5 mm\"\n[crank]\ninertia = \"0.02 kg m^2\"\n{VISCOUS_AND_DRY}[motion]\nangle = \"0.7 rad\"\nspeed = \"40 rad/s\"\n"
+    );
+    let draft = Draft::new(Path::new("flywheel.toml"), text);
+    let keys = KEYS.map(|key| key.parse::<NumberKey>().expect("a key"));
+    let free = |k: usize| FreeValue {
+        key: KEYS.get(k).unwrap_or(&"sensor.zero").to_string(),
+        unit: "m".to_owned(),
+        start: keys
+            .get(k)
+            .map_or(0.0, |key| draft.number(key).expect("a number")),
+        scale: 0.05,
+        is_sensor_zero: k == KEYS.len(),
+    };
+    let free: Vec<FreeValue> = (0..TRUTHS.len()).map(free).collect();
+    let scene_at = |values: &[f64]| {
+        let numbers = keys.iter().zip(values);
+        let numbers = numbers.map(|(key, value)| Assigned {
+            key: *key,
+            value: *value,
+        });
+        draft.with_numbers(&numbers.collect::<Vec<_>>())
+    };
+    let down = run_down(0.02, 0.004, 0.2, 40.0);
+    let [crank, rod, offset, zero] = TRUTHS;
+    let position = |t: f64| {
+        let (sin, cos) = (0.7 + down(t)).sin_cos();
+        crank * cos + (rod * rod - (offset + crank * sin).powi(2)).sqrt() + zero
+    };
+    let (mut inside, mut squares) = ([0; 4], [0.0; 4]);
+    let records = 40;
+    for seed in 0..records {
+        let angles = sampled(position, 5e-5, seed);
+        let (times, values) = (angles.times().to_vec(), angles.values().to_vec());
+        let motion = Measurement::new(Measured::X, times, values).expect("a measurement");
+        let found = identify(&scene_at, &free, &motion).expect("told");
+        for (k, one) in found.values.iter().enumerate() {
+            inside[k] += usize::from((one.value - TRUTHS[k]).abs() < one.half_band);
+            squares[k] += ((one.value - TRUTHS[k]) / one.standard_error).powi(2);
+        }
+    }
+    // 38 of 40 are expected; fewer than 34 have a probability of one in a hundred.
+    assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
+    // The mean of 40 squares has a standard deviation of 0.22.
+    let means = squares.map(|sum| sum / records as f64);
+    assert!(
+        means.iter().all(|mean| (mean - 1.0).abs() < 0.7),
+        "{means:?}"
+    );
+}
+
 /// Noise with correlation 0.9 from sample to sample is white only after prewhitening: unmodelled, it would make the
 /// equation seem wrong, or the bands four times too narrow.
 #[test]
