@@ -127,8 +127,8 @@ impl Forces {
             let states = from_fn::<_, LANES, _>(|i| state(j + i));
             forces[j..j + LANES].copy_from_slice(&dynamics.state_loads(&states));
         }
-        for j in whole..count {
-            [forces[j]] = dynamics.state_loads(&[state(j)]);
+        for (j, force) in forces.iter_mut().enumerate().take(count).skip(whole) {
+            [*force] = dynamics.state_loads(&[state(j)]);
         }
         forces
     }
