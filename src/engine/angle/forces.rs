@@ -17,8 +17,6 @@ pub(super) struct Forces {
     pub speeds: Values,
     /// Times after the rounded time at the start of the panel, s.
     times: Values,
-    /// State loads.
-    state_loads: Values,
 }
 
 impl Forces {
@@ -29,7 +27,6 @@ impl Forces {
             non_conservative: zero,
             speeds: zero,
             times: zero,
-            state_loads: zero,
         }
     }
 
@@ -50,17 +47,7 @@ impl Forces {
             values[count..].fill(0.0);
         }
         self.take_speeds(panel, start, kinetic);
-        let (push, damping) = (&panel.table.push[..count], &panel.table.damping[..count]);
-        let (speeds, non_conservative) =
-            (&self.speeds[..count], &mut self.non_conservative[..count]);
-        for j in 0..count {
-            non_conservative[j] = push[j] - damping[j] * speeds[j];
-        }
-        if let Some(switch) = &panel.table.switch {
-            for j in 0..count {
-                non_conservative[j] += switch.force[j] * (speeds[j] * speeds[j]);
-            }
-        }
+        tabulated(panel, &self.speeds, &mut self.non_conservative);
         if dynamics.has_state_loads() {
             if dynamics.reads_time() {
                 let mut slopes = [0.0; MAX_DEGREE + 1];
@@ -70,10 +57,8 @@ impl Forces {
                     *time += start.t_low;
                 }
             }
-            self.state_loads = self.state_loads_at(dynamics, panel, start, &self.times);
-            for j in 0..count {
-                self.non_conservative[j] += self.state_loads[j];
-            }
+            let to = &mut self.non_conservative;
+            add_state_loads(dynamics, panel, start, [&self.speeds, &self.times], to);
         }
         let (force, non_conservative) =
             (&panel.table.force[..count], &self.non_conservative[..count]);
@@ -111,28 +96,6 @@ impl Forces {
         is_finite(filled).then_some(())
     }
 
-    /// Returns the state loads at the points, at these times after the rounded start of the panel, s.
-    fn state_loads_at<D: Dynamics>(
-        &self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
-        times: &Values,
-    ) -> Values {
-        let count = panel.rule.degree() + 1;
-        let state = |j: usize| panel.state(start.turns, j, start.t + times[j], self.speeds[j]);
-        let mut forces = [0.0; MAX_DEGREE + 1];
-        let whole = count - count % LANES;
-        for j in (0..whole).step_by(LANES) {
-            let states = from_fn::<_, LANES, _>(|i| state(j + i));
-            forces[j..j + LANES].copy_from_slice(&dynamics.state_loads(&states));
-        }
-        for (j, force) in forces.iter_mut().enumerate().take(count).skip(whole) {
-            [*force] = dynamics.state_loads(&[state(j)]);
-        }
-        forces
-    }
-
     /// Returns the error of the work on a panel due to times rounded at the points, independently, over machine epsilon,
     /// J: a late load acts at another angle. A load that does not change in time is not late.
     pub fn uncertain_by_time<D: Dynamics>(
@@ -142,8 +105,10 @@ impl Forces {
         start: PanelStart,
     ) -> f64 {
         let count = panel.rule.degree() + 1;
-        let frozen = self.state_loads_at(dynamics, panel, start, &[0.0; MAX_DEGREE + 1]);
-        let due_to_time = |j: usize| self.state_loads[j] - frozen[j];
+        let [mut frozen, zero] = [[0.0; MAX_DEGREE + 1]; 2];
+        tabulated(panel, &self.speeds, &mut frozen);
+        add_state_loads(dynamics, panel, start, [&self.speeds, &zero], &mut frozen);
+        let due_to_time = |j: usize| self.non_conservative[j] - frozen[j];
         let between = (1..count).map(|j| (due_to_time(j) - due_to_time(j - 1)).powi(2));
         let change = between.sum::<f64>().sqrt();
         // Two deviations, of 0.29 units each, of two roundings: of the time, and of what a load makes of it.
@@ -191,6 +156,44 @@ impl Forces {
             *rate += slope / (panel.table.inertia[j] * speed);
         }
         rates
+    }
+}
+
+/// Computes the tabulated forces without potential at the points, at these speeds, rad/s.
+fn tabulated<P: Copy>(panel: &PanelTable<P>, speeds: &Values, to: &mut Values) {
+    let count = panel.rule.degree() + 1;
+    let (push, damping) = (&panel.table.push[..count], &panel.table.damping[..count]);
+    let (speeds, to) = (&speeds[..count], &mut to[..count]);
+    for j in 0..count {
+        to[j] = push[j] - damping[j] * speeds[j];
+    }
+    if let Some(switch) = &panel.table.switch {
+        for j in 0..count {
+            to[j] += switch.force[j] * (speeds[j] * speeds[j]);
+        }
+    }
+}
+
+/// Adds the state loads at the points, at these speeds, rad/s, and times after the rounded start of the panel, s.
+fn add_state_loads<D: Dynamics>(
+    dynamics: &D,
+    panel: &PanelTable<D::Place>,
+    start: PanelStart,
+    [speeds, times]: [&Values; 2],
+    to: &mut Values,
+) {
+    let count = panel.rule.degree() + 1;
+    let state = |j: usize| panel.state(start.turns, j, start.t + times[j], speeds[j]);
+    let whole = count - count % LANES;
+    for j in (0..whole).step_by(LANES) {
+        let forces = dynamics.state_loads(&from_fn::<_, LANES, _>(|i| state(j + i)));
+        for (to, force) in to[j..].iter_mut().zip(forces) {
+            *to += force;
+        }
+    }
+    for (j, to) in to.iter_mut().enumerate().take(count).skip(whole) {
+        let [force] = dynamics.state_loads(&[state(j)]);
+        *to += force;
     }
 }
 
