@@ -25,7 +25,6 @@ impl Repeating {
     pub fn slopes(&self, [theta, omega, ..]: &State) -> [f64; 2] {
         let cycle = f64::from(self.prior.cycle);
         let pairs = cosines_and_sines(theta / cycle, self.prior.harmonics);
-        let pairs = pairs.chunks_exact(2);
         let of = self.prior.of_harmonic();
         let (mut by_theta, mut by_omega) = (0.0, 0.0);
         for (k, (pair, some)) in pairs.zip(self.coefficients.chunks_exact(of)).enumerate() {
@@ -34,7 +33,7 @@ impl Repeating {
                 let factor = if power == 0 { 1.0 } else { omega / self.speed };
                 by_theta += rate * factor * (some[1] * pair[0] - some[0] * pair[1]);
                 if power == 1 {
-                    by_omega += dot(some, pair) / self.speed;
+                    by_omega += dot(some, &pair) / self.speed;
                 }
             }
         }
@@ -59,9 +58,9 @@ impl Repeating {
     fn at(&self, [theta, speed]: [f64; 2]) -> f64 {
         let pairs = cosines_and_sines(theta / f64::from(self.prior.cycle), self.prior.harmonics);
         let of = self.coefficients.chunks_exact(self.prior.of_harmonic());
-        let torques = pairs.chunks_exact(2).zip(of).map(|(pair, some)| {
+        let torques = pairs.zip(of).map(|(pair, some)| {
             let (alone, with_speed) = some.split_at(2);
-            dot(alone, pair) + speed * dot(with_speed, pair)
+            dot(alone, &pair) + speed * dot(with_speed, &pair)
         });
         torques.sum()
     }
@@ -102,13 +101,12 @@ pub(super) struct Increments {
 impl Increments {
     /// Of a prior along a path with these crank angles, rad, and speeds, over their root mean square, at begins, middles and ends.
     pub fn new(ways: impl Iterator<Item = [[f64; 2]; 3]>, prior: Prior) -> Increments {
-        let at = |[angle, speed]: [f64; 2]| {
+        let at = |[angle, speed]: [f64; 2]| -> Vec<f64> {
             let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
             match prior.follows_speed {
-                false => list,
+                false => list.flatten().collect(),
                 true => list
-                    .chunks(2)
-                    .flat_map(|pair| [pair[0], pair[1], speed * pair[0], speed * pair[1]])
+                    .flat_map(|[cos, sin]| [cos, sin, speed * cos, speed * sin])
                     .collect(),
             }
         };
@@ -133,11 +131,10 @@ impl Increments {
 }
 
 /// cos kθ and sin kθ of the cycle angle.
-fn cosines_and_sines(angle: f64, harmonics: usize) -> Vec<f64> {
+fn cosines_and_sines(angle: f64, harmonics: usize) -> impl Iterator<Item = [f64; 2]> {
     let (sin, cos) = angle.sin_cos();
-    let next = |(c, s): &(f64, f64)| Some((c * cos - s * sin, s * cos + c * sin));
-    let pairs = iter::successors(Some((cos, sin)), next).take(harmonics);
-    pairs.flat_map(|(c, s)| [c, s]).collect()
+    let next = move |[c, s]: &[f64; 2]| Some([c * cos - s * sin, s * cos + c * sin]);
+    iter::successors(Some([cos, sin]), next).take(harmonics)
 }
 
 /// Sum of the products of two rows.
