@@ -72,12 +72,11 @@ pub(super) fn of_sensor(
     equation: &Equation,
     rows: &[InverseRow],
 ) -> Option<String> {
-    const ERROR: f64 = 1e-3;
-    let torque = |row: &InverseRow| equation.terms(row.theta).inertia.m * ERROR * row.omega.powi(2);
-    let torque = median(rows.iter().map(torque))?;
+    let of_radian = |row: &InverseRow| equation.terms(row.theta).inertia.m * row.omega.powi(2);
+    let of_milliradian = 1e-3 * median(rows.iter().map(of_radian))?;
     (fitted.told >= 1.0 && measured == Measured::Theta).then(|| {
         format!(
-            "the torque that repeats rests on the samples alone, up to harmonic {} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({ERROR:e} rad once in a turn for {torque:.1e} N m), and what varies faster is hidden by noise; neither is in the band",
+            "the torque that repeats rests on the samples alone, up to harmonic {} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn), and what varies faster is hidden by noise; neither is in the band",
             fitted.told
         )
     })

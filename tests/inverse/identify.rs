@@ -19,6 +19,16 @@ fn flywheel(loads: &str, inertia: f64) -> Draft {
 const VISCOUS_AND_DRY: &str = "[[torque]]\nkind = \"viscous\"\ncoefficient = \"0.004 N m s\"\n[[torque]]\nkind = \"dry\"\nvalue = \"0.2 N m\"\n";
 
 fn identified(draft: &Draft, keys: &[&str], motion: &Measurement) -> Result<Identification, Error> {
+    identified_beside(draft, keys, &[], motion)
+}
+
+/// Identifies keys of a scene and other values, which are not in it.
+fn identified_beside(
+    draft: &Draft,
+    keys: &[&str],
+    others: &[FreeValue],
+    motion: &Measurement,
+) -> Result<Identification, Error> {
     let keys: Vec<NumberKey> = keys.iter().map(|key| key.parse().expect("a key")).collect();
     let free = keys.iter().map(|key| {
         let start = draft.number(key).expect("a number");
@@ -38,6 +48,7 @@ fn identified(draft: &Draft, keys: &[&str], motion: &Measurement) -> Result<Iden
         });
         draft.with_numbers(&numbers.collect::<Vec<_>>())
     };
+    let free = free.chain(others.iter().cloned());
     identify(&scene_at, &free.collect::<Vec<_>>(), motion)
 }
 
@@ -106,24 +117,12 @@ fn lengths_from_a_position_of_the_slider_lie_within_their_bands() {
         "[geometry]\ncrank = \"50 mm\"\nrod = \"150 mm\"\noffset = \"5 mm\"\n[crank]\ninertia = \"0.02 kg m^2\"\n{VISCOUS_AND_DRY}[motion]\nangle = \"0.7 rad\"\nspeed = \"40 rad/s\"\n"
     );
     let draft = Draft::new(Path::new("flywheel.toml"), text);
-    let keys = KEYS.map(|key| key.parse::<NumberKey>().expect("a key"));
-    let free = |k: usize| FreeValue {
-        key: KEYS.get(k).unwrap_or(&"sensor.zero").to_string(),
+    let sensor_zero = FreeValue {
+        key: "sensor.zero".to_owned(),
         unit: "m".to_owned(),
-        start: keys
-            .get(k)
-            .map_or(0.0, |key| draft.number(key).expect("a number")),
+        start: 0.0,
         scale: 0.05,
-        is_sensor_zero: k == KEYS.len(),
-    };
-    let free: Vec<FreeValue> = (0..TRUTHS.len()).map(free).collect();
-    let scene_at = |values: &[f64]| {
-        let numbers = keys.iter().zip(values);
-        let numbers = numbers.map(|(key, value)| Assigned {
-            key: *key,
-            value: *value,
-        });
-        draft.with_numbers(&numbers.collect::<Vec<_>>())
+        is_sensor_zero: true,
     };
     let down = run_down(0.02, 0.004, 0.2, 40.0);
     let [crank, rod, offset, zero] = TRUTHS;
@@ -137,7 +136,8 @@ fn lengths_from_a_position_of_the_slider_lie_within_their_bands() {
         let angles = sampled(position, 5e-5, seed);
         let (times, values) = (angles.times().to_vec(), angles.values().to_vec());
         let motion = Measurement::new(Measured::X, times, values).expect("a measurement");
-        let found = identify(&scene_at, &free, &motion).expect("told");
+        let zero = std::slice::from_ref(&sensor_zero);
+        let found = identified_beside(&draft, &KEYS, zero, &motion).expect("told");
         for (k, one) in found.values.iter().enumerate() {
             inside[k] += usize::from((one.value - TRUTHS[k]).abs() < one.half_band);
             squares[k] += ((one.value - TRUTHS[k]) / one.standard_error).powi(2);
