@@ -10,11 +10,13 @@ use std::ops::Range;
 use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::{Image, fork, image};
+use super::problem::Problem;
 use super::samples::{problem, record};
 use super::{alignment, first_path, limit, unwrap};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement, Motion};
 
 /// ln of the odds above which a choice needs no warning: 1000 to 1.
@@ -40,6 +42,7 @@ pub(super) fn crank_angles<'a>(
     measurement: &Measurement,
     equation: &Equation,
     motion: &Motion,
+    stop: Option<&Stop>,
 ) -> Result<CrankAngles<'a>, Error> {
     if sensor.measured == Measured::Theta {
         return unwrap::unwrap(sensor, measurement);
@@ -63,8 +66,12 @@ pub(super) fn crank_angles<'a>(
         .min(measurement.len() - count);
     let window = begin..begin + count;
     let pairs = parallel::map(motions.into_iter().zip(images), |(angles, image)| {
-        let read =
-            |angles: CrankAngles<'a>| Reading::new(measurement, equation, motion, angles, &window);
+        let read = |angles: CrankAngles<'a>| {
+            let mut record = record(measurement, &angles);
+            record.keep(window.clone());
+            let problem = problem(record, &angles.theta[window.clone()], equation, stop);
+            Reading::new(measurement, &problem, motion, angles, &window)
+        };
         let is_whole = image.leaves.is_none();
         let taken = read(angles);
         let other = match is_whole {
@@ -153,16 +160,12 @@ struct Reading<'a> {
 impl<'a> Reading<'a> {
     fn new(
         measurement: &Measurement,
-        equation: &Equation,
+        problem: &Problem<'_>,
         motion: &Motion,
         angles: CrankAngles<'a>,
         window: &Range<usize>,
     ) -> Reading<'a> {
-        let mut record = record(measurement, &angles);
-        record.keep(window.clone());
-        let theta = &angles.theta[window.clone()];
-        let problem = problem(record, theta, equation, None);
-        let first = first_path::coarse(&problem, theta);
+        let first = first_path::coarse(problem, &angles.theta[window.clone()]);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
         // Cost of a zero and a gain found from the samples (Schwarz 1978).
         let Scale { shift, stretch } = angles.sensor.scale;

@@ -62,7 +62,7 @@ pub(super) fn motions<'a>(
                 other.sensor.scale == tracker.sensor.scale
                     && (turned(&other.theta) - turned(&theta)).abs() < DISTINCT_ROTATION
             };
-            if motions.len() < MOTIONS && !motions.iter().any(alike) {
+            if motions.len() < MOTIONS && is_resolved(&theta) && !motions.iter().any(alike) {
                 motions.push(CrankAngles {
                     sensor: *tracker.sensor,
                     theta,
@@ -78,10 +78,17 @@ pub(super) fn motions<'a>(
                 "no motion of the mechanism explains the samples of {}",
                 sensors[0].measured.name()
             ),
-            "check the lengths of the scene, and the unit and zero of the column",
+            "check the lengths of the scene, the unit and zero of the column, and that each turn has more than two samples",
         ));
     }
     Ok(motions)
+}
+
+/// True if a crank turns less than half a turn from sample to sample in the mean: a faster motion has the samples of a
+/// slower one (sampling theorem).
+fn is_resolved(theta: &[f64]) -> bool {
+    let way: f64 = theta.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    way < 0.5 * TAU * (theta.len() - 1) as f64
 }
 
 /// Difference of crank angle at which two motions are distinct, rad.

@@ -50,7 +50,7 @@ impl Tracker<'_, '_> {
     /// Returns the settings that are tried: noise levels, at least the resolution (rad or m), by agilities.
     pub fn settings(&self, resolution: f64) -> Vec<Setting> {
         let size = self.sensor.size();
-        let noises = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2].map(|part| (part * size).max(resolution));
+        let noises = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1].map(|part| (part * size).max(resolution));
         let agilities = [1e-2, 1e-1, 1.0, 10.0];
         let mut list = Vec::new();
         for sigma in noises {

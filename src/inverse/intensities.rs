@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use super::kalman::{self, Companion, Gaussian, Return};
-use super::matrix::{Matrix, diagonal, product, shares, sum, times};
+use super::kalman::{self, Companion, Step, Visit};
+use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
 use super::problem::Problem;
@@ -31,28 +31,27 @@ struct Score {
 }
 
 /// Companion of the smoother that collects the scores of all steps.
-struct Scores<'a> {
-    model: &'a Deviations<'a>,
+struct Scores {
     per_variance: f64,
     list: Vec<Score>,
 }
 
-impl<const N: usize> Companion<N> for Scores<'_> {
-    /// Collects the slope ½ (rᵀ Q r − tr QN) for r = W (x − x̂) and its variance N = W (P̂ − P) W.
-    fn returned(&mut self, node: usize, _: &Return<N>, [predicted, found]: [&Gaussian<N>; 2]) {
-        let noise = self.model.process_noise::<N>(node);
-        let precision = shares(&predicted.covariance, &diagonal([1.0; N]));
-        let off = sum(found.mean, predicted.mean.map(|value| -value));
-        let r = times(&precision, &off);
-        let told: Matrix<N> = std::array::from_fn(|i| {
-            std::array::from_fn(|j| predicted.covariance[i][j] - found.covariance[i][j])
-        });
-        let share = product(&noise, &product(&precision, &product(&told, &precision)));
-        let noisy = times(&noise, &r);
+impl<const N: usize> Companion<N> for Scores {
+    /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
+    fn returned(&mut self, node: usize, visit: &Visit<N>) {
+        let Some(Step { noise, .. }) = &visit.step else {
+            return;
+        };
+        let (r, told) = (&visit.later.correction, &visit.later.information);
+        let known = product(told, &product(&visit.smoothed.covariance, told));
+        let variance: Matrix<N> =
+            std::array::from_fn(|i| std::array::from_fn(|j| told[i][j] - known[i][j]));
+        let share = product(noise, &variance);
+        let noisy = times(noise, r);
         let square: f64 = r.iter().zip(noisy).map(|(a, b)| a * b).sum();
         let trace: f64 = (0..N).map(|k| share[k][k]).sum();
         let both = product(&share, &share);
-        self.list[node] = Score {
+        self.list[node - 1] = Score {
             slope: 0.5 * (square * self.per_variance - trace),
             information: 0.5 * (0..N).map(|k| both[k][k]).sum::<f64>(),
         };
@@ -61,7 +60,6 @@ impl<const N: usize> Companion<N> for Scores<'_> {
 
 fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
     let mut scores = Scores {
-        model,
         per_variance: 1.0 / (sigma * sigma),
         list: vec![Score::default(); model.steps.len()],
     };

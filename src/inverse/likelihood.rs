@@ -150,9 +150,10 @@ impl Linear<'_> {
         let likelihood = start * begun as f64
             - free * noise.sigma.ln()
             - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma));
-        if likelihood.is_finite() {
-            noise.likelihood = likelihood;
-        }
+        noise.likelihood = match likelihood.is_finite() {
+            true => likelihood,
+            false => f64::NEG_INFINITY,
+        };
         noise
     }
 }

@@ -66,48 +66,31 @@ pub(super) fn sum<const N: usize>(a: Vector<N>, b: Vector<N>) -> Vector<N> {
     std::array::from_fn(|k| a[k] + b[k])
 }
 
-/// Returns Q P⁻¹ for a covariance P and a symmetric Q, by Cholesky factors of P, scaled to a unit diagonal to which its
-/// rounding is added.
+/// Returns Aᵀ.
 #[inline(always)]
-pub(super) fn shares<const N: usize>(p: &Matrix<N>, q: &Matrix<N>) -> Matrix<N> {
-    let scale: Vector<N> = std::array::from_fn(|k| 1.0 / p[k][k].sqrt());
-    // L below the diagonal, and 1/L on it.
-    let mut factor = [[0.0; N]; N];
+pub(super) fn transposed<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+/// Returns the Cholesky factor L of P = L Lᵀ, with the rounding of P's diagonal added.
+#[inline(always)]
+pub(super) fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
+    let mut root = [[0.0; N]; N];
     for j in 0..N {
-        let mut pivot = 1.0 + f64::EPSILON;
+        let rounding = f64::EPSILON * p[j][j];
+        let mut pivot = p[j][j] + rounding;
         for k in 0..j {
-            pivot -= factor[j][k] * factor[j][k];
+            pivot -= root[j][k] * root[j][k];
         }
-        let pivot = if pivot <= 0.0 { f64::EPSILON } else { pivot };
-        let per = 1.0 / pivot.sqrt();
-        factor[j][j] = per;
+        root[j][j] = if pivot <= 0.0 { rounding } else { pivot }.sqrt();
+        let per = 1.0 / root[j][j];
         for i in j + 1..N {
-            let mut left = scale[i] * scale[j] * p[i][j];
+            let mut left = p[i][j];
             for k in 0..j {
-                left -= factor[i][k] * factor[j][k];
+                left -= root[i][k] * root[j][k];
             }
-            factor[i][j] = left * per;
+            root[i][j] = left * per;
         }
     }
-    let solved = |row: &Vector<N>| {
-        let mut x: Vector<N> = std::array::from_fn(|k| row[k] * scale[k]);
-        for i in 0..N {
-            for k in 0..i {
-                x[i] -= factor[i][k] * x[k];
-            }
-            x[i] *= factor[i][i];
-        }
-        for i in (0..N).rev() {
-            for k in i + 1..N {
-                x[i] -= factor[k][i] * x[k];
-            }
-            x[i] *= factor[i][i];
-        }
-        std::array::from_fn(|k| x[k] * scale[k])
-    };
-    let mut whole = [[0.0; N]; N];
-    for i in 0..N {
-        whole[i] = solved(&q[i]);
-    }
-    whole
+    root
 }

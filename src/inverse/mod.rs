@@ -188,13 +188,15 @@ fn recovered(
         measured: measurement.measured(),
         scale: Scale::TRUE,
     };
-    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion)?;
+    let stop = options.stop.as_ref();
+    let motion = &scene.motion;
+    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, motion, stop)?;
     let noted = angles.warnings.clone();
     let zero = samples::codes(measurement, &angles).and_then(|codes| codes.zero_error());
     let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
-    if options.stop.as_ref().is_some_and(Stop::is_requested) {
+    if stop.is_some_and(Stop::is_requested) {
         return Err(Error::Interrupted);
     }
     let backwards = InverseDynamics {

@@ -12,9 +12,9 @@
 use nalgebra::{DMatrix, DMatrixView};
 
 use super::harmonics::{Increments, dot, responses};
-use super::kalman::{Companion, Evidence, Gaussian, Innovation, Return, Sample, Step};
+use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step, Visit};
 use super::linearised::Linearised;
-use super::matrix::Matrix;
+use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
 use super::state_space::Deviations;
 
@@ -41,42 +41,28 @@ impl<'a, const N: usize> Columns<'a, N> {
         }
     }
 
-    /// Adds `sign` times what the coefficients add to the state in a step.
-    fn respond(&mut self, node: usize, sign: f64) {
-        let Linearised { h, lever, .. } = self.steps[node];
-        let (half, whole) = self.increments.of(node);
-        let rows = self.of.chunks_exact_mut(half.len());
-        for (row, [by_half, by_whole]) in rows.zip(responses(h, lever)) {
-            add(row, sign * by_half, half);
-            add(row, sign * by_whole, whole);
-        }
-    }
-
-    /// Multiplies the rows by a matrix that is triangular below its second row, as transitions and their inverses are.
+    /// Multiplies the rows by a matrix.
     fn transform(&mut self, matrix: &Matrix<N>) {
         let count = self.errors.len();
-        let upper = &mut self.room[..2 * count];
-        upper.fill(0.0);
-        for (to, factors) in upper.chunks_exact_mut(count).zip(matrix) {
+        self.room.fill(0.0);
+        for (to, factors) in self.room.chunks_exact_mut(count).zip(matrix) {
             for (from, factor) in self.of.chunks_exact(count).zip(factors) {
                 add(to, *factor, from);
             }
         }
-        self.of[..2 * count].copy_from_slice(upper);
-        for row in 2..N {
-            let (to, below) = self.of[row * count..].split_at_mut(count);
-            if matrix[row][row] != 1.0 {
-                to.iter_mut().for_each(|value| *value *= matrix[row][row]);
-            }
-            for (from, factor) in below.chunks_exact(count).zip(&matrix[row][row + 1..]) {
-                add(to, *factor, from);
-            }
-        }
+        std::mem::swap(&mut self.of, &mut self.room);
     }
 
+    /// Takes a step, with what the coefficients add to the state in it.
     fn step(&mut self, node: usize, step: &Step<N>) {
         self.transform(&step.transition);
-        self.respond(node, 1.0);
+        let Linearised { h, lever, .. } = self.steps[node];
+        let (half, whole) = self.increments.of(node);
+        let rows = self.of.chunks_exact_mut(half.len());
+        for (row, [by_half, by_whole]) in rows.zip(responses(h, lever)) {
+            add(row, by_half, half);
+            add(row, by_whole, whole);
+        }
     }
 
     /// Takes a sample in and leaves E in `errors`.
@@ -136,6 +122,8 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 pub(super) struct Sensitivities<'a, const N: usize> {
     regressed: Regressed<'a, N>,
     found: Derivatives,
+    /// Samples that are not on the way back yet.
+    left: usize,
 }
 
 /// Derivatives of smoothed states and prediction errors by the coefficients.
@@ -157,17 +145,12 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
                 errors: Vec::with_capacity(rows * regressed.columns.errors.len()),
             },
             regressed,
+            left: 0,
         }
     }
 
     pub fn derivatives(self) -> Derivatives {
-        let Sensitivities {
-            regressed,
-            mut found,
-        } = self;
-        let columns = regressed.columns;
-        found.list[..columns.of.len()].copy_from_slice(&columns.of);
-        found
+        self.found
     }
 }
 
@@ -217,27 +200,40 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
 
     fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
         self.regressed.updated(node, sample, found);
+        self.left += 1;
         let per = 1.0 / found.variance.sqrt();
         let rows = self.regressed.columns.errors.iter();
         self.found.errors.extend(rows.map(|value| value * per));
     }
 
-    fn returned(&mut self, node: usize, way: &Return<N>, _: [&Gaussian<N>; 2]) {
+    /// The rows follow the recursion of the smoother's correction.
+    fn returned(&mut self, node: usize, visit: &Visit<N>) {
         let columns = &mut self.regressed.columns;
         let (count, size) = (columns.errors.len(), columns.of.len());
-        let off = &mut self.found.list[(node + 1) * size..][..size];
-        // The smoothed rows of the next node take the place of those that were predicted.
-        columns.room.copy_from_slice(&columns.of);
-        columns.room.swap_with_slice(off);
-        for (off, before) in columns.room.iter_mut().zip(&columns.of) {
-            *off -= before;
+        if (node + 1) * size == self.found.list.len() {
+            columns.of.fill(0.0);
         }
-        for (to, shares) in columns.of.chunks_exact_mut(count).zip(&way.share) {
-            for (off, share) in columns.room.chunks_exact(count).zip(shares) {
-                add(to, *share, off);
+        if let Some((sample, found)) = &visit.sample {
+            columns.errors.fill(0.0);
+            for (row, gain) in columns.of.chunks_exact(count).zip(&found.gain) {
+                add(&mut columns.errors, -gain, row);
+            }
+            self.left -= 1;
+            let errors = &self.found.errors[self.left * count..][..count];
+            add(&mut columns.errors, 1.0 / found.variance.sqrt(), errors);
+            for (row, share) in columns.of.chunks_exact_mut(count).zip(&sample.row) {
+                add(row, *share, &columns.errors);
             }
         }
-        columns.respond(node, -1.0);
-        columns.transform(&way.inverse);
+        let smoothed = &mut self.found.list[node * size..][..size];
+        let shares = &visit.predicted.covariance;
+        for (to, shares) in smoothed.chunks_exact_mut(count).zip(shares) {
+            for (row, share) in columns.of.chunks_exact(count).zip(shares) {
+                add(to, *share, row);
+            }
+        }
+        if let Some(step) = &visit.step {
+            columns.transform(&transposed(&step.transition));
+        }
     }
 }

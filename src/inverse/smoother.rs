@@ -174,6 +174,8 @@ impl Problem<'_> {
                 if prior.follows_speed {
                     noise = linear.with_speed_corner(noise);
                 }
+                // Where the path came to rest by chance, far from the samples, it has no likelihood.
+                result.converged &= known.likelihood.is_finite();
                 let is_wider = prior != result.prior;
                 if is_at_rest && !is_wider && noise.likelihood < known.likelihood + ENOUGH_RISE {
                     result.noise = known;

@@ -75,7 +75,16 @@ impl Deviations<'_> {
             transition[1][i] = step.top[1][i];
             offset[i] = step.defect[i];
         }
-        self.integrate(step, step.h, &mut transition);
+        if self.prior.order > 1 {
+            transition[2][3] = step.h;
+        }
+        if self.prior.order > 2 {
+            transition[2][4] = 0.5 * step.h * step.h;
+            transition[3][4] = step.h;
+        }
+        if self.prior.follows_speed {
+            transition[2][2 + self.prior.order] = step.h * step.tilt;
+        }
         let mut noise = self.process_noise(node);
         if let Some(Autoregression { decay, white }) = self.correlated {
             transition[N - 1][N - 1] = (-decay * step.h).exp();
@@ -86,33 +95,6 @@ impl Deviations<'_> {
             offset,
             noise,
         }
-    }
-
-    /// Returns Φ⁻¹ = [[B⁻¹, −B⁻¹ C T⁻¹], [0, T⁻¹]] of Φ = [[B, C], [0, T]].
-    #[inline(always)]
-    pub fn inverse<const N: usize>(&self, node: usize) -> Matrix<N> {
-        let step = &self.steps[node];
-        let mut inverse = diagonal([1.0; N]);
-        let [[a, b, ..], [c, d, ..]] = step.top;
-        let per = 1.0 / (a * d - b * c);
-        let small = [[d * per, -b * per], [-c * per, a * per]];
-        for row in 0..2 {
-            inverse[row][..2].copy_from_slice(&small[row]);
-        }
-        self.integrate(step, -step.h, &mut inverse);
-        for k in 2..self.prior.states().min(N) {
-            let [p, q] = [0, 1].map(|row| {
-                let parts = (2..=k).map(|i| step.top[row][i] * inverse[i][k]);
-                parts.sum::<f64>()
-            });
-            for row in 0..2 {
-                inverse[row][k] = -(small[row][0] * p + small[row][1] * q);
-            }
-        }
-        if let Some(correlated) = self.correlated {
-            inverse[N - 1][N - 1] = (correlated.decay * step.h).exp();
-        }
-        inverse
     }
 
     /// Returns the sample of a node; none without a measurement.
@@ -148,21 +130,6 @@ impl Deviations<'_> {
         Gaussian {
             mean: [0.0; N],
             covariance: diagonal(variances),
-        }
-    }
-
-    /// Sets the entries by which g and the derivatives of u add to u and the lower derivatives over a time, s.
-    #[inline(always)]
-    fn integrate<const N: usize>(&self, step: &Linearised, time: f64, matrix: &mut Matrix<N>) {
-        if self.prior.order > 1 {
-            matrix[2][3] = time;
-        }
-        if self.prior.order > 2 {
-            matrix[2][4] = 0.5 * time * time;
-            matrix[3][4] = time;
-        }
-        if self.prior.follows_speed {
-            matrix[2][2 + self.prior.order] = time * step.tilt;
         }
     }
 
@@ -220,43 +187,5 @@ fn add<const N: usize, const R: usize>(
             let of_both = PER[2 * R - 2 - m - n] * response[m] * response[n];
             noise[states[m]][states[n]] += density * of_both;
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::inverse::linearised::exponential;
-    use crate::inverse::prior::Unknown;
-
-    #[test]
-    fn the_inverse_transition_undoes_the_transition() {
-        let step = Linearised {
-            h: 0.3,
-            top: exponential(0.3, -2.0, 0.7, 1.7),
-            lever: 1.7,
-            tilt: 0.7,
-            intensity: 1.0,
-            ..Linearised::default()
-        };
-        let model = Deviations {
-            steps: &[step],
-            increments: &Increments::default(),
-            observed: &[],
-            prior: Prior::new(Unknown::Torque, 2),
-            noise: 1.0,
-            speed_noise: 0.0,
-            correlated: Some(Autoregression {
-                decay: 2.0,
-                white: 0.1,
-            }),
-            spread: [1.0; 5],
-        };
-        let (step, inverse): (Step<5>, Matrix<5>) = (model.step(0), model.inverse(0));
-        let x = [0.3, -1.0, 2.0, 0.7, 0.2];
-        let times =
-            |a: &Matrix<5>, x: [f64; 5]| a.map(|row| (0..5).map(|k| row[k] * x[k]).sum::<f64>());
-        let back = times(&inverse, times(&step.transition, x));
-        assert!((0..5).all(|k| (x[k] - back[k]).abs() < 1e-14));
     }
 }

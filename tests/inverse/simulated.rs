@@ -629,6 +629,34 @@ fn a_long_record_has_a_finite_motion() {
     }
 }
 
+/// Slider positions at nine samples a turn, each at a time that is off by up to 0.4 of their spacing: the crank makes the turns
+/// that it made, and not the many more of an alias.
+#[test]
+fn samples_at_wrong_times_keep_their_turns() {
+    let machine = Motion {
+        name: "machine",
+        start: [0.3, 85.0],
+        end: 16.4,
+        rows: 2000,
+        torque: |_, theta, omega| 0.05 * (85.0 - omega) + 1.8 * (2.0 * theta).sin(),
+    };
+    let truth = machine.run();
+    for seed in 1..=3 {
+        let mut random = Random(seed * 7919);
+        let pairs = truth.theta.windows(2);
+        let shown = |pair: &[f64]| pair[0] + 0.8 * (random.even() - 0.5) * (pair[1] - pair[0]);
+        let values: Vec<f64> = pairs.map(shown).map(|theta| position(theta)[0]).collect();
+        let times = truth.t[..values.len()].to_vec();
+        let samples = Measurement::new(Measured::X, times, values).expect("samples");
+        let found = inverse(&scene(&machine, 1.0), &samples, &InverseOptions::default());
+        let found = found.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let off = |(row, theta): (&InverseRow, &f64)| (row.theta - theta).abs();
+        let far = found.rows.iter().zip(&truth.theta).map(off);
+        let far = far.fold(0.0, f64::max);
+        assert!(far < 0.25 * TAU, "seed {seed}: {far} rad");
+    }
+}
+
 /// Encoder of 500 steps on a swing within one turn: its codes are no samples of a polynomial with noise.
 #[test]
 fn codes_within_one_turn_are_smoothed() {
