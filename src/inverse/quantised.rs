@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::median::median;
 
 /// Quantisation of the crank angle: codes of an encoder, or rounded numbers.
@@ -138,7 +139,7 @@ impl Codes {
 
     /// Returns the standard deviation of an error that is uniform within a step, rad.
     pub fn spread(self) -> f64 {
-        self.step / 12f64.sqrt()
+        ROUNDING_DEVIATION * self.step
     }
 }
 

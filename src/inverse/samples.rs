@@ -12,6 +12,7 @@ use super::scales::Intensities;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
+use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::stop::Stop;
 use crate::scene::{Beside, BesideColumn, Measured, Measurement};
 
@@ -40,7 +41,7 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
         codes: None,
         intervals: Vec::new(),
         beside: sensors_beside(measurement, sensor),
-        floor: (measurement.resolution() / 12f64.sqrt())
+        floor: (ROUNDING_DEVIATION * measurement.resolution())
             .max(ROUNDING_STEPS * f64::EPSILON * largest),
         origin: measurement.origin(),
     }

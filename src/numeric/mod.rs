@@ -25,5 +25,8 @@ pub mod stop;
 pub mod student;
 pub mod trigonometry;
 
+/// Standard deviation of an error that is spread evenly over one unit, as that of a rounding: 1/√12.
+pub const ROUNDING_DEVIATION: f64 = 0.288_675_134_594_812_9;
+
 /// Number of values computed side by side, and of partial sums that are kept apart.
 pub const LANES: usize = 4;

@@ -6,10 +6,7 @@ use crate::engine::step::Step;
 use crate::engine::time::Method;
 use crate::engine::{Counted, Motion};
 use crate::mechanism::Equation;
-
-/// Standard deviation of one rounding, in units of the last place: about 1/√12, for errors spread evenly over half a
-/// unit on either side.
-const ROUNDING_DEVIATION: f64 = 0.3;
+use crate::numeric::ROUNDING_DEVIATION;
 
 /// Roundoff of a run in time.
 #[derive(Clone, Copy, Debug)]

@@ -4,9 +4,9 @@ use std::array::from_fn;
 
 use super::Dynamics;
 use super::panel::{PanelStart, PanelTable};
-use crate::numeric::LANES;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
 use crate::numeric::enclosure::Interval;
+use crate::numeric::{LANES, ROUNDING_DEVIATION};
 
 /// Generalized forces at the points of a panel, N m.
 pub(super) struct Forces {
@@ -111,8 +111,8 @@ impl Forces {
         let due_to_time = |j: usize| self.non_conservative[j] - frozen[j];
         let between = (1..count).map(|j| (due_to_time(j) - due_to_time(j - 1)).powi(2));
         let change = between.sum::<f64>().sqrt();
-        // Two deviations, of 0.29 units each, of two roundings: of the time, and of what a load makes of it.
-        let roundings = 2.0 * 0.29 * std::f64::consts::SQRT_2;
+        // Two deviations of two roundings: of the time, and of what a load makes of it.
+        let roundings = 2.0 * ROUNDING_DEVIATION * std::f64::consts::SQRT_2;
         roundings * (start.t * largest(&self.speeds[..count])).abs() * change
     }
 
