@@ -30,9 +30,6 @@ const MOST_LOG_ODDS: f64 = 3.9;
 /// ln of the odds above which a criterion is named in favour of a motion: 2 to 1.
 const NAMED_LOG_ODDS: f64 = 0.7;
 
-/// Precision of the scene's initial angle, rad: half a degree.
-const STATED_ANGLE_ERROR: f64 = 0.01;
-
 /// Returns the crank angles of all samples, continued over the turns.
 ///
 /// # Errors
@@ -189,9 +186,10 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys).
+    /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys), beside that of a sample.
     fn of_angle(&self) -> f64 {
-        -(self.off + STATED_ANGLE_ERROR).ln()
+        let CrankAngles { sensor, sigma, .. } = &self.angles;
+        -(self.off + sigma / sensor.size()).ln()
     }
 
     /// Returns ln of the probability of the sense of the scene's speed.
@@ -260,7 +258,9 @@ impl<'a> Pair<'a> {
                 false => list.join(" and "),
             }
         };
-        let doubt = (odds.abs() < CERTAIN_LOG_ODDS).then(|| {
+        let opposes = |(part, _): &(f64, _)| -part * odds.signum() > NAMED_LOG_ODDS;
+        let is_doubtful = odds.abs() < CERTAIN_LOG_ODDS || speaking.iter().any(opposes);
+        let doubt = is_doubtful.then(|| {
             let past = if odds > 0.0 && leaves.is_some() { ", past a limit," } else { "" };
             format!(
                 "{name} alone does not tell a motion from its mirror image on the other strokes: the one that begins at {:.4} rad is taken (for it: {}); the one that begins at {:.4} rad{past} has other forces (for it: {})",
