@@ -6,7 +6,9 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
-use super::matrix::{Matrix, Vector, congruent, diagonal, dot, roots, sum, times, transposed};
+use super::matrix::{
+    Matrix, Vector, congruent, diagonal, dot, product, roots, sum, times, transposed,
+};
 use super::state_space::Deviations;
 
 /// Step of the model from a node to the next.
@@ -155,7 +157,7 @@ impl<const N: usize> Gaussian<N> {
         }
         Gaussian {
             mean: sum(self.mean, times(&self.covariance, &later.correction)),
-            covariance: congruent(&transposed(&part), &diagonal([1.0; N]), &[[0.0; N]; N]),
+            covariance: product(&transposed(&part), &part),
         }
     }
 }
@@ -192,10 +194,11 @@ impl<const N: usize> Later<N> {
             }
             let shared = times(&self.information, &column);
             let per = 1.0 / (column[k] + dot(&column, &shared));
+            let part = 1.0 / column[k];
             for i in 0..N {
                 for j in 0..N {
                     self.information[i][j] -= shared[i] * shared[j] * per;
-                    noise[i][j] -= column[i] * column[j] / column[k];
+                    noise[i][j] -= column[i] * column[j] * part;
                 }
             }
         }
