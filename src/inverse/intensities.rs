@@ -6,7 +6,8 @@
 
 use std::ops::Range;
 
-use super::kalman::{self, Companion, Step, Visit};
+use super::fixed_interval::{self, Returning, Visit};
+use super::kalman::{Companion, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
@@ -36,7 +37,9 @@ struct Scores {
     list: Vec<Score>,
 }
 
-impl<const N: usize> Companion<N> for Scores {
+impl<const N: usize> Companion<N> for Scores {}
+
+impl<const N: usize> Returning<N> for Scores {
     /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
     fn returned(&mut self, node: usize, visit: &Visit<N>) {
         let Some(Step { noise, .. }) = &visit.step else {
@@ -63,7 +66,7 @@ fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
         per_variance: 1.0 / (sigma * sigma),
         list: vec![Score::default(); model.steps.len()],
     };
-    kalman::smooth::<N>(model, &mut scores);
+    fixed_interval::smooth::<N>(model, &mut scores);
     scores.list
 }
 
@@ -180,6 +183,7 @@ impl Problem<'_> {
 mod tests {
     use super::*;
     use crate::inverse::harmonics::Increments;
+    use crate::inverse::kalman;
     use crate::inverse::linearised::{Linearised, exponential};
     use crate::inverse::prior::TORQUE;
     use crate::inverse::state_space::Observed;

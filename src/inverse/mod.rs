@@ -38,6 +38,7 @@ mod code_moments;
 mod estimate;
 mod first_path;
 mod fitted;
+mod fixed_interval;
 mod grid;
 mod guide;
 mod harmonics;

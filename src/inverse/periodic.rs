@@ -11,8 +11,9 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
+use super::fixed_interval::{Returning, Visit};
 use super::harmonics::{Increments, dot, responses};
-use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step, Visit};
+use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
@@ -205,7 +206,9 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
         let rows = self.regressed.columns.errors.iter();
         self.found.errors.extend(rows.map(|value| value * per));
     }
+}
 
+impl<const N: usize> Returning<N> for Sensitivities<'_, N> {
     /// The rows follow the recursion of the smoother's correction.
     fn returned(&mut self, node: usize, visit: &Visit<N>) {
         let columns = &mut self.regressed.columns;

@@ -3,7 +3,6 @@
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::harmonics::Repeating;
-use super::kalman;
 use super::likelihood::Linear;
 use super::linearised::Motion;
 use super::matrix::Matrix;
@@ -11,6 +10,7 @@ use super::periodic::Sensitivities;
 use super::problem::Problem;
 use super::regression::Regression;
 use super::scales::Noise;
+use super::{fixed_interval, kalman};
 
 impl Problem<'_> {
     /// Returns the smoothed motion about all stretches of a path, and leaves the torque that repeats in the path.
@@ -26,7 +26,7 @@ impl Problem<'_> {
             let stretch = self.stretch(motion, path, range.clone(), noise.sigma);
             let model = linear.deviations(&stretch, noise);
             let mut sensitivities = Sensitivities::new(&model, &mut to);
-            let (deviations, innovations) = kalman::smooth::<N>(&model, &mut sensitivities);
+            let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut sensitivities);
             (deviations, innovations, sensitivities.derivatives())
         });
         let stretches: Vec<_> = stretches.collect();

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::estimate::Estimate;
 use super::grid::{Grid, Path, hermite};
 use super::harmonics::{Increments, ways};
-use super::kalman;
 use super::likelihood::{Linear, Stretch};
 use super::linearised::{Linearised, Motion, Rates};
 use super::matrix::Matrix;
@@ -14,6 +13,7 @@ use super::record::Record;
 use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::with_dimension;
+use super::{fixed_interval, kalman};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -181,7 +181,7 @@ impl<'a> Problem<'a> {
             let stretch = self.stretch(motion, path, from..to, noise.sigma);
             let model = linear.deviations(&stretch, noise);
             let all = with_dimension!(model.dimension(), N => {
-                let (deviations, innovations) = kalman::smooth::<N>(&model, &mut ());
+                let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut ());
                 self.estimated(motion, path, from, &deviations, &innovations, noise)
             });
             found.copy_from_slice(&all[core.start - from..core.end - from]);
