@@ -28,6 +28,8 @@ pub(super) struct Record<'a> {
     pub codes: Option<Codes>,
     /// Intervals in the place of quantised samples, represented by normal distributions at `values`.
     pub intervals: Vec<Interval>,
+    /// Times, s, and values, rad, of the samples that the intervals stand for.
+    pub shown: Vec<[f64; 2]>,
     /// Other sensors of the motion.
     pub beside: Vec<SensorBeside<'a>>,
     /// Lower bound of the standard deviation of a sample, rad or m.
@@ -80,6 +82,7 @@ impl Record<'_> {
             weights: self.weights.clone(),
             codes: None,
             intervals: Vec::new(),
+            shown: Vec::new(),
             beside: beside.collect(),
             ..*self
         }
@@ -88,11 +91,13 @@ impl Record<'_> {
     /// Returns this record with the intervals of its codes in the place of the samples.
     pub fn coded(&self, codes: Codes) -> Self {
         let intervals = codes.intervals(&self.times, &self.values);
+        let shown = self.times.iter().zip(&self.values);
         Record {
             times: intervals.iter().map(|i| i.t).collect(),
             values: intervals.iter().map(|i| i.middle).collect(),
             weights: vec![1.0; intervals.len()],
             intervals,
+            shown: shown.map(|(t, value)| [*t, *value]).collect(),
             beside: Vec::new(),
             ..*self
         }

@@ -15,7 +15,7 @@ pub(super) struct Whiteness {
 }
 
 /// Normal deviate above which residuals are not white noise: one in 10 000 records of noise exceeds it.
-const DEVIATIONS: f64 = 3.7;
+pub(super) const DEVIATIONS: f64 = 3.7;
 
 /// Maximum number of autocorrelations that are tested.
 const LAGS: usize = 20;

@@ -40,6 +40,7 @@ pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>)
         values,
         codes: None,
         intervals: Vec::new(),
+        shown: Vec::new(),
         beside: sensors_beside(measurement, sensor),
         floor: (ROUNDING_DEVIATION * measurement.resolution())
             .max(ROUNDING_STEPS * f64::EPSILON * largest),

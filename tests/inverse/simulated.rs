@@ -657,6 +657,36 @@ fn samples_at_wrong_times_keep_their_turns() {
     }
 }
 
+/// Swings whose mirror image has the likelier forces: the initial angle of the scene, which the positions repeat to their
+/// noise, tells the two apart.
+#[test]
+fn a_stated_initial_angle_tells_a_swing_from_its_mirror_image() {
+    let swing = |begin: f64, end: f64, torque: fn(f64, f64, f64) -> f64| Motion {
+        name: "swing",
+        start: [begin, 0.0],
+        end,
+        rows: 600,
+        torque,
+    };
+    let swings = [
+        swing(0.2, 3.4, |_, theta, _| -3.53 * (theta - 0.73).sin()),
+        swing(-0.2, 3.14, |_, theta, omega| {
+            -5.0 * (theta - 0.51).sin() - 0.0093 * omega
+        }),
+        swing(-0.2, 4.92, |_, theta, omega| {
+            -5.74 * (theta - 0.62).sin() - 0.004 * omega
+        }),
+        swing(2.9, 2.45, |_, theta, omega| {
+            -4.77 * (theta - 1.12).sin() - 0.0165 * omega
+        }),
+    ];
+    for swing in &swings {
+        let record = measure(&swing.run(), Sensor::AngleModel(1e-5, 1.0), &mut Random(11));
+        let begin = found(swing, &record, 1.0).rows[0].theta;
+        assert!((begin - swing.start[0]).abs() < 0.01, "{begin} rad");
+    }
+}
+
 /// Encoder of 500 steps on a swing within one turn: its codes are no samples of a polynomial with noise.
 #[test]
 fn codes_within_one_turn_are_smoothed() {
