@@ -669,8 +669,7 @@ fn a_stated_initial_angle_tells_a_swing_from_its_mirror_image() {
         torque,
     };
     let swings = [
-        swing(0.2, 3.4, |_, theta, _| -3.53 * (theta - 0.73).sin()),
-        swing(-0.2, 3.14, |_, theta, omega| {
+        swing(-0.2, 3.1, |_, theta, omega| {
             -5.0 * (theta - 0.51).sin() - 0.0093 * omega
         }),
         swing(-0.2, 4.92, |_, theta, omega| {
