@@ -190,24 +190,28 @@ impl Problem<'_> {
             }
             let smoothed = self.propagated(codes, smoothed);
             if smoothed.is_finite() {
-                let keeps = self.keeps_steps(codes, &smoothed);
-                found.push((smoothed, self.sites(), keeps));
+                found.push(OfCodes {
+                    keeps_steps: self.keeps_steps(codes, &smoothed),
+                    sites: self.sites(),
+                    smoothed,
+                });
             }
-            let kept = found.iter().filter(|(_, _, keeps)| *keeps).count();
+            let kept = found.iter().filter(|one| one.keeps_steps).count();
             if kept == CANDIDATES || found.len() == 2 * CANDIDATES {
                 break;
             }
         }
-        if found.iter().any(|(_, _, keeps)| *keeps) {
-            found.retain(|(_, _, keeps)| *keeps);
+        if found.iter().any(|one| one.keeps_steps) {
+            found.retain(|one| one.keeps_steps);
         }
-        found.sort_by(|a, b| b.0.noise.likelihood.total_cmp(&a.0.noise.likelihood));
+        let likelihood = |one: &OfCodes| one.smoothed.noise.likelihood;
+        found.sort_by(|a, b| likelihood(b).total_cmp(&likelihood(a)));
         let listed = found
             .iter()
-            .map(|(one, ..)| (one.prior, one.noise.likelihood));
+            .map(|one| (one.smoothed.prior, likelihood(one)));
         let listed = listed.collect();
         let best = found.into_iter().next();
-        let (smoothed, sites) = best.map_or((kinematic, first), |(one, sites, _)| (one, sites));
+        let (smoothed, sites) = best.map_or((kinematic, first), |one| (one.smoothed, one.sites));
         (self.record.values, self.record.weights) = sites;
         (smoothed, listed)
     }
@@ -227,5 +231,13 @@ impl Problem<'_> {
     }
 }
 
-/// Maximum number of priors that are compared by the probability of the codes.
+/// Motion with a prior, with the sites of the codes, their values (rad) and weights, that belong to it.
+struct OfCodes {
+    smoothed: Smoothed,
+    sites: (Vec<f64>, Vec<f64>),
+    keeps_steps: bool,
+}
+
+/// Maximum number of priors that are compared by the probability of the codes, and half of those tried for one that
+/// keeps the steps.
 const CANDIDATES: usize = 3;

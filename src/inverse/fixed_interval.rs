@@ -9,9 +9,7 @@
 #![allow(clippy::needless_range_loop)]
 
 use super::kalman::{Companion, Gaussian, Innovation, Sample, Step, run};
-use super::matrix::{
-    Matrix, Vector, congruent, diagonal, dot, product, roots, sum, times, transposed,
-};
+use super::matrix::{Matrix, Vector, congruent, dot, informed, sum, times, transposed};
 use super::state_space::Deviations;
 
 /// What the samples from a node on tell of its state.
@@ -46,24 +44,12 @@ pub(super) trait Returning<const N: usize>: Companion<N> {
 impl<const N: usize> Returning<N> for () {}
 
 impl<const N: usize> Gaussian<N> {
-    /// Returns the distribution by all samples: P = L (I + LᵀYL)⁻¹ Lᵀ for P̂ = L Lᵀ, without a difference of large numbers.
+    /// Returns the distribution by all samples.
     #[inline(always)]
     fn with(&self, later: &Later<N>) -> Gaussian<N> {
-        let root = transposed(&roots(&self.covariance));
-        let told = roots(&congruent(&root, &later.information, &diagonal([1.0; N])));
-        let mut part = root;
-        for i in 0..N {
-            let per = 1.0 / told[i][i];
-            for j in 0..N {
-                for k in 0..i {
-                    part[i][j] -= told[i][k] * part[k][j];
-                }
-                part[i][j] *= per;
-            }
-        }
         Gaussian {
             mean: sum(self.mean, times(&self.covariance, &later.correction)),
-            covariance: product(&transposed(&part), &part),
+            covariance: informed(&self.covariance, &later.information),
         }
     }
 }
@@ -183,7 +169,7 @@ pub(super) fn smooth<const N: usize>(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{Matrix3, RowVector3, Vector3};
+    use nalgebra::{DMatrix, DVector, Matrix3, RowVector3, Vector3};
 
     use super::*;
     use crate::inverse::harmonics::Increments;
@@ -191,35 +177,60 @@ mod tests {
     use crate::inverse::prior::{Prior, Unknown};
     use crate::inverse::state_space::Observed;
 
-    /// A crank with losses under an unknown constant torque, over 80 of its time constants: without process noise the
-    /// smoothed motion is that of the start that least squares find, but for the rounding of a start as wide as 1e5 σ.
-    #[test]
-    fn the_smoother_is_as_stable_as_the_mechanism() {
-        const STEPS: usize = 800;
-        let step = Linearised {
+    const STEPS: usize = 800;
+
+    /// Returns a crank with losses under an unknown torque, over 80 of its time constants.
+    fn step() -> Linearised {
+        Linearised {
             h: 0.1,
             top: exponential(0.1, 0.0, -1.0, 1.7),
             lever: 1.7,
             intensity: 1.0,
             ..Linearised::default()
-        };
-        let observed: Vec<Observed> = (0..=STEPS)
+        }
+    }
+
+    fn observed() -> Vec<Observed> {
+        let residual = |k: usize| (1.7 * k as f64).sin() + 0.01 * k as f64;
+        let [slope, variance] = [1.0; 2];
+        (0..=STEPS)
             .map(|k| Observed {
-                residual: (1.7 * k as f64).sin() + 0.01 * k as f64,
-                slope: 1.0,
-                variance: 1.0,
+                residual: residual(k),
+                slope,
+                variance,
             })
-            .collect();
-        let model = Deviations {
-            steps: &[step; STEPS],
-            increments: &Increments::default(),
-            observed: &observed,
+            .collect()
+    }
+
+    fn model<'a>(
+        steps: &'a [Linearised],
+        increments: &'a Increments,
+        observed: &'a [Observed],
+        noise: f64,
+    ) -> Deviations<'a> {
+        Deviations {
+            steps,
+            increments,
+            observed,
             prior: Prior::new(Unknown::Torque, 1),
-            noise: 0.0,
+            noise,
             speed_noise: 0.0,
             correlated: None,
             spread: [1e3, 1e4, 1e5, 0.0, 0.0],
-        };
+        }
+    }
+
+    fn agrees(found: &Gaussian<3>, k: usize, mean: f64, error: f64, within: f64) {
+        assert!((found.mean[k] - mean).abs() < within * error);
+        assert!((found.covariance[k][k].sqrt() - error).abs() < within * error);
+    }
+
+    /// Without process noise the smoothed motion is that of the start that least squares find, but for the rounding of a
+    /// start as wide as 1e5 σ.
+    #[test]
+    fn the_smoother_is_as_stable_as_the_mechanism() {
+        let (steps, increments, observed) = ([step(); STEPS], Increments::default(), observed());
+        let model = model(&steps, &increments, &observed, 0.0);
         let (found, _) = smooth::<3>(&model, &mut ());
         let transition = Matrix3::from_fn(|i, j| model.step::<3>(0).transition[i][j]);
         let mut powers = vec![Matrix3::identity()];
@@ -237,9 +248,44 @@ mod tests {
         for (power, found) in powers.iter().zip(&found) {
             let (mean, spread) = (power * begin, power * covariance * power.transpose());
             for k in 0..3 {
-                let error = spread[(k, k)].sqrt();
-                assert!((found.mean[k] - mean[k]).abs() < 1e-4 * error);
-                assert!((found.covariance[k][k].sqrt() - error).abs() < 1e-4 * error);
+                agrees(found, k, mean[k], spread[(k, k)].sqrt(), 1e-4);
+            }
+        }
+    }
+
+    /// With process noise the smoothed motion solves the normal equations of all states together.
+    #[test]
+    fn the_smoother_solves_the_normal_equations() {
+        const NODES: usize = 30;
+        let (steps, increments, observed) =
+            ([step(); NODES - 1], Increments::default(), observed());
+        let model = model(&steps, &increments, &observed[..NODES], 0.3);
+        let (found, _) = smooth::<3>(&model, &mut ());
+        let [transition, noise] = [model.step::<3>(0).transition, model.step::<3>(0).noise]
+            .map(|matrix| Matrix3::from_fn(|i, j| matrix[i][j]));
+        let precision = noise.try_inverse().expect("regular");
+        let mut information = DMatrix::<f64>::zeros(3 * NODES, 3 * NODES);
+        let mut right = DVector::<f64>::zeros(3 * NODES);
+        for k in 0..3 {
+            information[(k, k)] = model.spread[k].powi(-2);
+        }
+        for node in 0..NODES {
+            information[(3 * node, 3 * node)] += 1.0;
+            right[3 * node] = observed[node].residual;
+        }
+        // What a step leaves: the state after it less what follows from the state before.
+        let sides = [-transition, Matrix3::identity()];
+        for (node, a, b) in (1..NODES).flat_map(|n| [(n, 0, 0), (n, 0, 1), (n, 1, 0), (n, 1, 1)]) {
+            let [row, column] = [a, b].map(|side| 3 * (node - 1 + side));
+            let mut part = information.fixed_view_mut::<3, 3>(row, column);
+            part += sides[a].transpose() * precision * sides[b];
+        }
+        let covariance = information.try_inverse().expect("regular");
+        let mean = &covariance * right;
+        for (node, found) in found.iter().enumerate() {
+            for i in 0..3 {
+                let at = 3 * node + i;
+                agrees(found, i, mean[at], covariance[(at, at)].sqrt(), 1e-5);
             }
         }
     }

@@ -74,7 +74,7 @@ pub(super) fn transposed<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
 
 /// Returns the Cholesky factor L of P = L Lᵀ, with the rounding of P's diagonal added.
 #[inline(always)]
-pub(super) fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
+fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
     let mut root = [[0.0; N]; N];
     for j in 0..N {
         let rounding = f64::EPSILON * p[j][j];
@@ -93,4 +93,22 @@ pub(super) fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
         }
     }
     root
+}
+
+/// Returns the covariance (P⁻¹ + Y)⁻¹ of a state with the covariance P by more information Y: L (I + LᵀYL)⁻¹ Lᵀ for P = L Lᵀ,
+/// without a difference of large numbers.
+#[inline(always)]
+pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -> Matrix<N> {
+    let mut part = transposed(&roots(p));
+    let told = roots(&congruent(&part, information, &diagonal([1.0; N])));
+    for i in 0..N {
+        let per = 1.0 / told[i][i];
+        for j in 0..N {
+            for k in 0..i {
+                part[i][j] -= told[i][k] * part[k][j];
+            }
+            part[i][j] *= per;
+        }
+    }
+    product(&transposed(&part), &part)
 }
