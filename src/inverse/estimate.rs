@@ -1,7 +1,7 @@
 //! Smoothed motion at a node, with its covariance.
 
-use super::linearised::State;
 use super::motion_estimate::MotionEstimate;
+use super::prior::State;
 
 /// Smoothed motion at a node.
 #[derive(Clone, Copy, Debug, Default)]

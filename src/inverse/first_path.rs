@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
-use super::grid::Path;
-use super::linearised::State;
+use super::estimate::Estimate;
+use super::grid::{Grid, Path};
+use super::prior::State;
 use super::prior::{Prior, Unknown};
 use super::problem::Problem;
 use super::smoother::Smoothed;
@@ -23,14 +24,14 @@ pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
 }
 
 impl Problem<'_> {
-    /// Returns the state of a prior at a node of a smoothed motion.
-    pub fn state_of(&self, prior: Prior, from: &Smoothed, node: usize) -> State {
-        let [theta, omega, alpha] = from.estimates[node].motion();
+    /// Returns the state of a prior at a time of a smoothed motion.
+    fn state_of(&self, prior: Prior, from: &Estimate, t: f64) -> State {
+        let [theta, omega, alpha] = from.motion();
         if prior.unknown == Unknown::Acceleration {
-            return [theta, omega, alpha, from.estimates[node].state[3], 0.0];
+            return [theta, omega, alpha, from.state[3], 0.0];
         }
         let terms = self.equation.terms(theta);
-        let t = self.record.origin + self.grid.times[node];
+        let t = self.record.origin + t;
         let known = self.equation.loads().value(t, theta, omega, &terms.pose);
         let torque = self.equation.generalized_force(&terms, omega, alpha)
             - known.generalized(terms.pose.dx);
@@ -46,12 +47,37 @@ impl Problem<'_> {
     pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: Vec<Range<usize>>) -> Path {
         let along = |range: &Range<usize>| {
             let first = range.start;
-            parallel::list(range.len(), |k| self.state_of(prior, from, first + k))
+            parallel::list(range.len(), |k| {
+                self.state_of(
+                    prior,
+                    &from.estimates[first + k],
+                    self.grid.times[first + k],
+                )
+            })
         };
         Path {
             states: ranges.iter().flat_map(along).collect(),
             repeating: None,
             ranges,
         }
+    }
+
+    /// Returns the states of a smoothed motion along a smoothed motion without mechanics, at all nodes. These become blocks
+    /// of samples where the prior leaves nothing but noise within a block.
+    pub fn whole_path(&mut self, found: &Smoothed, from: &Smoothed) -> Path {
+        let angles = from.estimates.iter().map(|estimate| estimate.state[0]);
+        let corner = found.noise.corner.max(found.noise.speed_corner);
+        let is_white = self.grid.block == 0.0 && found.noise.correlated.is_none();
+        let blocks = Grid::of_long_blocks(&self.record.times, angles)
+            .filter(|blocks| is_white && blocks.resolves(corner));
+        let Some(blocks) = blocks else {
+            return self.path_of(found.prior, from, self.all());
+        };
+        let states = parallel::list(blocks.len(), |k| {
+            let t = blocks.times[k];
+            self.state_of(found.prior, &self.at(from, t), t)
+        });
+        self.grid = blocks;
+        Path::whole(states)
     }
 }

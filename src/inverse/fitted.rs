@@ -156,12 +156,12 @@ impl Fitted {
             problem.at(smoothed, samples.times[i]).estimated()
         });
         let sigma = smoothed.noise.sigma;
-        let shares = (0..record.times.len()).map(|i| {
+        let shares = parallel::list(record.times.len(), |i| {
             let estimate = problem.at(smoothed, record.times[i]);
             let slope = record.sensor.shown(estimate.state[0]).slope;
             record.weights[i] * slope * slope * estimate.covariance[0] / (sigma * sigma)
         });
-        let parameters = shares.filter(|share| share.is_finite()).sum::<f64>();
+        let parameters = shares.iter().filter(|share| share.is_finite()).sum::<f64>();
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;
@@ -212,6 +212,7 @@ impl Fitted {
             outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,
+            residual_ljung_box: whiteness.ljung_box,
             ..fitted.summary
         };
         fitted
@@ -243,6 +244,7 @@ impl Fitted {
             parameters,
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,
+            residual_ljung_box: whiteness.ljung_box,
             ..fitted.summary
         };
         fitted

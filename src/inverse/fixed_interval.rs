@@ -173,9 +173,10 @@ mod tests {
 
     use super::*;
     use crate::inverse::harmonics::Increments;
-    use crate::inverse::linearised::{Linearised, exponential};
+    use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::{Prior, Unknown};
     use crate::inverse::state_space::Observed;
+    use crate::inverse::transition::exponential;
 
     const STEPS: usize = 800;
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::harmonics::Repeating;
-use super::linearised::State;
-use super::prior::Prior;
+use super::prior::{Prior, State};
+use super::repeating::Repeating;
+use crate::numeric::interpolate::cubic;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]
@@ -80,8 +80,11 @@ impl Path {
         [by_theta, by_omega + prior.by_speed(state)]
     }
 
-    /// Root mean square of the speed, rad/s.
+    /// Returns the unit of the speed in a torque that repeats, rad/s: the root mean square where none is known yet.
     pub fn speed(&self) -> f64 {
+        if let Some(known) = &self.repeating {
+            return known.speed;
+        }
         let squares = self.states.iter().map(|state| state[1] * state[1]);
         (squares.sum::<f64>() / self.states.len() as f64).sqrt()
     }
@@ -99,25 +102,12 @@ impl Piece<'_> {
         let a = grid.around(t).0.clamp(self.first, last - 1);
         let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
         let times = [grid.times[a], grid.times[a + 1]];
-        hermite(times, [state(a), state(a + 1)], t)[0]
+        cubic(times, [state(a), state(a + 1)], t)[0]
     }
 }
 
-/// Value and slope at t of the cubic that has values and slopes at two times.
-pub(super) fn hermite(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] {
-    let h = times[1] - times[0];
-    let s = (t - times[0]) / h;
-    let [[p, u], [q, v]] = ends;
-    let mean = (q - p) / h;
-    let (c, d) = (3.0 * mean - 2.0 * u - v, u + v - 2.0 * mean);
-    [
-        p + h * s * (u + s * (c + s * d)),
-        u + s * (2.0 * c + 3.0 * s * d),
-    ]
-}
-
 /// Largest way of the crank from node to node, rad.
-const NODE_ROTATION: f64 = 0.12;
+const NODE_ROTATION: f64 = std::f64::consts::TAU / 50.0;
 
 /// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
 /// block, rad.
@@ -125,14 +115,21 @@ const BLOCK_SAMPLES: usize = 100_000;
 const LEAST_BLOCKS: usize = 50_000;
 const BLOCK_ROTATION: f64 = 0.02;
 
+/// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
+const BLOCK_PHASE: f64 = 0.3;
+
 impl Grid {
-    /// Nodes that stand for blocks of samples, if these are so many and so dense that little happens in a block.
-    pub fn of_blocks(times: &[f64], angles: &[f64]) -> Option<Grid> {
+    /// Returns nodes that stand for blocks of samples, if there are so many that blocks of at most this rotation, rad, pay.
+    fn in_blocks(
+        times: &[f64],
+        angles: impl ExactSizeIterator<Item = f64>,
+        longest: f64,
+    ) -> Option<Grid> {
         let count = times.len();
-        let stride = count.div_ceil(1000);
-        let some: Vec<f64> = angles.iter().step_by(stride).copied().collect();
+        let stride = angles.len().div_ceil(1000);
+        let some: Vec<f64> = angles.step_by(stride).collect();
         let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let dense = (BLOCK_ROTATION * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
+        let dense = (longest * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
         let length = dense.min(count / LEAST_BLOCKS);
         if count < BLOCK_SAMPLES || length < 2 {
             return None;
@@ -150,6 +147,24 @@ impl Grid {
             first,
             block: widest,
         })
+    }
+
+    /// Returns blocks in which little happens along crank angles, rad.
+    pub fn of_blocks(times: &[f64], angles: impl ExactSizeIterator<Item = f64>) -> Option<Grid> {
+        Grid::in_blocks(times, angles, BLOCK_ROTATION)
+    }
+
+    /// Returns blocks as long as the way from node to node may be, for the motion of an equation that is known in a block.
+    pub fn of_long_blocks(
+        times: &[f64],
+        angles: impl ExactSizeIterator<Item = f64>,
+    ) -> Option<Grid> {
+        Grid::in_blocks(times, angles, NODE_ROTATION)
+    }
+
+    /// True if a smoother with a corner frequency, rad/s, finds nothing but noise within a block.
+    pub fn resolves(&self, corner: f64) -> bool {
+        self.block * corner <= BLOCK_PHASE
     }
 
     /// Nodes at the samples and between those that are far apart.

@@ -1,106 +1,51 @@
-//! Harmonics of the crank angle, whose amplitudes may follow the speed.
+//! Harmonics of the crank angle in each step of a path.
 
-use std::iter;
+use super::linearised::Linearised;
+use super::prior::{Prior, State};
+use super::repeating::{cosines_and_sines, dot};
+use crate::numeric::gauss::LOBATTO;
+use crate::numeric::interpolate::cubic;
 
-use super::grid::hermite;
-use super::linearised::{Linearised, State};
-use super::matrix::Matrix;
-use super::prior::Prior;
-
-/// A torque that repeats, N m.
-#[derive(Clone, Debug)]
-pub(super) struct Repeating {
-    pub prior: Prior,
-    pub coefficients: Vec<f64>,
-    /// Number of harmonics that the samples determine.
-    pub told: usize,
-    /// Unit of the speed, rad/s.
-    pub speed: f64,
-    /// Covariance of θ, ω and u by that of the coefficients, in the mean of the nodes.
-    pub covariance: Matrix<3>,
-}
-
-impl Repeating {
-    /// Returns the derivatives by θ and ω at a state.
-    pub fn slopes(&self, [theta, omega, ..]: &State) -> [f64; 2] {
-        let cycle = f64::from(self.prior.cycle);
-        let pairs = cosines_and_sines(theta / cycle, self.prior.harmonics);
-        let of = self.prior.of_harmonic();
-        let (mut by_theta, mut by_omega) = (0.0, 0.0);
-        for (k, (pair, some)) in pairs.zip(self.coefficients.chunks_exact(of)).enumerate() {
-            let rate = (k + 1) as f64 / cycle;
-            for (power, some) in some.chunks_exact(2).enumerate() {
-                let factor = if power == 0 { 1.0 } else { omega / self.speed };
-                by_theta += rate * factor * (some[1] * pair[0] - some[0] * pair[1]);
-                if power == 1 {
-                    by_omega += dot(some, &pair) / self.speed;
-                }
-            }
-        }
-        [by_theta, by_omega]
-    }
-
-    /// Adds what the torque does in each step to its prediction from states at its ends.
-    pub fn act(&self, states: &[State], steps: &mut [Linearised]) {
-        let ways: Vec<_> = ways(states, steps, self.speed).collect();
-        let mut before = ways.first().map_or(0.0, |[begin, ..]| self.at(*begin));
-        for (step, [_, middle, end]) in steps.iter_mut().zip(ways) {
-            let [half, whole] = [middle, end].map(|place| self.at(place) - before);
-            before += whole;
-            let responses = responses(step.h, step.lever);
-            for (to, [by_half, by_whole]) in step.defect.iter_mut().zip(responses) {
-                *to += by_half * half + by_whole * whole;
-            }
-        }
-    }
-
-    /// Returns the torque at a crank angle, rad, and a speed in units of its own.
-    fn at(&self, [theta, speed]: [f64; 2]) -> f64 {
-        let pairs = cosines_and_sines(theta / f64::from(self.prior.cycle), self.prior.harmonics);
-        let of = self.coefficients.chunks_exact(self.prior.of_harmonic());
-        let torques = pairs.zip(of).map(|(pair, some)| {
-            let (alone, with_speed) = some.split_at(2);
-            dot(alone, &pair) + speed * dot(with_speed, &pair)
-        });
-        torques.sum()
-    }
-}
-
-/// Responses of θ, ω and u at the end of a step h to torques in its middle and at its end, by Simpson's rule for θ̈.
-pub(super) fn responses(h: f64, lever: f64) -> [[f64; 2]; 3] {
+/// Responses of θ, ω and u at the end of a step h to torques at its inner nodes and its end, by Lobatto's rule for θ̈.
+pub(super) fn responses(h: f64, lever: f64) -> [[f64; NODES]; 3] {
+    let inner = h * lever * (5.0 / 12.0);
+    let [early, late] = LOBATTO;
     [
-        [h * h * lever / 3.0, 0.0],
-        [h * lever * (2.0 / 3.0), h * lever / 6.0],
-        [0.0, 1.0],
+        [h * inner * late, h * inner * early, 0.0],
+        [inner, inner, 0.2 * inner],
+        [0.0, 0.0, 1.0],
     ]
 }
 
-/// Crank angles, rad, and speeds, in units of one, at begin, middle and end of each step.
+/// Crank angles, rad, and speeds, in units of one, at begin, inner nodes and end of each step.
 pub(super) fn ways(
     states: &[State],
     steps: &[Linearised],
     speed: f64,
-) -> impl Iterator<Item = [[f64; 2]; 3]> {
+) -> impl Iterator<Item = [[f64; 2]; NODES + 1]> {
     let pairs = states.windows(2).zip(steps);
     pairs.map(move |(ends, step)| {
         let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
-        let middle = hermite([0.0, step.h], [a, b], 0.5 * step.h);
-        [a, middle, b].map(|[theta, omega]| [theta, omega / speed])
+        let [early, late] = LOBATTO.map(|part| cubic([0.0, step.h], [a, b], part * step.h));
+        [a, early, late, b].map(|[theta, omega]| [theta, omega / speed])
     })
 }
 
-/// Harmonics in the middle and at the end of each step less those at its begin.
+/// Number of nodes of a step beside its begin.
+const NODES: usize = 3;
+
+/// Harmonics at inner nodes and end of each step less those at its begin.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Increments {
     /// Number of coefficients.
     pub count: usize,
-    /// Middle and end of each step, one after the other.
+    /// Inner nodes and end of each step, one after the other.
     values: Vec<f64>,
 }
 
 impl Increments {
-    /// Of a prior along a path with these crank angles, rad, and speeds, over their root mean square, at begins, middles and ends.
-    pub fn new(ways: impl Iterator<Item = [[f64; 2]; 3]>, prior: Prior) -> Increments {
+    /// Of a prior along a path with these crank angles, rad, and speeds, over their unit, at begins, inner nodes and ends.
+    pub fn new(ways: impl Iterator<Item = [[f64; 2]; NODES + 1]>, prior: Prior) -> Increments {
         let at = |[angle, speed]: [f64; 2]| -> Vec<f64> {
             let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
             match prior.follows_speed {
@@ -112,10 +57,10 @@ impl Increments {
         };
         let mut values = Vec::new();
         let mut known = None;
-        for [begin, middle, end] in ways {
+        for [begin, early, late, end] in ways {
             let begin = known.unwrap_or_else(|| at(begin));
             let end = at(end);
-            for list in [&at(middle), &end] {
+            for list in [&at(early), &at(late), &end] {
                 values.extend(list.iter().zip(&begin).map(|(now, before)| now - before));
             }
             known = Some(end);
@@ -124,20 +69,20 @@ impl Increments {
         Increments { count, values }
     }
 
-    /// Middle and end of a step.
-    pub fn of(&self, step: usize) -> (&[f64], &[f64]) {
-        self.values[2 * step * self.count..][..2 * self.count].split_at(self.count)
+    /// Returns the rows of inner nodes and end of a step.
+    pub fn of(&self, step: usize) -> [&[f64]; NODES] {
+        let first = NODES * step;
+        std::array::from_fn(|k| &self.values[(first + k) * self.count..][..self.count])
     }
-}
 
-/// cos kθ and sin kθ of the cycle angle.
-fn cosines_and_sines(angle: f64, harmonics: usize) -> impl Iterator<Item = [f64; 2]> {
-    let (sin, cos) = angle.sin_cos();
-    let next = move |[c, s]: &[f64; 2]| Some([c * cos - s * sin, s * cos + c * sin]);
-    iter::successors(Some([cos, sin]), next).take(harmonics)
-}
-
-/// Sum of the products of two rows.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    /// Takes what these coefficients do out of the steps' predictions: what is left is linear in all of the coefficients.
+    pub fn take_out(&self, coefficients: &[f64], steps: &mut [Linearised]) {
+        for (k, step) in steps.iter_mut().enumerate() {
+            let torques = self.of(k).map(|row| dot(row, coefficients));
+            let responses = responses(step.h, step.lever);
+            for (to, response) in step.defect.iter_mut().zip(responses) {
+                *to -= dot(&response, &torques);
+            }
+        }
+    }
 }

@@ -184,9 +184,10 @@ mod tests {
     use super::*;
     use crate::inverse::harmonics::Increments;
     use crate::inverse::kalman;
-    use crate::inverse::linearised::{Linearised, exponential};
+    use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::TORQUE;
     use crate::inverse::state_space::Observed;
+    use crate::inverse::transition::exponential;
 
     /// Returns a model of samples about a path of these steps.
     fn model<'a>(

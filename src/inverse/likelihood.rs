@@ -3,9 +3,10 @@
 
 use super::harmonics::Increments;
 use super::kalman::{self, Evidence};
-use super::linearised::{Linearised, State};
+use super::linearised::Linearised;
 use super::periodic::Regressed;
 use super::prior::Prior;
+use super::prior::State;
 use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
 use super::state_space::{Deviations, Observed, with_dimension};

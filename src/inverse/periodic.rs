@@ -12,11 +12,12 @@
 use nalgebra::{DMatrix, DMatrixView};
 
 use super::fixed_interval::{Returning, Visit};
-use super::harmonics::{Increments, dot, responses};
+use super::harmonics::{Increments, responses};
 use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
+use super::repeating::dot;
 use super::state_space::Deviations;
 
 /// Derivatives of the state by the coefficients, along the filter.
@@ -58,11 +59,12 @@ impl<'a, const N: usize> Columns<'a, N> {
     fn step(&mut self, node: usize, step: &Step<N>) {
         self.transform(&step.transition);
         let Linearised { h, lever, .. } = self.steps[node];
-        let (half, whole) = self.increments.of(node);
-        let rows = self.of.chunks_exact_mut(half.len());
-        for (row, [by_half, by_whole]) in rows.zip(responses(h, lever)) {
-            add(row, by_half, half);
-            add(row, by_whole, whole);
+        let torques = self.increments.of(node);
+        let rows = self.of.chunks_exact_mut(self.increments.count);
+        for (row, response) in rows.zip(responses(h, lever)) {
+            for (factor, torque) in response.into_iter().zip(torques) {
+                add(row, factor, torque);
+            }
         }
     }
 

@@ -2,13 +2,13 @@
 
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::harmonics::Repeating;
 use super::likelihood::Linear;
 use super::linearised::Motion;
 use super::matrix::Matrix;
 use super::periodic::Sensitivities;
 use super::problem::Problem;
 use super::regression::Regression;
+use super::repeating::Repeating;
 use super::scales::Noise;
 use super::{fixed_interval, kalman};
 

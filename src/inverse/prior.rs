@@ -1,6 +1,10 @@
 //! Priors among which the likelihood chooses: the unknown of the equation of motion and its random process.
 
-use super::linearised::State;
+/// Largest order of a prior.
+pub(super) const ORDERS: usize = 3;
+
+/// State: θ, ω, u, then the derivatives of u, or g.
+pub(super) type State = [f64; 2 + ORDERS];
 
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +111,7 @@ pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
 pub(super) const SMOOTH: Prior = Prior::new(Unknown::Torque, 3);
 
 /// A torque in proportion to the speed, and a Wiener process.
-const FOLLOWING: Prior = Prior {
+pub(super) const FOLLOWING: Prior = Prior {
     follows_speed: true,
     ..TORQUE
 };

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::estimate::Estimate;
-use super::grid::{Grid, Path, hermite};
+use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
 use super::likelihood::{Linear, Stretch};
-use super::linearised::{Linearised, Motion, Rates};
+use super::linearised::{Linearised, Motion, Node};
 use super::matrix::Matrix;
 use super::prior::Prior;
 use super::record::Record;
@@ -15,6 +15,7 @@ use super::smoother::Smoothed;
 use super::state_space::with_dimension;
 use super::{fixed_interval, kalman};
 use crate::mechanism::Equation;
+use crate::numeric::interpolate::cubic;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 
@@ -37,7 +38,8 @@ pub(super) struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Returns the smoothed motion at a time: between nodes u is interpolated, the acceleration is the equation's.
+    /// Returns the smoothed motion at a time: between nodes u beside what follows θ and ω is interpolated, the acceleration
+    /// is the equation's.
     pub fn at(&self, smoothed: &Smoothed, t: f64) -> Estimate {
         let estimates = &smoothed.estimates;
         let (a, b) = self.grid.around(t);
@@ -48,8 +50,14 @@ impl<'a> Problem<'a> {
             return if part == 0.0 { *a } else { *b };
         }
         let end = |e: &Estimate| [e.state[0], e.state[1]];
-        let [theta, omega] = hermite(times, [end(a), end(b)], t);
-        let unknown = a.state[2] + part * (b.state[2] - a.state[2]);
+        let [theta, omega] = cubic(times, [end(a), end(b)], t);
+        let g = smoothed.prior.by_speed(&a.state);
+        let torque = smoothed.repeating.as_ref();
+        let follows =
+            |theta, omega| g * omega + torque.map_or(0.0, |torque| torque.at(theta, omega));
+        let [before, after] = [a, b].map(|e| follows(e.state[0], e.state[1]));
+        let rest = a.state[2] - before + part * (b.state[2] - after - (a.state[2] - before));
+        let unknown = rest + follows(theta, omega);
         let motion = self.motion(smoothed.prior);
         // Beyond the ends as at the ends.
         let part = part.clamp(0.0, 1.0);
@@ -85,25 +93,25 @@ impl<'a> Problem<'a> {
         let times = &self.grid.times[range.clone()];
         let piece = path.piece(&range);
         let states = piece.states;
-        let pairs = times.iter().zip(states);
-        let rates = pairs
-            .map(|(t, state)| motion.rates_following(path.slopes(motion.prior, state), *t, state));
-        let rates: Vec<Rates> = rates.collect();
-        let steps = (0..states.len() - 1).map(|k| {
-            let ends = [&states[k], &states[k + 1]];
-            let ends =
-                motion.linearised([times[k], times[k + 1]], ends, [&rates[k], &rates[k + 1]]);
-            Linearised {
-                intensity: self.intensities.at(0.5 * (times[k] + times[k + 1])),
-                ..ends
-            }
+        let torque = path.repeating.as_ref();
+        let nodes = times.iter().zip(states).map(|(t, state)| Node {
+            t: *t,
+            state,
+            rates: motion.rates_following(path.slopes(motion.prior, state), *t, state),
+            repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])),
+        });
+        let nodes: Vec<Node<'_>> = nodes.collect();
+        let steps = nodes.windows(2).map(|ends| Linearised {
+            intensity: self.intensities.at(0.5 * (ends[0].t + ends[1].t)),
+            ..motion.linearised(&ends[0], &ends[1], torque)
         });
         let mut steps: Vec<Linearised> = steps.collect();
         let mut increments = Increments::default();
-        match (motion.prior.cycle, &path.repeating) {
-            (0, Some(known)) => known.act(states, &mut steps),
-            (0, None) => {}
-            _ => increments = Increments::new(ways(states, &steps, path.speed()), motion.prior),
+        if motion.prior.cycle > 0 {
+            increments = Increments::new(ways(states, &steps, path.speed()), motion.prior);
+            if let Some(known) = torque {
+                increments.take_out(&known.coefficients, &mut steps);
+            }
         }
         Stretch {
             steps,

@@ -22,9 +22,6 @@ const ROUNDING_STEPS: f64 = 2.0;
 /// Maximum number of rounds of outlier detection.
 const OUTLIER_ROUNDS: usize = 6;
 
-/// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
-const BLOCK_PHASE: f64 = 0.3;
-
 /// Returns the samples of a measurement at full weight; a measured crank angle is the unwrapped one of `angles`.
 pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
     let sensor = angles.sensor;
@@ -73,8 +70,8 @@ pub(super) fn problem<'a>(
     equation: &'a Equation,
     stop: Option<&'a Stop>,
 ) -> Problem<'a> {
-    let grid =
-        Grid::of_blocks(&record.times, theta).unwrap_or_else(|| Grid::new(&record.times, theta));
+    let grid = Grid::of_blocks(&record.times, theta.iter().copied())
+        .unwrap_or_else(|| Grid::new(&record.times, theta));
     Problem {
         record,
         grid,
@@ -147,7 +144,7 @@ fn without_outliers<'a>(
     let first = first_path::coarse(&problem, &theta);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
-    if problem.grid.block * kinematic.noise.corner > BLOCK_PHASE {
+    if !problem.grid.resolves(kinematic.noise.corner) {
         problem.grid = Grid::new(&problem.record.times, &theta);
         let first = first_path::coarse(&problem, &theta);
         kinematic = problem.kinematic(first, sigma);

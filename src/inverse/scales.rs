@@ -1,6 +1,6 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use super::linearised::State;
+use super::prior::State;
 use super::regression::Spectrum;
 
 /// Typical magnitudes along a record.

@@ -4,11 +4,11 @@
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::harmonics::Repeating;
 use super::likelihood::{Linear, Stretch};
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
+use super::repeating::Repeating;
 use super::residual_tests::Whiteness;
 use super::scales::{Autoregression, Noise, Scales};
 
@@ -85,7 +85,11 @@ impl Problem<'_> {
     /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
     /// first. Noise of the samples is correlated where that is suspected or the prediction errors say so, and the
     /// likelihood agrees.
-    pub fn likeliest(&self, kinematic: Smoothed, suspected: bool) -> (Smoothed, Vec<(Prior, f64)>) {
+    pub fn likeliest(
+        &mut self,
+        kinematic: Smoothed,
+        suspected: bool,
+    ) -> (Smoothed, Vec<(Prior, f64)>) {
         let white = self.tried(&kinematic, &[]);
         let Some(mut found) = self.first_converged(&white, &kinematic) else {
             return (kinematic, listed(&white));
@@ -105,7 +109,7 @@ impl Problem<'_> {
                 (found, tried) = (other, listed(&correlated));
             }
         }
-        let path = self.path_of(found.prior, &kinematic, self.all());
+        let path = self.whole_path(&found, &kinematic);
         (self.completed(found, path), tried)
     }
 

@@ -4,9 +4,10 @@
 
 use super::harmonics::Increments;
 use super::kalman::{Gaussian, Sample, Step};
-use super::linearised::{Linearised, State};
+use super::linearised::Linearised;
 use super::matrix::{Matrix, diagonal};
 use super::prior::Prior;
+use super::prior::State;
 use super::scales::Autoregression;
 
 /// Evaluates an expression with the number of states as a constant.

@@ -103,6 +103,8 @@ pub struct FitSummary {
     pub residual_lag_one: f64,
     /// Runs of one sign among the residuals, in standard deviations from the number expected of noise.
     pub residual_runs: f64,
+    /// Ljung-Box statistic of up to 20 autocorrelations, as a standard normal deviate; above 3.7 they are not white noise.
+    pub residual_ljung_box: f64,
 }
 
 /// Stretch of the record with another intensity of the process noise: a force that jumps, a machine at rest.

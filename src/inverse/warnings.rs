@@ -109,8 +109,8 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             }
         };
         warnings.push(format!(
-            "the residuals are not white noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations): {so}",
-            summary.residual_lag_one, summary.residual_runs,
+            "the residuals are not white noise (correlation of each with the next {:.2}, runs of one sign {:+.0} standard deviations, Ljung-Box test {:.1}): {so}",
+            summary.residual_lag_one, summary.residual_runs, summary.residual_ljung_box,
         ));
     }
     if let Some(farthest) = fitted.farthest_outlier {

@@ -3,6 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
+/// Inner nodes (1 ∓ 1/√5)/2 of Lobatto's rule with four points on [0, 1], whose weights are 1/12 at the ends and 5/12 inside
+/// (Abramowitz and Stegun, 25.4.32).
+pub const LOBATTO: [f64; 2] = [0.276_393_202_250_021, 0.723_606_797_749_979];
+
 /// Returns node and weight number `i` (from 0) of the rule with `n` points on [0, 1], by Newton's method on the
 /// Legendre polynomial (Abramowitz and Stegun, 25.4.29 and 22.16.6).
 pub fn legendre(n: u32, i: usize) -> (f64, f64) {

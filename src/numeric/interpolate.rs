@@ -247,6 +247,19 @@ fn end_slope(h0: f64, h1: f64, rise0: f64, rise1: f64) -> f64 {
     }
 }
 
+/// Returns value and slope at t of the cubic that has values and slopes at two times.
+pub fn cubic(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] {
+    let h = times[1] - times[0];
+    let s = (t - times[0]) / h;
+    let [[p, u], [q, v]] = ends;
+    let mean = (q - p) / h;
+    let (c, d) = (3.0 * mean - 2.0 * u - v, u + v - 2.0 * mean);
+    [
+        p + h * s * (u + s * (c + s * d)),
+        u + s * (2.0 * c + 3.0 * s * d),
+    ]
+}
+
 /// Quintic Hermite interpolation over s in [0, 1], as the change from the start.
 #[derive(Clone, Copy, Debug)]
 pub struct Quintic([f64; 5]);
