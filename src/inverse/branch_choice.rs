@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY};
 use super::measurement_model::{Scale, Sensor};
-use super::mirror_image::{Image, fork, image};
+use super::mirror_image::{Imaged, fork};
 use super::problem::Problem;
 use super::samples::{problem, record};
 use super::{alignment, first_path, limit, unwrap};
@@ -47,14 +47,9 @@ pub(super) fn crank_angles<'a>(
     branch_tracking::reachable(sensor, measurement)?;
     let sensors = alignment::sensors(*sensor, measurement);
     let motions = branch_tracking::motions(&sensors, measurement)?;
-    let first = &motions[0];
-    let images: Vec<Image<'a>> = motions.iter().map(image).collect();
-    let others = motions
-        .iter()
-        .chain(images.iter().map(|image| &image.angles))
-        .skip(1);
-    let fork = others
-        .filter_map(|other| fork(first, other))
+    let all = motions.iter().flat_map(|one| [&one.angles, &one.image]);
+    let fork = all
+        .filter_map(|other| fork(&motions[0].angles, other))
         .max()
         .unwrap_or(0);
     let count = EARLY.min(measurement.len());
@@ -62,26 +57,30 @@ pub(super) fn crank_angles<'a>(
         .saturating_sub(count / 2)
         .min(measurement.len() - count);
     let window = begin..begin + count;
-    let pairs = parallel::map(motions.into_iter().zip(images), |(angles, image)| {
+    let pairs = parallel::map(motions.into_iter(), |one| {
         let read = |angles: CrankAngles<'a>| {
             let mut record = record(measurement, &angles);
             record.keep(window.clone());
             let problem = problem(record, &angles.theta[window.clone()], equation, stop);
             Reading::new(measurement, &problem, motion, angles, &window)
         };
-        let is_whole = image.leaves.is_none();
+        let Imaged {
+            angles,
+            image,
+            leaves,
+        } = one;
         let taken = read(angles);
-        let other = match is_whole {
-            true => read(image.angles),
+        let other = match leaves {
+            None => read(image),
             // The likelihood of an incomplete image is unknown: the motion's own stands for it.
-            false => Reading {
+            Some(_) => Reading {
                 likelihood: taken.likelihood,
                 sense: -taken.sense,
-                off: off(&image.angles, motion),
-                angles: image.angles,
+                off: off(&image, motion),
+                angles: image,
             },
         };
-        Pair::new(taken, other, image.leaves, motion, sensor.measured.name())
+        Pair::new(taken, other, leaves, motion, sensor.measured.name())
     });
     best(pairs, measurement, motion)
 }

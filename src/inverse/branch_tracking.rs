@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 use super::hypotheses::{DROPPED_LOG_RATIO, Tracker};
 use super::measurement_model::Sensor;
+use super::mirror_image::Imaged;
 use crate::error::Error;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
@@ -26,14 +27,14 @@ pub(super) struct CrankAngles<'a> {
     pub warnings: Vec<String>,
 }
 
-/// Returns the motions that samples may stand for, of different ends or sensors, the likeliest first.
+/// Returns the motions that samples may stand for, with their mirror images, the likeliest first.
 ///
 /// # Errors
 /// [`Error::Refused`] if no motion of the mechanism explains the samples.
 pub(super) fn motions<'a>(
     sensors: &[Sensor<'a>],
     measurement: &Measurement,
-) -> Result<Vec<CrankAngles<'a>>, Error> {
+) -> Result<Vec<Imaged<'a>>, Error> {
     let early = measurement.len().min(EARLY);
     let likeliest = |sensor| {
         let tracker = Tracker {
@@ -51,24 +52,30 @@ pub(super) fn motions<'a>(
     };
     let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
     likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut motions: Vec<CrankAngles<'a>> = Vec::new();
+    let mut motions: Vec<Imaged<'a>> = Vec::new();
     for (score, tracker, setting) in &likeliest {
         if *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
             break;
         }
+        let before = motions.len();
         for theta in tracker.tracks(setting) {
-            let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
-            let alike = |other: &CrankAngles<'_>| {
-                other.sensor.scale == tracker.sensor.scale
-                    && (turned(&other.theta) - turned(&theta)).abs() < DISTINCT_ROTATION
+            if motions.len() - before == MOTIONS {
+                break;
+            }
+            let alike = |other: &Imaged<'_>| {
+                let is_one = |path: &CrankAngles<'_>| {
+                    path.sensor.scale == tracker.sensor.scale
+                        && tracker.agree(setting.sigma, &path.theta, &theta)
+                };
+                is_one(&other.angles) || is_one(&other.image)
             };
-            if motions.len() < MOTIONS && is_resolved(&theta) && !motions.iter().any(alike) {
-                motions.push(CrankAngles {
+            if is_resolved(&theta) && !motions.iter().any(alike) {
+                motions.push(Imaged::new(CrankAngles {
                     sensor: *tracker.sensor,
                     theta,
                     sigma: setting.sigma,
                     warnings: Vec::new(),
-                });
+                }));
             }
         }
     }
@@ -94,7 +101,7 @@ fn is_resolved(theta: &[f64]) -> bool {
 /// Difference of crank angle at which two motions are distinct, rad.
 pub(super) const DISTINCT_ROTATION: f64 = 0.5;
 
-/// Maximum number of motions that are compared by their likelihoods through the equation.
+/// Maximum number of motions by one sensor that are compared by their likelihoods through the equation.
 const MOTIONS: usize = 4;
 
 /// Number of samples by which noise and agility are found.

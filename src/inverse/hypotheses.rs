@@ -30,6 +30,16 @@ struct Hypothesis {
 struct Link {
     theta: f64,
     before: Option<usize>,
+    rival: Option<Rival>,
+}
+
+/// The likeliest other way to the state of a link.
+#[derive(Clone, Copy, Debug)]
+struct Rival {
+    /// Index of its last link.
+    last: usize,
+    /// ln of the likelihood ratio of the way that was taken to this one.
+    loss: f64,
 }
 
 /// Tracker of hypotheses through samples.
@@ -42,8 +52,11 @@ pub(super) struct Tracker<'a, 's> {
     pub speed: f64,
 }
 
-/// Maximum number of hypotheses, and ln of the likelihood ratio to the best beyond which one is dropped.
-const MOST_HYPOTHESES: usize = 6;
+/// Standard deviations beyond which a sample shows another motion.
+const FAR: f64 = 5.0;
+
+/// Maximum number of hypotheses, mirror images among them, and ln of the likelihood ratio to the best beyond which one is dropped.
+const MOST_HYPOTHESES: usize = 12;
 pub(super) const DROPPED_LOG_RATIO: f64 = 50.0;
 
 impl Tracker<'_, '_> {
@@ -62,21 +75,55 @@ impl Tracker<'_, '_> {
         list
     }
 
-    /// Returns the crank angles, rad, of all hypotheses left at the end, the likeliest first.
-    pub fn tracks(&self, setting: &Setting) -> Vec<Vec<f64>> {
+    /// Returns the crank angles, rad, of all hypotheses left at the end and of those that differ from one of them only before
+    /// they came to the same state, the likeliest first.
+    pub fn tracks(&self, setting: &Setting) -> impl Iterator<Item = Vec<f64>> {
         let mut links = Vec::with_capacity(2 * self.values.len());
         let ends = self.run(setting, self.values.len(), &mut links);
-        let path = |end: &Hypothesis| {
-            let mut theta = Vec::with_capacity(self.values.len());
-            let mut at = Some(end.last);
-            while let Some(link) = at {
-                theta.push(links[link].theta);
-                at = links[link].before;
+        let mut found = Vec::new();
+        for Hypothesis { score, last, .. } in ends {
+            found.push((score, last, None));
+            for (after, link) in way(&links, last).enumerate() {
+                let rival = links[link].rival.filter(|rival| {
+                    let ways = [link, rival.last].map(|last| way(&links, last));
+                    rival.loss < DROPPED_LOG_RATIO && self.part(setting.sigma, &links, ways)
+                });
+                found.extend(
+                    rival.map(|rival| (score - rival.loss, last, Some((after, rival.last)))),
+                );
             }
-            theta.reverse();
-            theta
-        };
-        ends.iter().map(path).collect()
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.into_iter().map(move |(_, last, rival)| {
+            let taken = way(&links, last);
+            let mut list: Vec<usize> = match rival {
+                None => taken.collect(),
+                Some((after, last)) => taken.take(after).chain(way(&links, last)).collect(),
+            };
+            list.reverse();
+            list.into_iter().map(|link| links[link].theta).collect()
+        })
+    }
+
+    /// True if two ways to one state show different motions before it.
+    fn part(&self, sigma: f64, links: &[Link], [a, b]: [impl Iterator<Item = usize>; 2]) -> bool {
+        let apart = a.zip(b).take_while(|(a, b)| a != b);
+        let mut angles = apart.map(|(a, b)| [a, b].map(|link| links[link].theta));
+        angles.any(|angles| self.differ(sigma, angles))
+    }
+
+    /// True if a sample with this noise, rad or m, tells two crank angles apart, rad.
+    fn differ(&self, sigma: f64, angles: [f64; 2]) -> bool {
+        let off = (angles[0] - angles[1]).powi(2);
+        let variance = |theta: f64| self.sight(theta, 0.0, sigma).variance;
+        off > 0.0 && off > FAR * FAR * (variance(angles[0]) + variance(angles[1]))
+    }
+
+    /// True if two paths show the same motion by samples with this noise, rad or m, whatever the turn in which it begins.
+    pub fn agree(&self, sigma: f64, a: &[f64], b: &[f64]) -> bool {
+        let turns = ((a[0] - b[0]) / TAU).round() * TAU;
+        let mut pairs = a.iter().zip(b);
+        !pairs.any(|(a, b)| self.differ(sigma, [*a, b + turns]))
     }
 
     /// Returns ln of the likelihood of the likeliest hypothesis after a number of samples.
@@ -105,7 +152,7 @@ impl Tracker<'_, '_> {
                     }
                 }
             }
-            prune(&mut next);
+            prune(&mut next, links);
             std::mem::swap(&mut now, &mut next);
         }
         now
@@ -115,23 +162,28 @@ impl Tracker<'_, '_> {
     fn sighted(&self, sample: usize, sigma: f64) -> Vec<Sight> {
         let value = self.values[sample];
         let (candidates, excess) = self.sensor.angles(value);
-        let sights = candidates.angles().iter().map(|theta| {
-            let shown = self.sensor.shown(*theta);
-            // At a dead centre the curvature sets the width.
-            let steep = shown.slope * shown.slope + shown.curvature.abs() * (sigma + excess);
-            Sight {
-                theta: *theta,
-                variance: sigma * sigma / steep,
-                score: -0.5 * steep.ln() - 0.5 * (excess / sigma).powi(2).min(50.0),
-            }
-        });
+        let angles = candidates.angles().iter();
+        let sights = angles.map(|theta| self.sight(*theta, excess, sigma));
         sights.filter(|sight| sight.variance.is_finite()).collect()
+    }
+
+    /// Returns a crank angle, rad, as the place of a value that exceeds what the mechanism can take.
+    fn sight(&self, theta: f64, excess: f64, sigma: f64) -> Sight {
+        let shown = self.sensor.shown(theta);
+        // At a dead centre the curvature sets the width.
+        let steep = shown.slope * shown.slope + shown.curvature.abs() * (sigma + excess);
+        Sight {
+            theta,
+            variance: sigma * sigma / steep,
+            score: -0.5 * steep.ln() - 0.5 * (excess / sigma).powi(2).min(50.0),
+        }
     }
 
     fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
         links.push(Link {
             theta: sight.theta,
             before: None,
+            rival: None,
         });
         let speed = 2.0 * self.speed;
         Hypothesis {
@@ -196,10 +248,10 @@ fn extend(
             2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln()
         };
         found.score += sight.score - 0.5 * spread.ln() - tails;
-        if off > 25.0 {
-            // An outlier moves the path no further than a sample five standard deviations off.
+        if off > FAR * FAR {
+            // An outlier moves the path no further than a sample at this distance.
             let (before, there) = (predicted.state, found.state.mean);
-            let part = 5.0 / off.sqrt();
+            let part = FAR / off.sqrt();
             let between = |k: usize| before.mean[k] + part * (there[k] - before.mean[k]);
             found.state = Gaussian {
                 mean: std::array::from_fn(between),
@@ -209,26 +261,37 @@ fn extend(
         links.push(Link {
             theta: found.state.mean[0],
             before: Some(predicted.last),
+            rival: None,
         });
         found.last = links.len() - 1;
         list.push(found);
     }
 }
 
-/// Keeps the likeliest hypotheses, and only the likeliest of those that agree.
-fn prune(list: &mut Vec<Hypothesis>) {
+/// Returns the indices of the links of a way, the last first.
+fn way(links: &[Link], last: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(last), |link| links[*link].before)
+}
+
+/// Keeps the likeliest hypotheses, and only the likeliest of those that agree, with its rival.
+fn prune(list: &mut Vec<Hypothesis>, links: &mut [Link]) {
     list.sort_by(|a, b| b.score.total_cmp(&a.score));
     let mut kept: usize = 0;
     for k in 0..list.len() {
         let now = list[k];
-        let agrees = |other: &Hypothesis| {
+        let agrees = |other: &&Hypothesis| {
             let off = |i: usize| other.state.mean[i] - now.state.mean[i];
             (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
         };
-        let drop = now.score < list[0].score - DROPPED_LOG_RATIO
-            || list[..kept].iter().any(agrees)
-            || kept == MOST_HYPOTHESES;
-        if !drop && now.score.is_finite() {
+        if let Some(other) = list[..kept].iter().find(agrees) {
+            links[other.last].rival.get_or_insert(Rival {
+                last: now.last,
+                loss: other.score - now.score,
+            });
+            continue;
+        }
+        let keep = now.score >= list[0].score - DROPPED_LOG_RATIO && kept < MOST_HYPOTHESES;
+        if keep && now.score.is_finite() {
             list[kept] = now;
             kept += 1;
         }

@@ -4,35 +4,40 @@ use std::f64::consts::TAU;
 
 use super::branch_tracking::{CrankAngles, DISTINCT_ROTATION};
 
-/// Mirror image of a motion, and the first sample at which it leaves the branch of the scene.
+/// Motion with its mirror image.
 #[derive(Clone, Debug)]
-pub(super) struct Image<'a> {
+pub(super) struct Imaged<'a> {
     pub angles: CrankAngles<'a>,
+    pub image: CrankAngles<'a>,
+    /// First sample at which the image leaves the branch of the scene.
     pub leaves: Option<usize>,
 }
 
-/// Returns the mirror image of a motion, and the sample at which it leaves the branch.
-pub(super) fn image<'a>(motion: &CrankAngles<'a>) -> Image<'a> {
-    let linkage = motion.sensor.linkage;
-    let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
-    for angle in &motion.theta {
-        let x = linkage.pose(*angle).x;
-        let there = 2.0 * (-linkage.e).atan2(x) - angle;
-        let last = theta.last().map_or(0.0, |last| *last);
-        theta.push(there + ((last - there) / TAU).round() * TAU);
-    }
-    // Half of the digits are lost at a limit.
-    let is_there = |k: usize| {
-        let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
-        (pose - image).abs() < f64::EPSILON.sqrt() * linkage.r
-    };
-    let leaves = (0..theta.len()).find(|k| !is_there(*k));
-    Image {
-        angles: CrankAngles {
-            theta,
-            ..motion.clone()
-        },
-        leaves,
+impl<'a> Imaged<'a> {
+    /// Adds the mirror image of a motion.
+    pub fn new(motion: CrankAngles<'a>) -> Imaged<'a> {
+        let linkage = motion.sensor.linkage;
+        let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
+        for angle in &motion.theta {
+            let x = linkage.pose(*angle).x;
+            let there = 2.0 * (-linkage.e).atan2(x) - angle;
+            let last = theta.last().map_or(0.0, |last| *last);
+            theta.push(there + ((last - there) / TAU).round() * TAU);
+        }
+        // Half of the digits are lost at a limit.
+        let is_there = |k: usize| {
+            let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
+            (pose - image).abs() < f64::EPSILON.sqrt() * linkage.r
+        };
+        let leaves = (0..theta.len()).find(|k| !is_there(*k));
+        Imaged {
+            image: CrankAngles {
+                theta,
+                ..motion.clone()
+            },
+            angles: motion,
+            leaves,
+        }
     }
 }
 

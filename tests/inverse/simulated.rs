@@ -686,6 +686,71 @@ fn a_stated_initial_angle_tells_a_swing_from_its_mirror_image() {
     }
 }
 
+/// A motor whose torque falls with the speed, seen 30 times in a turn almost without noise: the band is a thousandth of what
+/// the torque varies, and what the steps from sample to sample leave out of the equation must stay below it.
+#[test]
+fn few_samples_without_noise_tell_a_motor_by_its_speed() {
+    let motor = Motion {
+        name: "motor",
+        start: [0.4, 0.0],
+        end: 1.0,
+        rows: 220,
+        torque: |_, _, omega| 4.0 - 0.05 * omega,
+    };
+    let truth = motor.run();
+    for seed in 1..=6 {
+        let record = measure(&truth, Sensor::Angle(1e-6), &mut Random(seed * 7919));
+        let found = found(&motor, &record, 1.0);
+        let pairs = found.rows.iter().zip(&truth.torque);
+        let (mut inside, mut most) = (0, 0.0f64);
+        for (row, torque) in pairs {
+            let (Some(value), Some(se)) = (row.crank_torque, row.crank_torque_se) else {
+                continue;
+            };
+            let off = (value - torque).abs();
+            most = most.max(off);
+            inside += usize::from(off <= found.summary.band_factor * se);
+        }
+        assert!(most < 1e-3, "seed {seed}: {most} N m");
+        let share = inside as f64 / truth.t.len() as f64;
+        assert!(share > 0.85, "seed {seed}: {share}");
+    }
+}
+
+/// Motions that begin beside a dead centre and pass it late: which strokes they take shows only after it.
+#[test]
+fn positions_beside_a_dead_centre_keep_their_side() {
+    let waiting: fn(f64, f64, f64) -> f64 =
+        |t, theta, omega| needed([theta, omega, 15.0 * t - 4.0]);
+    let motor: fn(f64, f64, f64) -> f64 = |_, _, omega| 8.0 - 0.06 * omega;
+    for (start, end, rows, torque) in [
+        ([2.9, 0.38], 1.3, 1400, waiting),
+        ([-0.24, 0.0], 1.2, 1000, motor),
+    ] {
+        let motion = Motion {
+            name: "beside a dead centre",
+            start,
+            end,
+            rows,
+            torque,
+        };
+        let truth = motion.run();
+        for seed in 1..=6 {
+            let mut random = Random(seed * 7919);
+            let record = measure(&truth, Sensor::AngleModel(1e-3, 1.0), &mut random);
+            let found = found(&motion, &record, 1.0);
+            let off = |(row, theta): (&InverseRow, &f64)| row.theta - theta;
+            let off: Vec<f64> = found.rows.iter().zip(&truth.theta).map(off).collect();
+            let turns = (off[0] / TAU).round() * TAU;
+            let far = off
+                .iter()
+                .map(|off| (off - turns).abs())
+                .fold(0.0, f64::max);
+            assert!(far < 0.1, "{start:?}, seed {seed}: {far} rad");
+        }
+    }
+}
+
 /// Encoder of 500 steps on a swing within one turn: its codes are no samples of a polynomial with noise.
 #[test]
 fn codes_within_one_turn_are_smoothed() {
