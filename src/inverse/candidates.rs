@@ -131,8 +131,11 @@ impl Problem<'_> {
             return Vec::new();
         };
         let with = |prior: Prior, before: Noise, least: f64| {
-            // The samples tell no more coefficients than there are samples.
-            if 2 * prior.coefficients() > self.record.times.len() {
+            // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
+            let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
+            if 2 * prior.coefficients() > self.record.times.len()
+                || 2.0 * waves * turns > self.grid.len() as f64
+            {
                 return None;
             }
             let plain = Prior {
