@@ -4,8 +4,7 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
-use super::prior::State;
-use super::prior::{Prior, Unknown};
+use super::prior::{Prior, State, Unknown};
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;

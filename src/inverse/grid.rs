@@ -169,17 +169,12 @@ impl Grid {
 
     /// Nodes at the samples and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64]) -> Grid {
-        Grid::finer(times, angles, NODE_ROTATION)
-    }
-
-    /// Creates nodes at the samples and between them, at most `longest` apart, rad.
-    pub fn finer(times: &[f64], angles: &[f64], longest: f64) -> Grid {
         let mut grid = Grid::default();
         for (i, t) in times.iter().enumerate() {
             grid.times.push(*t);
             grid.first.push(i);
             let Some(next) = times.get(i + 1) else { break };
-            let parts = ((angles[i + 1] - angles[i]).abs() / longest)
+            let parts = ((angles[i + 1] - angles[i]).abs() / NODE_ROTATION)
                 .ceil()
                 .clamp(1.0, 1e4);
             for k in 1..parts as usize {

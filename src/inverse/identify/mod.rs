@@ -23,7 +23,6 @@ use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
 use super::first_path::coarse;
-use super::grid::Grid;
 use super::measurement_model::{Scale, Sensor};
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
@@ -57,9 +56,6 @@ pub struct Identification {
     /// Warnings for the user, in words.
     pub warnings: Vec<String>,
 }
-
-/// Largest crank rotation from node to node, rad: Simpson's rule then errs by less than 1e-9 of the motion.
-const LONGEST: f64 = 0.03;
 
 /// Identifies free values of a scene from a measured motion; `scene_at` maps values in the order of `free` to a scene.
 ///
@@ -107,9 +103,6 @@ fn identify_among(
         true => problem.record.values.clone(),
         false => angles.theta.clone(),
     };
-    if problem.grid.block == 0.0 {
-        problem.grid = Grid::finer(&problem.record.times, &theta, LONGEST);
-    }
     let first = coarse(&problem, &theta);
     let smooth = problem.kinematic(first, smooth.noise.sigma);
     // The first path is by the zero and gain that fit the scene's lengths, the identification by the lengths alone.
