@@ -109,9 +109,7 @@ impl Piece<'_> {
 /// Largest way of the crank from node to node, rad.
 const NODE_ROTATION: f64 = std::f64::consts::TAU / 50.0;
 
-/// Number of samples from which blocks may be formed, least number of nodes left, and largest crank rotation within a
-/// block, rad.
-const BLOCK_SAMPLES: usize = 100_000;
+/// Least number of blocks, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;
 const BLOCK_ROTATION: f64 = 0.02;
 
@@ -131,7 +129,7 @@ impl Grid {
         let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
         let dense = (longest * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
         let length = dense.min(count / LEAST_BLOCKS);
-        if count < BLOCK_SAMPLES || length < 2 {
+        if length < 2 {
             return None;
         }
         let blocks = count / length;

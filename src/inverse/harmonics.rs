@@ -32,7 +32,7 @@ pub(super) fn ways(
 }
 
 /// Number of nodes of a step beside its begin.
-const NODES: usize = 3;
+const NODES: usize = LOBATTO.len() + 1;
 
 /// Harmonics at inner nodes and end of each step less those at its begin.
 #[derive(Clone, Debug, Default)]
