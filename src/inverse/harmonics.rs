@@ -7,7 +7,7 @@ use crate::numeric::gauss::LOBATTO;
 use crate::numeric::interpolate::cubic;
 
 /// Responses of θ, ω and u at the end of a step h to torques at its inner nodes and its end, by Lobatto's rule for θ̈.
-pub(super) fn responses(h: f64, lever: f64) -> [[f64; NODES]; 3] {
+pub(super) fn responses(h: f64, lever: f64) -> [AtNodes<f64>; 3] {
     let inner = h * lever * (5.0 / 12.0);
     let [early, late] = LOBATTO;
     [
@@ -22,7 +22,7 @@ pub(super) fn ways(
     states: &[State],
     steps: &[Linearised],
     speed: f64,
-) -> impl Iterator<Item = [[f64; 2]; NODES + 1]> {
+) -> impl Iterator<Item = [[f64; 2]; 4]> {
     let pairs = states.windows(2).zip(steps);
     pairs.map(move |(ends, step)| {
         let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
@@ -31,8 +31,8 @@ pub(super) fn ways(
     })
 }
 
-/// Number of nodes of a step beside its begin.
-const NODES: usize = LOBATTO.len() + 1;
+/// Values at the inner nodes of a step and at its end.
+pub(super) type AtNodes<T> = [T; 3];
 
 /// Harmonics at inner nodes and end of each step less those at its begin.
 #[derive(Clone, Debug, Default)]
@@ -45,7 +45,7 @@ pub(super) struct Increments {
 
 impl Increments {
     /// Of a prior along a path with these crank angles, rad, and speeds, over their unit, at begins, inner nodes and ends.
-    pub fn new(ways: impl Iterator<Item = [[f64; 2]; NODES + 1]>, prior: Prior) -> Increments {
+    pub fn new(ways: impl Iterator<Item = [[f64; 2]; 4]>, prior: Prior) -> Increments {
         let at = |[angle, speed]: [f64; 2]| -> Vec<f64> {
             let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
             match prior.follows_speed {
@@ -70,8 +70,8 @@ impl Increments {
     }
 
     /// Returns the rows of inner nodes and end of a step.
-    pub fn of(&self, step: usize) -> [&[f64]; NODES] {
-        let first = NODES * step;
+    pub fn of(&self, step: usize) -> AtNodes<&[f64]> {
+        let first = 3 * step;
         std::array::from_fn(|k| &self.values[(first + k) * self.count..][..self.count])
     }
 

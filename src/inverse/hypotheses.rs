@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::kalman::{Gaussian, Sample, Step};
+use super::links::{Link, Rival, Track, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 
@@ -23,23 +24,6 @@ struct Hypothesis {
     score: f64,
     /// Index of the last link in the list of all links.
     last: usize,
-}
-
-/// Crank angle of a path, rad, with the index of the preceding link.
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    theta: f64,
-    before: Option<usize>,
-    rival: Option<Rival>,
-}
-
-/// The likeliest other way to the state of a link.
-#[derive(Clone, Copy, Debug)]
-struct Rival {
-    /// Index of its last link.
-    last: usize,
-    /// ln of the likelihood ratio of the way that was taken to this one.
-    loss: f64,
 }
 
 /// Tracker of hypotheses through samples.
@@ -82,24 +66,30 @@ impl Tracker<'_, '_> {
         let ends = self.run(setting, self.values.len(), &mut links);
         let mut found = Vec::new();
         for Hypothesis { score, last, .. } in ends {
-            found.push((score, last, None));
+            let whole = Track {
+                score,
+                last,
+                after: 0,
+                before: last,
+            };
+            found.push(whole);
             for (after, link) in way(&links, last).enumerate() {
                 let rival = links[link].rival.filter(|rival| {
                     let ways = [link, rival.last].map(|last| way(&links, last));
                     rival.loss < DROPPED_LOG_RATIO && self.part(setting.sigma, &links, ways)
                 });
-                found.extend(
-                    rival.map(|rival| (score - rival.loss, last, Some((after, rival.last)))),
-                );
+                found.extend(rival.map(|rival| Track {
+                    score: score - rival.loss,
+                    after,
+                    before: rival.last,
+                    ..whole
+                }));
             }
         }
-        found.sort_by(|a, b| b.0.total_cmp(&a.0));
-        found.into_iter().map(move |(_, last, rival)| {
-            let taken = way(&links, last);
-            let mut list: Vec<usize> = match rival {
-                None => taken.collect(),
-                Some((after, last)) => taken.take(after).chain(way(&links, last)).collect(),
-            };
+        found.sort_by(|a, b| b.score.total_cmp(&a.score));
+        found.into_iter().map(move |track| {
+            let after = way(&links, track.last).take(track.after);
+            let mut list: Vec<usize> = after.chain(way(&links, track.before)).collect();
             list.reverse();
             list.into_iter().map(|link| links[link].theta).collect()
         })
@@ -266,11 +256,6 @@ fn extend(
         found.last = links.len() - 1;
         list.push(found);
     }
-}
-
-/// Returns the indices of the links of a way, the last first.
-fn way(links: &[Link], last: usize) -> impl Iterator<Item = usize> {
-    std::iter::successors(Some(last), |link| links[*link].before)
 }
 
 /// Keeps the likeliest hypotheses, and only the likeliest of those that agree, with its rival.

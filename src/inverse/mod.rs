@@ -52,6 +52,7 @@ mod kinematic;
 mod likelihood;
 mod limit;
 mod linearised;
+mod links;
 mod matrix;
 mod maximum;
 mod mean_cycle;

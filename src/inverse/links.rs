@@ -1,0 +1,35 @@
+//! Ways of a tracker through samples: lists of links that share their begins.
+
+/// Crank angle of a path, rad, with the index of the preceding link.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    pub theta: f64,
+    pub before: Option<usize>,
+    pub rival: Option<Rival>,
+}
+
+/// The likeliest other way to the state of a link.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rival {
+    /// Index of its last link.
+    pub last: usize,
+    /// ln of the likelihood ratio of the way that was taken to this one.
+    pub loss: f64,
+}
+
+/// Path through all samples: a way that was taken, after a rival way to one of its states.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Track {
+    pub score: f64,
+    /// Index of the last link.
+    pub last: usize,
+    /// Number of links of the way that was taken.
+    pub after: usize,
+    /// Index of the link before these.
+    pub before: usize,
+}
+
+/// Returns the indices of the links of a way, the last first.
+pub(super) fn way(links: &[Link], last: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(last), |link| links[*link].before)
+}
