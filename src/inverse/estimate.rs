@@ -21,12 +21,12 @@ impl Estimate {
         [self.state[0], self.state[1], self.alpha]
     }
 
-    /// Returns the motion with covariance and rounding errors.
+    /// Returns the motion with covariance and numerical errors.
     pub fn estimated(&self) -> MotionEstimate {
         MotionEstimate {
             value: self.motion(),
             covariance: self.covariance,
-            rounding: [f64::EPSILON * self.state[0].abs(), 0.0, 0.0],
+            numerical: [f64::EPSILON * self.state[0].abs(), 0.0, 0.0],
         }
     }
 }

@@ -152,8 +152,16 @@ impl Fitted {
         candidates: &[(Prior, f64)],
     ) -> Fitted {
         let record = &problem.record;
+        let left = problem.left_out(smoothed);
         let motion = parallel::list(samples.times.len(), |i| {
-            problem.at(smoothed, samples.times[i]).estimated()
+            let t = samples.times[i];
+            let (step, _) = problem.grid.around(t);
+            // A node has the errors of the steps on both sides.
+            let beside = &left[step.saturating_sub(1)..left.len().min(step + 2)];
+            let left = beside.iter().fold(0.0, |most: f64, left| most.max(*left));
+            let mut motion = problem.at(smoothed, t).estimated();
+            motion.numerical[2] += left;
+            motion
         });
         let sigma = smoothed.noise.sigma;
         let shares = parallel::list(record.times.len(), |i| {

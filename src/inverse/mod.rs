@@ -65,6 +65,7 @@ mod outliers;
 mod periodic;
 mod periodic_smoother;
 mod polynomial;
+mod prediction;
 mod prior;
 mod problem;
 mod quantised;

@@ -6,14 +6,14 @@ pub(super) struct MotionEstimate {
     pub value: [f64; 3],
     /// Covariance, rows of the lower triangle.
     pub covariance: [f64; 6],
-    /// Bounds of the rounding errors of the three values.
-    pub rounding: [f64; 3],
+    /// Bounds of the numerical errors of the three values.
+    pub numerical: [f64; 3],
 }
 
 impl MotionEstimate {
-    /// Returns the standard error of a linear combination of the three, with their rounding and `more` rounding.
+    /// Returns the standard error of a linear combination of the three, with their numerical errors and `more` rounding.
     pub fn error(&self, gradient: &[f64; 3], more: f64) -> f64 {
-        let parts = gradient.iter().zip(&self.rounding);
+        let parts = gradient.iter().zip(&self.numerical);
         let rounding: f64 = parts.map(|(g, r)| (g * r).abs()).sum();
         let rounding =
             DEVIATION_PER_BOUND * DEVIATION_PER_BOUND * (rounding * rounding + more * more);

@@ -56,7 +56,7 @@ impl Polynomial {
                 MotionEstimate {
                     value: state.value,
                     covariance: state.covariance,
-                    rounding: state.rounding,
+                    numerical: state.rounding,
                 }
             });
             let pairs = motion.iter().zip(&theta);

@@ -70,6 +70,17 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns the bound of the acceleration, rad/s², that the steps of a smoothed motion leave out from node to node.
+    pub fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
+        let motion = self.motion(smoothed.prior);
+        let torque = smoothed.repeating.as_ref();
+        parallel::list(self.grid.len() - 1, |k| {
+            let [a, b] = [k, k + 1]
+                .map(|k| motion.node(self.grid.times[k], &smoothed.estimates[k].state, torque));
+            motion.left_out(&a, &b, torque).abs()
+        })
+    }
+
     fn is_stopped(&self) -> bool {
         self.stop.is_some_and(Stop::is_requested)
     }

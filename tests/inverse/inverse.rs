@@ -97,10 +97,6 @@ fn fitted(fit: FitKind) -> InverseOptions {
     }
 }
 
-/// What the steps of the smoother leave out of the equation, N, beside forces of 16 N: not in the band of computed samples.
-/// With nodes 0.004 rad apart the error is below 1e-12 N.
-const LEFT_OUT: f64 = 1e-9;
-
 /// Returns the number of rows whose band covers the force, and the number of rows with a force.
 fn covered(case: &Case, found: &Inverse, run: &Simulation, scene: &Scene) -> (usize, usize) {
     let linkage = Linkage::new(&scene.geometry);
@@ -110,8 +106,7 @@ fn covered(case: &Case, found: &Inverse, run: &Simulation, scene: &Scene) -> (us
             let (theta, _) = run.at(row.t).expect("a time of the run");
             let exact = (case.force)(row.t, linkage.pose(theta).x);
             all += 1;
-            let allowed = found.summary.band_factor * se + LEFT_OUT;
-            inside += usize::from((force - exact).abs() <= allowed);
+            inside += usize::from((force - exact).abs() <= found.summary.band_factor * se);
         }
     }
     (inside, all)

@@ -1,0 +1,97 @@
+//! Prediction of a step by the equation of motion, and what it leaves out.
+
+use super::linearised::{Motion, Node, Rates};
+use super::prior::{State, Unknown};
+use super::repeating::Repeating;
+use crate::numeric::gauss::LOBATTO;
+use crate::numeric::interpolate::Quintic;
+
+impl Motion<'_> {
+    /// Returns a state whose entries from the first on, each the derivative of the one before, are advanced by a time h, s.
+    fn later(&self, first: usize, h: f64, from: &State) -> State {
+        let mut state = *from;
+        let last = 2 + self.prior.order;
+        for (i, value) in state[..last].iter_mut().enumerate().skip(first) {
+            let mut factor = 1.0;
+            for (k, derivative) in from[..last].iter().enumerate().skip(i + 1) {
+                factor *= h / (k - i) as f64;
+                *value += factor * derivative;
+            }
+        }
+        state
+    }
+
+    /// Returns the state that follows from node a at node b, by Lobatto's rule along the quintic between them: θ and ω to h⁷.
+    /// The noise of u is no part of it.
+    pub fn predicted(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> State {
+        let h = b.t - a.t;
+        if self.prior.unknown == Unknown::Acceleration {
+            return self.later(0, h, a.state);
+        }
+        let g = self.prior.by_speed(a.state);
+        let mut after = self.later(2, h, a.state);
+        after[2] += g * (b.state[1] - a.state[1]) + b.repeated - a.repeated;
+        let way = way(a, b);
+        let within = |part: f64| {
+            let [way, rate, _] = way.at(part);
+            let (theta, omega) = (a.state[0] + way, rate / h);
+            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)) - a.repeated;
+            let unknown = self.later(2, part * h, a.state)[2] + g * (omega - a.state[1]) + repeated;
+            self.acceleration(a.t + part * h, theta, omega, unknown)[0]
+        };
+        let first = a.rates.alpha;
+        let [early, late] = LOBATTO.map(within);
+        let last = b.rates.alpha - b.rates.by_unknown * (b.state[2] - after[2]);
+        let moment = LOBATTO[1] * early + LOBATTO[0] * late;
+        after[0] += h * a.state[1] + h * h * (first + 5.0 * moment) / 12.0;
+        after[1] += h * (first + 5.0 * (early + late) + last) / 12.0;
+        after
+    }
+
+    /// Returns the acceleration, rad/s², that a step leaves out: its end less that by two steps of half the time (Richardson),
+    /// which leave 1/64 of it.
+    pub fn left_out(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> f64 {
+        if self.prior.unknown == Unknown::Acceleration {
+            return 0.0;
+        }
+        let (h, t) = (0.5 * (b.t - a.t), 0.5 * (a.t + b.t));
+        let state = |theta: f64, omega: f64| {
+            let mut state = self.later(2, h, a.state);
+            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)) - a.repeated;
+            state[2] += self.prior.by_speed(a.state) * (omega - a.state[1]) + repeated;
+            [theta, omega, state[2], state[3], state[4]]
+        };
+        let [turned, rate, _] = way(a, b).at(0.5);
+        // The middle by fixed-point iteration from the quintic.
+        let mut middle = state(a.state[0] + turned, 0.5 * rate / h);
+        for _ in 0..3 {
+            let [theta, omega, ..] = self.predicted(a, &self.node(t, &middle, torque), torque);
+            middle = state(theta, omega);
+        }
+        let halves = self.predicted(&self.node(t, &middle, torque), b, torque);
+        (halves[1] - self.predicted(a, b, torque)[1]) / (b.t - a.t)
+    }
+
+    /// Returns a node of a path without the derivatives by θ and ω.
+    pub fn node<'a>(&self, t: f64, state: &'a State, torque: Option<&Repeating>) -> Node<'a> {
+        let [theta, omega, unknown, ..] = *state;
+        let [alpha, by_unknown] = self.acceleration(t, theta, omega, unknown);
+        Node {
+            t,
+            state,
+            rates: Rates {
+                alpha,
+                by_unknown,
+                ..Rates::default()
+            },
+            repeated: torque.map_or(0.0, |torque| torque.at(theta, omega)),
+        }
+    }
+}
+
+/// Returns the quintic of θ between two nodes.
+fn way(a: &Node<'_>, b: &Node<'_>) -> Quintic {
+    let h = b.t - a.t;
+    let end = |node: &Node<'_>| [h * node.state[1], 0.5 * h * h * node.rates.alpha];
+    Quintic::new(end(a), end(b), b.state[0] - a.state[0])
+}
