@@ -10,7 +10,7 @@ use super::fixed_interval::{self, Returning, Visit};
 use super::kalman::{Companion, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
-use super::prior::Prior;
+use super::prior::{Prior, SMOOTH};
 use super::problem::Problem;
 use super::scales::{Intensities, Span};
 use super::smoother::Smoothed;
@@ -143,8 +143,10 @@ impl Problem<'_> {
         suspected: bool,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         let mut best = self.likeliest_of_all(kinematic, suspected);
-        // Periodic priors, noise below that of instruments and long records represented by stretches have no intensities.
+        // Periodic priors, smooth torques, noise below that of instruments and long records represented by stretches have no
+        // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
         while best.0.prior.cycle == 0
+            && best.0.prior != SMOOTH
             && best.0.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
         {
