@@ -106,8 +106,11 @@ impl Piece<'_> {
     }
 }
 
-/// Largest way of the crank from node to node, rad.
+/// Largest way of the crank from node to node, rad: a step leaves out about 1e-10 rad.
 const NODE_ROTATION: f64 = std::f64::consts::TAU / 50.0;
+
+/// Parts of this way where samples are computed: a step leaves out no more than rounding, for that goes with the seventh power.
+const COMPUTED: f64 = 4.0;
 
 /// Least number of blocks, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;
@@ -165,14 +168,15 @@ impl Grid {
         self.block * corner <= BLOCK_PHASE
     }
 
-    /// Nodes at the samples and between those that are far apart.
-    pub fn new(times: &[f64], angles: &[f64]) -> Grid {
+    /// Nodes at the samples, computed or measured, and between those that are far apart.
+    pub fn new(times: &[f64], angles: &[f64], are_computed: bool) -> Grid {
         let mut grid = Grid::default();
+        let longest = NODE_ROTATION / if are_computed { COMPUTED } else { 1.0 };
         for (i, t) in times.iter().enumerate() {
             grid.times.push(*t);
             grid.first.push(i);
             let Some(next) = times.get(i + 1) else { break };
-            let parts = ((angles[i + 1] - angles[i]).abs() / NODE_ROTATION)
+            let parts = ((angles[i + 1] - angles[i]).abs() / longest)
                 .ceil()
                 .clamp(1.0, 1e4);
             for k in 1..parts as usize {

@@ -71,7 +71,7 @@ pub(super) fn problem<'a>(
     stop: Option<&'a Stop>,
 ) -> Problem<'a> {
     let grid = Grid::of_blocks(&record.times, theta.iter().copied())
-        .unwrap_or_else(|| Grid::new(&record.times, theta));
+        .unwrap_or_else(|| Grid::new(&record.times, theta, record.is_computed()));
     Problem {
         record,
         grid,
@@ -145,7 +145,8 @@ fn without_outliers<'a>(
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
     if !problem.grid.resolves(kinematic.noise.corner) {
-        problem.grid = Grid::new(&problem.record.times, &theta);
+        let are_computed = problem.record.is_computed();
+        problem.grid = Grid::new(&problem.record.times, &theta, are_computed);
         let first = first_path::coarse(&problem, &theta);
         kinematic = problem.kinematic(first, sigma);
     }
