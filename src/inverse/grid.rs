@@ -1,5 +1,6 @@
 //! Nodes of a path, and the path along them.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::prior::{Prior, State};
@@ -106,11 +107,9 @@ impl Piece<'_> {
     }
 }
 
-/// Largest way of the crank from node to node, rad: a step leaves out about 1e-10 rad.
-const NODE_ROTATION: f64 = std::f64::consts::TAU / 50.0;
-
-/// Parts of this way where samples are computed: a step leaves out no more than rounding, for that goes with the seventh power.
-const COMPUTED: f64 = 4.0;
+/// Largest way of the crank from node to node, rad, for measured and for computed samples: a step leaves out about 1e-10 rad,
+/// or no more than rounding.
+const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 200.0];
 
 /// Least number of blocks, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;
@@ -160,7 +159,7 @@ impl Grid {
         times: &[f64],
         angles: impl ExactSizeIterator<Item = f64>,
     ) -> Option<Grid> {
-        Grid::in_blocks(times, angles, NODE_ROTATION)
+        Grid::in_blocks(times, angles, NODE_ROTATION[0])
     }
 
     /// True if a smoother with a corner frequency, rad/s, finds nothing but noise within a block.
@@ -171,7 +170,7 @@ impl Grid {
     /// Nodes at the samples, computed or measured, and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64], are_computed: bool) -> Grid {
         let mut grid = Grid::default();
-        let longest = NODE_ROTATION / if are_computed { COMPUTED } else { 1.0 };
+        let longest = NODE_ROTATION[usize::from(are_computed)];
         for (i, t) in times.iter().enumerate() {
             grid.times.push(*t);
             grid.first.push(i);

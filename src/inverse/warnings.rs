@@ -142,6 +142,12 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             measurement.shown(step)
         ));
     }
+    if measurement.is_counted() && summary.sigma > measurement.resolution() {
+        warnings.push(format!(
+            "the noise is {:.1} counts of the encoder, and no more than one is its own: the samples may be too far apart to show the motion between them, or the counts per turn are others",
+            summary.sigma / measurement.resolution()
+        ));
+    }
     if let Some(time) = summary.noise_correlation_s {
         warnings.push(format!(
             "the noise of the samples is correlated over about {time:.1e} s: what varies like that is taken for noise, not for motion"

@@ -1,10 +1,11 @@
 //! Encoder codes of a crank at constant speed, whose force has a closed form.
 
 use std::f64::consts::TAU;
+use std::path::Path;
 
 use rayon::prelude::*;
 use slider_crank::inverse::{InverseOptions, inverse};
-use slider_crank::scene::{Crank, Measured, Measurement, Scene, Slider};
+use slider_crank::scene::{Crank, Measured, Measurement, Reading, Scene, Slider};
 
 use super::white_snap::white_snap;
 
@@ -144,4 +145,25 @@ fn a_crank_at_rest_stays_in_its_step() {
         assert!(covered >= 0.9, "{steps} steps: {covered} covered");
         assert!(part < 1.5, "{steps} steps: {part} times as far off");
     }
+}
+
+/// A swing of 0.73 periods from sample to sample looks like noise, which an encoder does not have.
+#[test]
+fn noise_of_more_than_a_count_is_told() {
+    let noted = |periods: f64| {
+        let count = |i: u32| (256.0 * (0.2 + 0.1 * (TAU * periods * f64::from(i)).sin())).round();
+        let rows = (0..60).map(|i| format!("{i},{}\n", count(i)));
+        let text = format!("t [s],theta [counts]\n{}", rows.collect::<String>());
+        let reading = Reading {
+            counts_per_turn: Some(256),
+            ..Reading::default()
+        };
+        let motion = Measurement::parse(Path::new("swing.csv"), text, &reading).expect("a motion");
+        let scene = Scene::new(R, L).slider(Slider { mass: MASS });
+        let found = inverse(&scene, &motion, &InverseOptions::default()).expect("an inversion");
+        let mut warnings = found.summary.warnings.iter();
+        warnings.any(|warning| warning.contains("counts of the encoder, and no more than one"))
+    };
+    assert!(noted(0.73));
+    assert!(!noted(0.03));
 }

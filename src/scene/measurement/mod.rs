@@ -236,6 +236,12 @@ impl Measurement {
         self.resolution
     }
 
+    /// True if the values are counts of an encoder, whose step is the resolution.
+    pub fn is_counted(&self) -> bool {
+        let source = self.source.as_ref();
+        source.is_some_and(|source| source.value.unit == "counts")
+    }
+
     /// Returns notes for the user: choice of columns, encoding, gaps, replaced times, a record at rest.
     pub fn notes(&self) -> &[String] {
         &self.notes
