@@ -56,6 +56,24 @@ enum Inside {
 const INNER: [f64; 3] = [0.25, 0.5, 0.75];
 
 impl Step {
+    /// Moves a time (s) inside the step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is
+    /// missing at a time, and the rate at which it falls.
+    pub fn newton_time(
+        &self,
+        mut t: f64,
+        most: usize,
+        mut missing: impl FnMut(f64) -> [f64; 2],
+    ) -> f64 {
+        for _ in 0..most {
+            let [missing, rate] = missing(t);
+            if missing == 0.0 || rate == 0.0 {
+                break;
+            }
+            t = (t + missing / rate).clamp(self.start.t, self.end.t);
+        }
+        t
+    }
+
     /// Makes the step between two states, with the quintic.
     pub fn new(turns: f64, start: Node, end: Node) -> Step {
         Step {

@@ -113,8 +113,8 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
     let now = pose.instant(0.0, theta, omega);
     let mut loads = Vec::new();
     for of in scene.loads() {
-        let value = single(of.load, of.on_slider, &now);
-        let name = format!("{}: {}", of.key(), of.load);
+        let value = single(of.load, of.key.on_slider, &now);
+        let name = format!("{}: {}", of.key, of.load);
         if !value.is_finite() {
             return Err(Error::refused(
                 format!(
@@ -123,7 +123,7 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
                 "give another angle, or check the range of its table or the domain of its formula",
             ));
         }
-        let arm = if of.on_slider { pose.dx } else { 1.0 };
+        let arm = if of.key.on_slider { pose.dx } else { 1.0 };
         loads.push(LoadAt {
             name,
             value,
@@ -231,7 +231,7 @@ fn written_out(scene: &Scene) -> Vec<String> {
         }
         _ => lines.push("V = 0".to_owned()),
     }
-    let arm = |of: &LoadOf<'_>| if of.on_slider { " x'" } else { "" };
+    let arm = |of: &LoadOf<'_>| if of.key.on_slider { " x'" } else { "" };
     let work = scene.loads().map(|of| format!("[{}]{}", of.load, arm(&of)));
     lines.push(format!("Q = {}", joined(&work.collect::<Vec<_>>())));
     lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));

@@ -33,7 +33,6 @@ pub struct CycleMean {
 }
 
 /// Value of one cycle, its standard error, and the part of the error that all cycles share.
-#[derive(Clone, Copy)]
 struct Passage {
     value: f64,
     error: f64,
@@ -111,16 +110,10 @@ impl Inverse {
     /// Interpolates force (`which` = 0) or torque (1) at a fraction of the way from a row to the next.
     fn passage(&self, row: usize, part: f64, which: usize) -> Option<Passage> {
         let of = |row: usize| {
-            let InverseRow {
-                slider_force,
-                slider_force_se,
-                crank_torque,
-                crank_torque_se,
-                ..
-            } = self.rows[row];
+            let found: &InverseRow = &self.rows[row];
             let (value, error) = match which {
-                0 => (slider_force?, slider_force_se?),
-                _ => (crank_torque?, crank_torque_se?),
+                0 => (found.slider_force?, found.slider_force_se?),
+                _ => (found.crank_torque?, found.crank_torque_se?),
             };
             let shared = match self.cycle {
                 0 => self.shared.of_row(row)[which],

@@ -33,7 +33,7 @@ impl Loads {
             ..Loads::default()
         };
         for of in scene.loads() {
-            let (load, on_slider) = (of.load, of.on_slider);
+            let (load, on_slider) = (of.load, of.key.on_slider);
             loads.reads = loads.reads.or(load.reads(on_slider));
             match load {
                 Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,

@@ -112,7 +112,7 @@ impl LoadPeriod {
     fn of(of: LoadOf<'_>) -> LoadPeriod {
         LoadPeriod {
             name: LoadName {
-                key: of.key(),
+                key: of.key,
                 load: of.load.clone(),
             },
             repeats: LoadPeriodicity {

@@ -36,8 +36,8 @@ fn scene(speed: f64) -> Scene {
     scene
 }
 
-/// Simulates the turn shown, at each speed; the crank angle counts from its beginning.
-fn turns() -> Result<Vec<Vec<Row>>, Error> {
+/// Simulates the turn shown at each speed, its crank angle from 0; returns comparisons with the paper, and its figures.
+pub(super) fn results() -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
     let options = Options {
         estimate: false,
         ..Options::default()
@@ -52,12 +52,7 @@ fn turns() -> Result<Vec<Vec<Row>>, Error> {
         rows.iter_mut().for_each(|row| row.theta -= before * TAU);
         Ok(rows)
     };
-    SPEEDS.iter().map(turn).collect()
-}
-
-/// Simulates the turns; returns their comparisons with the paper, and its figures.
-pub(super) fn results() -> Result<(Vec<Entry>, Vec<Drawing>), Error> {
-    let turns = turns()?;
+    let turns: Vec<_> = SPEEDS.iter().map(turn).collect::<Result<_, Error>>()?;
     Ok((entries(&turns), drawings(&turns)))
 }
 

@@ -44,11 +44,10 @@ impl Scene {
     pub fn loads(&self) -> impl Iterator<Item = LoadOf<'_>> {
         let lists = [(&self.torques, false), (&self.forces, true)];
         lists.into_iter().flat_map(|(list, on_slider)| {
-            (1..).zip(list).map(move |(number, load)| LoadOf {
-                load,
-                on_slider,
-                number,
-            })
+            let keys = (1..).map(move |number| LoadKey { on_slider, number });
+            list.iter()
+                .zip(keys)
+                .map(|(load, key)| LoadOf { load, key })
         })
     }
 
@@ -62,16 +61,16 @@ impl Scene {
     pub fn reduced(&self) -> Scene {
         let mut scene = self.clone();
         scene.crank = scene.crank.filter(|c| c.inertia != 0.0 || c.mass != 0.0);
+        let has_mass = |r: &Rod| r.mass != 0.0 || r.inertia != 0.0;
         scene.rod = scene
             .rod
-            .filter(|r| r.model != RodModel::Massless && (r.mass != 0.0 || r.inertia != 0.0));
+            .filter(|r| r.model != RodModel::Massless && has_mass(r));
         scene.slider = scene.slider.filter(|s| s.mass != 0.0);
         scene.gravity = scene.gravity.filter(|g| g.acceleration != 0.0);
         scene.torques.retain(|load| !load.is_zero());
         scene.forces.retain(|load| !load.is_zero());
-        scene.friction = scene
-            .friction
-            .filter(|f| f.coefficient != 0.0 || f.static_coefficient != 0.0);
+        let rubs = |f: &Friction| f.coefficient != 0.0 || f.static_coefficient != 0.0;
+        scene.friction = scene.friction.filter(rubs);
         scene.clearance = scene.clearance.filter(|c| c.radial != 0.0);
         scene
     }
@@ -82,42 +81,34 @@ impl Scene {
 pub struct LoadOf<'a> {
     /// The load.
     pub load: &'a Load,
-    /// Whether the load acts on the slider; otherwise on the crank.
-    pub on_slider: bool,
-    number: usize,
+    /// Its name in scene files.
+    pub key: LoadKey,
 }
 
 /// Name of a load in scene files, shown as `torque[1]`.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadKey {
-    on_slider: bool,
+    /// Whether the load acts on the slider; otherwise on the crank.
+    pub on_slider: bool,
     number: usize,
 }
 
 impl LoadOf<'_> {
-    /// Returns the name of the load in scene files.
-    pub fn key(&self) -> LoadKey {
-        LoadKey {
-            on_slider: self.on_slider,
-            number: self.number,
-        }
-    }
-
     /// Returns the variables the load depends on.
     pub fn reads(&self) -> Variables {
-        self.load.reads(self.on_slider)
+        self.load.reads(self.key.on_slider)
     }
 
     /// Returns the period of the load over the crank angle, at equal time and crank speed.
     pub fn repeats(&self) -> Periodicity {
-        self.load.repeats(self.on_slider)
+        self.load.repeats(self.key.on_slider)
     }
 }
 
 /// Writes the name of the load, then its description in brackets.
 impl fmt::Display for LoadOf<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.key(), self.load)
+        write!(f, "{} ({})", self.key, self.load)
     }
 }
 

@@ -121,10 +121,7 @@ impl Design {
                 let what: Vec<&str> = list.map(|problem| problem.what.as_str()).collect();
                 what.join("; ")
             }
-            other => {
-                let text = other.to_string();
-                text.lines().next().unwrap_or_default().to_owned()
-            }
+            other => other.to_string().lines().take(1).collect(),
         };
         self.notes.insert(0, first);
     }

@@ -62,12 +62,11 @@ pub trait Contact<const N: usize> {
     /// Updates the data to a later state under the same law of motion.
     fn near_after(&self, before: &Self::Near, y: &[f64; N]) -> Self::Near;
 
-    /// Returns a value that is positive while the law of motion holds, and a value at whose zeros the rates have a
-    /// kink; none if there is a single law with smooth rates.
+    /// Returns a value that is positive while the law of motion holds, and one at whose zeros the rates have a kink; none
+    /// for a single law with smooth rates.
     fn breaks(&self, near: &Self::Near, phase: Phase, y: &[f64; N]) -> Option<[f64; 2]>;
 
-    /// Changes to the law of motion that holds after this state; `beyond` is a later state under the law before, which
-    /// tells the direction of the change.
+    /// Changes to the law of motion after this state; `beyond`, a later state under the law before, tells which.
     fn change(
         &self,
         near: &Self::Near,
@@ -85,8 +84,7 @@ pub trait Contact<const N: usize> {
         y: &[f64; N],
     ) -> Sample<N>;
 
-    /// Returns a smooth measure of the gap, m, positive in flight and zero where contact begins, with its first two
-    /// derivatives in time.
+    /// Returns a smooth gap, m, positive in flight and zero where contact begins, and two time derivatives.
     fn gap(&self, near: &Self::Near, y: &[f64; N], rates: &[f64; N]) -> [f64; 3];
 
     /// Returns a value that is positive while a contact whose depth changes at this rate, m/s, transmits force.
@@ -104,8 +102,7 @@ pub trait Contact<const N: usize> {
     /// True if loads may vary between the stages of a step without a trace in its error estimate.
     fn varies_between_nodes(&self) -> bool;
 
-    /// Returns the variation of the rates due to loads, over the sizes of the state, 1/s, on intervals of the state and
-    /// in the Bernstein ellipse with parameter ρ = `ellipse` around them.
+    /// Returns the variation of the rates due to loads, over the sizes, 1/s, in the Bernstein `ellipse` ρ about intervals.
     fn variation(&self, over: &[Interval; N], ellipse: f64) -> Variation;
 
     /// Returns the sizes of the state, to which the tolerance is relative; the first `counted` are error-controlled.

@@ -69,7 +69,7 @@ fn dry(scene: &Scene, list: &mut Vec<Problem>) {
     let dry = |of: &LoadOf<'_>| matches!(of.load, Load::Dry(_));
     list.extend(scene.loads().filter(dry).map(|of| {
         Problem::new(
-            &format!("{}.kind", of.key()),
+            &format!("{}.kind", of.key),
             "a load of kind \"dry\" together with clearance in a joint is not modelled",
             "use kind = \"viscous\", or take [clearance] out of the scene",
         )

@@ -65,9 +65,9 @@ fn vanishes(equation: &CurveEquation, q: f64) -> bool {
 /// Adds a problem for each load without a finite value at the start.
 fn loads(scene: &Scene, now: &Instant, list: &mut Vec<Problem>) {
     for of in scene.loads() {
-        let value = single(of.load, of.on_slider, now);
+        let value = single(of.load, of.key.on_slider, now);
         if !value.is_finite() {
-            list.push(no_value(&of.key().to_string(), of.load, value, now));
+            list.push(no_value(&of.key.to_string(), of.load, value, now));
         }
     }
 }

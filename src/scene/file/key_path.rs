@@ -49,16 +49,13 @@ impl FromStr for KeyPath {
             let help = did_you_mean(name, table, known);
             format!("`{name}` is not a key of {table}; {help}")
         })?;
-        match index > 0 && !section.repeated {
-            true => Err(format!(
-                "a scene has one {table} only; write {table}.{name}"
-            )),
-            false => Ok(KeyPath {
-                section,
-                index,
-                key,
-            }),
-        }
+        let is_known = index == 0 || section.repeated;
+        let path = is_known.then_some(KeyPath {
+            section,
+            index,
+            key,
+        });
+        path.ok_or_else(|| format!("a scene has one {table} only; write {table}.{name}"))
     }
 }
 
@@ -103,10 +100,9 @@ impl FromStr for NumberKey {
 
     fn from_str(text: &str) -> Result<NumberKey, String> {
         let path: KeyPath = text.trim().parse()?;
-        match path.key.kind.quantity() {
-            Some(_) => Ok(NumberKey(path)),
-            None => Err(format!("`{path}` holds no quantity")),
-        }
+        let quantity = path.key.kind.quantity();
+        let key = quantity.map(|_| NumberKey(path));
+        key.ok_or_else(|| format!("`{path}` holds no quantity"))
     }
 }
 

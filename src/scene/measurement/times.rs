@@ -100,10 +100,8 @@ impl Even {
     fn of(times: &[f64]) -> Option<Even> {
         let count = times.len() as f64;
         let gaps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-        let (short, long) = (
-            gaps().fold(f64::INFINITY, f64::min),
-            gaps().fold(0.0, f64::max),
-        );
+        let short = gaps().fold(f64::INFINITY, f64::min);
+        let long = gaps().fold(0.0, f64::max);
         // Rounding makes gaps that differ by one step, and keeps the order of the samples.
         let step = long - short;
         let rounding_of_doubles = 1e3 * f64::EPSILON * (times.last()? - times[0]);
@@ -111,12 +109,7 @@ impl Even {
             return None;
         }
         let middle = 0.5 * (count - 1.0);
-        let since = || {
-            times
-                .iter()
-                .enumerate()
-                .map(|(i, time)| (i as f64, time - times[0]))
-        };
+        let since = || (0..times.len()).map(|i| (i as f64, times[i] - times[0]));
         let sum: f64 = since().map(|(_, time)| time).sum();
         let moment: f64 = since().map(|(i, time)| (i - middle) * time).sum();
         let period = 12.0 * moment / (count * (count * count - 1.0));

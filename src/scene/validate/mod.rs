@@ -57,7 +57,7 @@ pub(super) fn problems(scene: &Scene, check: &mut Check) {
         check.finite("gravity.direction", gravity.direction);
     }
     for of in scene.loads() {
-        loads::load(check, &of.key().to_string(), of.on_slider, of.load);
+        loads::load(check, &of.key.to_string(), of.key.on_slider, of.load);
     }
     if let Some(friction) = &scene.friction {
         self::friction(check, friction);

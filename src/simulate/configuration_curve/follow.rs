@@ -8,7 +8,7 @@ use super::super::stick_slip::EventIndex::{
 };
 use super::super::stick_slip::{CurveEvents, CurveMotion, Signs, StickSlipPhase, sliding};
 use super::super::stop::Why;
-use super::{EndReason, StepObserver, TimePiece, newton_time};
+use super::{EndReason, StepObserver, TimePiece};
 use crate::engine::event_functions::{self, Change, EventFunction};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, MotionState, Settings};
@@ -244,7 +244,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         };
         let mut t = change.t;
         if change.index == TurnLimit as usize {
-            t = newton_time(t, step, 2, |t| {
+            t = step.newton_time(t, 2, |t| {
                 let last = until(t, &mut |_| false);
                 let angle = last.angle(last.end.theta);
                 let missing = self.events.values(t, angle, last.end.omega)[TurnLimit as usize];

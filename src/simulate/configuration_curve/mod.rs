@@ -114,21 +114,3 @@ pub(super) struct TimePiece {
     /// Time, crank angle and speed of the last evaluation without a finite result.
     pub singular_state: Option<MotionState>,
 }
-
-/// Moves a time (s) inside a step by Newton's method, at most `most` times, until nothing is missing. `missing`: what is
-/// missing at a time, and the rate at which it falls.
-pub(super) fn newton_time(
-    mut t: f64,
-    step: &Step,
-    most: usize,
-    mut missing: impl FnMut(f64) -> [f64; 2],
-) -> f64 {
-    for _ in 0..most {
-        let [missing, rate] = missing(t);
-        if missing == 0.0 || rate == 0.0 {
-            break;
-        }
-        t = (t + missing / rate).clamp(step.start.t, step.end.t);
-    }
-    t
-}

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::super::angle_model::SAME_CORNER;
 use super::super::bounded_motion::BoundedMotion;
-use super::super::configuration_curve::{CurveProblem, StepObserver, newton_time};
+use super::super::configuration_curve::{CurveProblem, StepObserver};
 use super::super::coordinate::{AlongCurve, Coordinate, Crank, crank_state};
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
@@ -154,7 +154,7 @@ impl<'a> ForwardRecorder<'a> {
         };
         let (mut t, by) = self.ends_at?;
         if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
-            t = newton_time(t, step, 3, |t| {
+            t = step.newton_time(t, 3, |t| {
                 let last = until(t, &mut |_| false);
                 let turned = self.turned(&last);
                 [limit.copysign(turned) - turned, last.end.omega]

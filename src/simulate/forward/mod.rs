@@ -1,5 +1,4 @@
-//! Free motion: the engines of the plan take turns in one loop, one recorder takes their pieces, and one conclusion
-//! makes the result, the errors and the energy balance.
+//! Free motion: the engines of the plan take turns in one loop, one recorder takes their pieces, one conclusion the result.
 
 mod engine_loop;
 mod errors_over_angle;
@@ -62,8 +61,8 @@ pub(super) fn run(
     let record = recorder.finish(&result)?;
     let wall_s = record.wall_s(begun);
     let stopped = caught.or_else(|| stop_reason::reason(&pass, &result));
-    let warning = || configuration_curve::warning(task);
-    let mut warnings: Vec<_> = result.curve.iter().filter_map(|_| warning()).collect();
+    let of_curve = result.curve.as_ref();
+    let mut warnings = Vec::from_iter(of_curve.and_then(|_| configuration_curve::warning(task)));
     let mut estimate = None;
     if task.options.estimate && stopped.is_none() {
         estimate = estimate::estimate(&pass, &result, &record, wants_rows);

@@ -45,8 +45,7 @@ pub(super) fn size(
     };
     let scene = with(scene, added);
     scene.check()?;
-    let found = find(&scene, speed, options)?;
-    let verified = Verified::new(&scene, found, options)?;
+    let verified = Verified::new(&scene, find(&scene, speed, options)?, options)?;
     let fluctuation = verified.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
     let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;

@@ -34,7 +34,7 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
     };
     for of in scene.loads() {
         let torque = |angle: Angle, omega: f64| crank_torque(linkage, &of, angle, omega);
-        let name = format!("{}: {}", of.key(), of.load);
+        let name = format!("{}: {}", of.key, of.load);
         add(name, Some(of.load), &torque);
     }
     let equation = Equation::new(scene);
@@ -55,8 +55,8 @@ type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
 /// Returns the crank torque that is equivalent to a load, N m.
 fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) -> f64 {
     let pose = linkage.pose(angle.rest);
-    let arm = if of.on_slider { pose.dx } else { 1.0 };
-    arm * single(of.load, of.on_slider, &pose.instant(0.0, angle, omega))
+    let arm = if of.key.on_slider { pose.dx } else { 1.0 };
+    arm * single(of.load, of.key.on_slider, &pose.instant(0.0, angle, omega))
 }
 
 /// Lists the rotations (rad) at the corners of a load, at the dead centres of a period and at equal parts of each turn.
