@@ -157,8 +157,8 @@ impl Fitted {
             let t = samples.times[i];
             let (step, _) = problem.grid.around(t);
             // A node has the errors of the steps on both sides.
-            let beside = &left[step.saturating_sub(1)..left.len().min(step + 2)];
-            let left = beside.iter().fold(0.0, |most: f64, left| most.max(*left));
+            let beside = left.iter().skip(step.saturating_sub(1)).take(3);
+            let left = beside.fold(0.0, |most: f64, left| most.max(*left));
             let mut motion = problem.at(smoothed, t).estimated();
             motion.numerical[2] += left;
             motion

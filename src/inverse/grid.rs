@@ -111,7 +111,7 @@ impl Piece<'_> {
 /// or no more than rounding.
 const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 200.0];
 
-/// Least number of blocks, and largest crank rotation within a block, rad.
+/// Least number of blocks or nodes of a long record, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;
 const BLOCK_ROTATION: f64 = 0.02;
 
@@ -170,7 +170,10 @@ impl Grid {
     /// Nodes at the samples, computed or measured, and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64], are_computed: bool) -> Grid {
         let mut grid = Grid::default();
-        let longest = NODE_ROTATION[usize::from(are_computed)];
+        let way: f64 = angles.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+        // The nodes of a long record are as few as may be.
+        let is_long = way > LEAST_BLOCKS as f64 * NODE_ROTATION[1];
+        let longest = NODE_ROTATION[usize::from(are_computed && !is_long)];
         for (i, t) in times.iter().enumerate() {
             grid.times.push(*t);
             grid.first.push(i);

@@ -70,8 +70,11 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Returns the bound of the acceleration, rad/s², that the steps of a smoothed motion leave out from node to node.
+    /// Returns the acceleration, rad/s², that each step of a motion leaves out, if the samples are computed; others have more noise.
     pub fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
+        if !self.record.is_computed() {
+            return Vec::new();
+        }
         let motion = self.motion(smoothed.prior);
         let torque = smoothed.repeating.as_ref();
         parallel::list(self.grid.len() - 1, |k| {
