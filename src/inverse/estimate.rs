@@ -1,7 +1,12 @@
-//! Smoothed motion at a node, with its covariance.
+//! Smoothed motion at nodes and at times, with its covariance.
+
+use std::borrow::Cow;
 
 use super::motion_estimate::MotionEstimate;
 use super::prior::State;
+use super::problem::Problem;
+use super::smoother::Smoothed;
+use crate::numeric::parallel;
 
 /// Smoothed motion at a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,5 +33,49 @@ impl Estimate {
             covariance: self.covariance,
             numerical: [f64::EPSILON * self.state[0].abs(), 0.0, 0.0],
         }
+    }
+}
+
+impl Problem<'_> {
+    /// Returns the smoothed motion at times, with what its steps leave out of the equation.
+    pub fn motion_at(&self, smoothed: &Smoothed, times: &[f64]) -> Vec<MotionEstimate> {
+        let left = self.left_out(smoothed);
+        parallel::list(times.len(), |i| {
+            let (step, _) = self.grid.around(times[i]);
+            // A node has the errors of the steps on both sides.
+            let beside = left.iter().skip(step.saturating_sub(1)).take(3);
+            let mut motion = self.at(smoothed, times[i]).estimated();
+            motion.numerical[2] += beside.fold(0.0, |most: f64, left| most.max(*left));
+            motion
+        })
+    }
+
+    /// Returns the number of parameters that a smoothed motion is worth, the trace of its hat matrix; `motion` at the samples,
+    /// or at those that intervals stand for.
+    pub fn parameters(&self, smoothed: &Smoothed, motion: &[MotionEstimate]) -> f64 {
+        let record = &self.record;
+        let motion = match record.intervals.is_empty() {
+            true => Cow::Borrowed(motion),
+            false => Cow::Owned(self.motion_at(smoothed, &record.times)),
+        };
+        let shares = parallel::list(motion.len(), |i| {
+            let slope = record.sensor.shown(motion[i].value[0]).slope;
+            record.weights[i] * (slope / smoothed.noise.sigma).powi(2) * motion[i].covariance[0]
+        });
+        shares.iter().filter(|share| share.is_finite()).sum()
+    }
+
+    /// Returns the acceleration, rad/s², that each step of a motion leaves out, if the samples are computed; others have more noise.
+    fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
+        if !self.record.is_computed() {
+            return Vec::new();
+        }
+        let motion = self.motion(smoothed.prior);
+        let torque = smoothed.repeating.as_ref();
+        parallel::list(self.grid.len() - 1, |k| {
+            let [a, b] = [k, k + 1]
+                .map(|k| motion.node(self.grid.times[k], &smoothed.estimates[k].state, torque));
+            motion.left_out(&a, &b, torque).abs()
+        })
     }
 }

@@ -152,24 +152,9 @@ impl Fitted {
         candidates: &[(Prior, f64)],
     ) -> Fitted {
         let record = &problem.record;
-        let left = problem.left_out(smoothed);
-        let motion = parallel::list(samples.times.len(), |i| {
-            let t = samples.times[i];
-            let (step, _) = problem.grid.around(t);
-            // A node has the errors of the steps on both sides.
-            let beside = left.iter().skip(step.saturating_sub(1)).take(3);
-            let left = beside.fold(0.0, |most: f64, left| most.max(*left));
-            let mut motion = problem.at(smoothed, t).estimated();
-            motion.numerical[2] += left;
-            motion
-        });
+        let motion = problem.motion_at(smoothed, samples.times.as_ref());
         let sigma = smoothed.noise.sigma;
-        let shares = parallel::list(record.times.len(), |i| {
-            let estimate = problem.at(smoothed, record.times[i]);
-            let slope = record.sensor.shown(estimate.state[0]).slope;
-            record.weights[i] * slope * slope * estimate.covariance[0] / (sigma * sigma)
-        });
-        let parameters = shares.iter().filter(|share| share.is_finite()).sum::<f64>();
+        let parameters = problem.parameters(smoothed, &motion);
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;

@@ -77,7 +77,8 @@ impl Path {
     /// The derivatives of the torque that follows the state by θ and ω: of what repeats, and of g ω.
     pub fn slopes(&self, prior: Prior, state: &State) -> [f64; 2] {
         let repeating = self.repeating.as_ref();
-        let [by_theta, by_omega] = repeating.map_or([0.0; 2], |torque| torque.slopes(state));
+        let at = |torque: &Repeating| torque.at(state[0], state[1]);
+        let [_, by_theta, by_omega] = repeating.map_or([0.0; 3], at);
         [by_theta, by_omega + prior.by_speed(state)]
     }
 

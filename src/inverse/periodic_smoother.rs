@@ -49,12 +49,16 @@ impl Problem<'_> {
             estimates.extend(self.estimated(motion, path, first, &deviations, &innovations, noise));
         }
         let mean = noise.sigma * noise.sigma / path.states.len() as f64;
-        path.repeating = found.map(|(factor, found)| Repeating {
-            prior: motion.prior,
-            told: found.told(&factor, motion.prior),
-            coefficients: found.coefficients,
-            speed: path.speed(),
-            covariance: covariance.map(|row| row.map(|value| mean * value)),
+        path.repeating = found.map(|(factor, found)| {
+            let told = found.told(&factor, motion.prior);
+            let covariance = covariance.map(|row| row.map(|value| mean * value));
+            Repeating::new(
+                motion.prior,
+                found.coefficients,
+                path.speed(),
+                told,
+                covariance,
+            )
         });
         estimates
     }

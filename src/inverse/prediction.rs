@@ -35,7 +35,7 @@ impl Motion<'_> {
         let within = |part: f64| {
             let [way, rate, _] = way.at(part);
             let (theta, omega) = (a.state[0] + way, rate / h);
-            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)) - a.repeated;
+            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
             let unknown = self.later(2, part * h, a.state)[2] + g * (omega - a.state[1]) + repeated;
             self.acceleration(a.t + part * h, theta, omega, unknown)[0]
         };
@@ -57,7 +57,7 @@ impl Motion<'_> {
         let (h, t) = (0.5 * (b.t - a.t), 0.5 * (a.t + b.t));
         let state = |theta: f64, omega: f64| {
             let mut state = self.later(2, h, a.state);
-            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)) - a.repeated;
+            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
             state[2] += self.prior.by_speed(a.state) * (omega - a.state[1]) + repeated;
             [theta, omega, state[2], state[3], state[4]]
         };
@@ -84,7 +84,7 @@ impl Motion<'_> {
                 by_unknown,
                 ..Rates::default()
             },
-            repeated: torque.map_or(0.0, |torque| torque.at(theta, omega)),
+            repeated: torque.map_or(0.0, |torque| torque.at(theta, omega)[0]),
         }
     }
 }

@@ -54,7 +54,7 @@ impl<'a> Problem<'a> {
         let g = smoothed.prior.by_speed(&a.state);
         let torque = smoothed.repeating.as_ref();
         let follows =
-            |theta, omega| g * omega + torque.map_or(0.0, |torque| torque.at(theta, omega));
+            |theta, omega| g * omega + torque.map_or(0.0, |torque| torque.at(theta, omega)[0]);
         let [before, after] = [a, b].map(|e| follows(e.state[0], e.state[1]));
         let rest = a.state[2] - before + part * (b.state[2] - after - (a.state[2] - before));
         let unknown = rest + follows(theta, omega);
@@ -68,20 +68,6 @@ impl<'a> Problem<'a> {
             covariance: std::array::from_fn(between),
             innovation: f64::NAN,
         }
-    }
-
-    /// Returns the acceleration, rad/s², that each step of a motion leaves out, if the samples are computed; others have more noise.
-    pub fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
-        if !self.record.is_computed() {
-            return Vec::new();
-        }
-        let motion = self.motion(smoothed.prior);
-        let torque = smoothed.repeating.as_ref();
-        parallel::list(self.grid.len() - 1, |k| {
-            let [a, b] = [k, k + 1]
-                .map(|k| motion.node(self.grid.times[k], &smoothed.estimates[k].state, torque));
-            motion.left_out(&a, &b, torque).abs()
-        })
     }
 
     fn is_stopped(&self) -> bool {
@@ -112,7 +98,7 @@ impl<'a> Problem<'a> {
             t: *t,
             state,
             rates: motion.rates_following(path.slopes(motion.prior, state), *t, state),
-            repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])),
+            repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])[0]),
         });
         let nodes: Vec<Node<'_>> = nodes.collect();
         let steps = nodes.windows(2).map(|ends| Linearised {

@@ -1,14 +1,15 @@
 //! Torque that repeats: harmonics of the crank angle, whose amplitudes may follow the speed.
 
+use std::f64::consts::TAU;
 use std::iter;
 
 use super::matrix::Matrix;
-use super::prior::{Prior, State};
+use super::prior::Prior;
+use crate::numeric::interpolate::Quintic;
 
 /// A torque that repeats, N m.
 #[derive(Clone, Debug)]
 pub(super) struct Repeating {
-    pub prior: Prior,
     pub coefficients: Vec<f64>,
     /// Number of harmonics that the samples determine.
     pub told: usize,
@@ -16,39 +17,90 @@ pub(super) struct Repeating {
     pub speed: f64,
     /// Covariance of θ, ω and u by that of the coefficients, in the mean of the nodes.
     pub covariance: Matrix<3>,
+    /// Turns of a cycle.
+    turns: f64,
+    /// The parts of equal length of a cycle: torque alone, and torque per unit of the speed.
+    parts: Vec<[Part; 2]>,
 }
 
+/// Torque over a part of a cycle.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    begin: f64,
+    change: Quintic,
+}
+
+/// The torque of the harmonics, with its first two derivatives by the angle of the cycle.
+type Series = [f64; 3];
+
 impl Repeating {
-    /// Returns the derivatives by θ and ω at a state.
-    pub fn slopes(&self, [theta, omega, ..]: &State) -> [f64; 2] {
-        let cycle = f64::from(self.prior.cycle);
-        let pairs = cosines_and_sines(theta / cycle, self.prior.harmonics);
-        let of = self.prior.of_harmonic();
-        let (mut by_theta, mut by_omega) = (0.0, 0.0);
-        for (k, (pair, some)) in pairs.zip(self.coefficients.chunks_exact(of)).enumerate() {
-            let rate = (k + 1) as f64 / cycle;
-            for (power, some) in some.chunks_exact(2).enumerate() {
-                let factor = if power == 0 { 1.0 } else { omega / self.speed };
-                by_theta += rate * factor * (some[1] * pair[0] - some[0] * pair[1]);
-                if power == 1 {
-                    by_omega += dot(some, &pair) / self.speed;
-                }
+    /// The torque of these harmonics, tabulated: the quintics err by 1e-7 of the amplitude of the last harmonic.
+    pub fn new(
+        prior: Prior,
+        coefficients: Vec<f64>,
+        speed: f64,
+        told: usize,
+        covariance: Matrix<3>,
+    ) -> Repeating {
+        let count = 16 * prior.harmonics;
+        let length = TAU / count as f64;
+        let ends: Vec<[Series; 2]> = (0..=count)
+            .map(|k| series(prior, &coefficients, k as f64 * length))
+            .collect();
+        let part = |from: Series, to: Series| {
+            let end = |[_, rate, second]: Series| [length * rate, 0.5 * length * length * second];
+            Part {
+                begin: from[0],
+                change: Quintic::new(end(from), end(to), to[0] - from[0]),
             }
+        };
+        let parts = ends.windows(2);
+        Repeating {
+            parts: parts
+                .map(|w| [0, 1].map(|k| part(w[0][k], w[1][k])))
+                .collect(),
+            turns: f64::from(prior.cycle),
+            coefficients,
+            told,
+            speed,
+            covariance,
         }
-        [by_theta, by_omega]
     }
 
-    /// Returns the torque at a crank angle, rad, and a speed, rad/s.
-    pub fn at(&self, theta: f64, omega: f64) -> f64 {
-        let speed = omega / self.speed;
-        let pairs = cosines_and_sines(theta / f64::from(self.prior.cycle), self.prior.harmonics);
-        let of = self.coefficients.chunks_exact(self.prior.of_harmonic());
-        let torques = pairs.zip(of).map(|(pair, some)| {
-            let (alone, with_speed) = some.split_at(2);
-            dot(alone, &pair) + speed * dot(with_speed, &pair)
+    /// Returns the torque at a crank angle, rad, and a speed, rad/s, and its derivatives by both.
+    pub fn at(&self, theta: f64, omega: f64) -> [f64; 3] {
+        let count = self.parts.len() as f64;
+        let per_radian = count / (TAU * self.turns);
+        let place = (theta * per_radian).rem_euclid(count);
+        let index = (place as usize).min(self.parts.len() - 1);
+        let [alone, with_speed] = self.parts[index].map(|Part { begin, change }| {
+            let [change, rate, _] = change.at(place - index as f64);
+            [begin + change, rate * per_radian]
         });
-        torques.sum()
+        let speed = omega / self.speed;
+        [
+            alone[0] + speed * with_speed[0],
+            alone[1] + speed * with_speed[1],
+            with_speed[0] / self.speed,
+        ]
     }
+}
+
+/// Returns the torque alone and that per unit of the speed at an angle of the cycle, rad.
+fn series(prior: Prior, coefficients: &[f64], angle: f64) -> [Series; 2] {
+    let mut sums = [[0.0; 3]; 2];
+    let pairs = cosines_and_sines(angle, prior.harmonics);
+    let of = coefficients.chunks_exact(prior.of_harmonic());
+    for (k, ([cos, sin], some)) in (1..).zip(pairs.zip(of)) {
+        let k = f64::from(k);
+        for (sum, some) in sums.iter_mut().zip(some.chunks_exact(2)) {
+            let value = some[0] * cos + some[1] * sin;
+            sum[0] += value;
+            sum[1] += k * (some[1] * cos - some[0] * sin);
+            sum[2] -= k * k * value;
+        }
+    }
+    sums
 }
 
 /// cos kθ and sin kθ of the cycle angle.
