@@ -29,33 +29,28 @@ impl Problem<'_> {
             scales,
         };
         let [lowest, highest] = scales.corners().map(f64::ln);
-        let (mut middle, mut step) = (first.corner.ln(), 1.0);
         let mut likeliest = *first;
         for _ in 0..CORNER_ROUNDS {
-            let logs = [-step, 0.0, step].map(|off| (middle + off).clamp(lowest, highest));
+            let middle = likeliest.corner.ln();
+            let logs = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|off| middle + off);
             let noises = logs.map(|log| Noise {
-                corner: log.exp(),
+                corner: log.clamp(lowest, highest).exp(),
                 likelihood: f64::NEG_INFINITY,
                 ..*first
             });
             let evidences = self.evidences(motion, path, &linear, &noises);
-            let [a, b, c] = [0, 1, 2].map(|k| linear.judged(noises[k], &evidences[k], 1));
-            let best = better(better(b, a), c);
-            likeliest = best;
-            if best.corner == lowest.exp() || best.corner == highest.exp() {
-                return best;
+            let pairs = noises.iter().zip(&evidences);
+            let judged: Vec<Noise> = pairs.map(|(n, e)| linear.judged(*n, e, 1)).collect();
+            likeliest = judged.iter().copied().fold(judged[2], better);
+            if likeliest.corner == lowest.exp() || likeliest.corner == highest.exp() {
+                return likeliest;
             }
-            if best.corner == b.corner && step == 1.0 {
-                let point = |noise: Noise| (noise.corner.ln(), noise.likelihood);
+            let inner = judged.windows(3).find(|w| w[1].corner == likeliest.corner);
+            if let Some([a, b, c]) = inner.and_then(|w| w.first_chunk()) {
+                let point = |noise: &Noise| (noise.corner.ln(), noise.likelihood);
                 let corner = vertex(point(a), point(b), point(c)).place.exp();
-                return Noise { corner, ..b };
+                return Noise { corner, ..*b };
             }
-            step = if best.corner == b.corner {
-                1.0
-            } else {
-                2.0 * step
-            };
-            middle = best.corner.ln();
         }
         likeliest
     }
