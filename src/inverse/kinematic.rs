@@ -30,6 +30,6 @@ impl Problem<'_> {
             let squares = found.estimates.iter().map(|e| e.state[k].powi(2));
             (squares.sum::<f64>() / count).sqrt().max(f64::MIN_POSITIVE)
         });
-        self.completed(found, first)
+        self.completed(found, first, false)
     }
 }

@@ -52,8 +52,9 @@ const ITERATIONS: usize = 30;
 pub(super) const PATH_AT_REST: f64 = 0.05;
 
 impl Problem<'_> {
-    /// A motion that was smoothed at some of the nodes, smoothed at all with its noise, about paths from this first one.
-    pub fn completed(&self, found: Smoothed, mut path: Path) -> Smoothed {
+    /// A motion that was smoothed at some of the nodes, smoothed at all with its noise, about paths from this first one. If it is
+    /// the result, its noise is estimated again by all samples: about a path that has moved, if the model is not linear.
+    pub fn completed(&self, found: Smoothed, mut path: Path, is_result: bool) -> Smoothed {
         if found.estimates.len() == self.grid.len() {
             return found;
         }
@@ -66,15 +67,15 @@ impl Problem<'_> {
         };
         let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
-            // Repeated once where samples are curved, about a path that has moved.
-            if iteration == 0 || iteration == 1 && !self.record.is_linear() {
+            if is_result && iteration == usize::from(!is_linear) {
                 whole.noise = self.by_all_samples(&motion, &path, whole.scales, &whole.noise);
             }
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
             let change = correction.taken(&mut path, &whole.estimates);
-            whole.converged = found.converged && (is_linear || change < PATH_AT_REST);
+            let is_at_rest = is_linear || iteration > 0 && change < PATH_AT_REST;
+            whole.converged = found.converged && is_at_rest;
             if whole.converged || !change.is_finite() {
                 break;
             }
@@ -110,7 +111,7 @@ impl Problem<'_> {
             }
         }
         let path = self.whole_path(&found, &kinematic);
-        (self.completed(found, path), tried)
+        (self.completed(found, path, true), tried)
     }
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
