@@ -177,13 +177,13 @@ impl Problem<'_> {
     pub fn likeliest_of_codes(
         &mut self,
         codes: Codes,
-        kinematic: Smoothed,
+        kinematic: &Smoothed,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         let first = self.sites();
         let mut found = Vec::new();
-        for candidate in self.tried(&kinematic, &[]) {
+        for candidate in self.tried(kinematic, &[]) {
             (self.record.values, self.record.weights) = first.clone();
-            let path = self.path_of(candidate.prior, &kinematic, self.all());
+            let path = self.path_of(candidate.prior, kinematic, self.all());
             let smoothed = self.iterated(&candidate, path);
             if !smoothed.converged {
                 continue;
@@ -211,7 +211,10 @@ impl Problem<'_> {
             .map(|one| (one.smoothed.prior, likelihood(one)));
         let listed = listed.collect();
         let best = found.into_iter().next();
-        let (smoothed, sites) = best.map_or((kinematic, first), |one| (one.smoothed, one.sites));
+        let (smoothed, sites) = best.map_or_else(
+            || (kinematic.clone(), first),
+            |one| (one.smoothed, one.sites),
+        );
         (self.record.values, self.record.weights) = sites;
         (smoothed, listed)
     }

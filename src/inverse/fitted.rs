@@ -132,6 +132,8 @@ impl Fitted {
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
         let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic, suspected);
+        // Frees the memory of a long record.
+        drop(kinematic);
         Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)

@@ -175,8 +175,8 @@ impl Problem<'_> {
         suspected: bool,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
         match self.record.codes {
-            Some(codes) => self.likeliest_of_codes(codes, kinematic.clone()),
-            None => self.likeliest(kinematic.clone(), suspected),
+            Some(codes) => self.likeliest_of_codes(codes, kinematic),
+            None => self.likeliest(kinematic, suspected),
         }
     }
 }

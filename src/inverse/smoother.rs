@@ -88,12 +88,12 @@ impl Problem<'_> {
     /// likelihood agrees.
     pub fn likeliest(
         &mut self,
-        kinematic: Smoothed,
+        kinematic: &Smoothed,
         suspected: bool,
     ) -> (Smoothed, Vec<(Prior, f64)>) {
-        let white = self.tried(&kinematic, &[]);
-        let Some(mut found) = self.first_converged(&white, &kinematic) else {
-            return (kinematic, listed(&white));
+        let white = self.tried(kinematic, &[]);
+        let Some(mut found) = self.first_converged(&white, kinematic) else {
+            return (kinematic.clone(), listed(&white));
         };
         let mut tried = listed(&white);
         let innovations = found.estimates.iter().map(|e| e.innovation);
@@ -102,15 +102,15 @@ impl Problem<'_> {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
             let guesses = Autoregression::guesses(found.scales.spacing);
-            let correlated = self.tried(&kinematic, &guesses);
+            let correlated = self.tried(kinematic, &guesses);
             let is_likelier = likelihood(&correlated) > likelihood(&white) + cost;
-            let other = is_likelier.then(|| self.first_converged(&correlated, &kinematic));
+            let other = is_likelier.then(|| self.first_converged(&correlated, kinematic));
             let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
             if let Some(other) = other.flatten().filter(|other| gain(other) > cost) {
                 (found, tried) = (other, listed(&correlated));
             }
         }
-        let path = self.whole_path(&found, &kinematic);
+        let path = self.whole_path(&found, kinematic);
         (self.completed(found, path, true), tried)
     }
 
