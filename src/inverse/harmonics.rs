@@ -86,3 +86,40 @@ impl Increments {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::prior::FOLLOWING;
+    use crate::inverse::repeating::Repeating;
+
+    /// The table of a torque has the sum of its harmonics, and the slopes of that sum by differences.
+    #[test]
+    fn a_tabulated_torque_is_the_sum_of_its_harmonics() {
+        let prior = Prior {
+            cycle: 2,
+            harmonics: 5,
+            ..FOLLOWING
+        };
+        let coefficients: Vec<f64> = (0..prior.coefficients())
+            .map(|j| (1.7 * j as f64).sin())
+            .collect();
+        let table = Repeating::new(prior, coefficients.clone(), 3.0, 5, [[0.0; 3]; 3]);
+        let ends = [[-40.0, 2.0], [17.3, 4.0]];
+        let [a, b] = ends.map(|[theta, omega]| [theta, omega / 3.0]);
+        let increments = Increments::new(std::iter::once([a, a, a, b]), prior);
+        let [from, to] = ends.map(|[theta, omega]| table.at(theta, omega));
+        let sum = dot(increments.of(0)[2], &coefficients);
+        assert!(
+            (to[0] - from[0] - sum).abs() < 1e-6,
+            "{from:?} {to:?}: {sum}"
+        );
+        let [theta, omega] = ends[1];
+        let slope = |d: [f64; 2]| {
+            let [low, high] = [-1.0, 1.0].map(|s| table.at(theta + s * d[0], omega + s * d[1])[0]);
+            (high - low) / 2e-3
+        };
+        assert!((to[1] - slope([1e-3, 0.0])).abs() < 1e-4);
+        assert!((to[2] - slope([0.0, 1e-3])).abs() < 1e-9);
+    }
+}
