@@ -65,7 +65,8 @@ impl Problem<'_> {
         shares.iter().filter(|share| share.is_finite()).sum()
     }
 
-    /// Returns the acceleration, rad/s², that each step of a motion leaves out, if the samples are computed; others have more noise.
+    /// Returns the acceleration, rad/s², that would make up for what each step leaves out of angle and speed, if the samples are
+    /// computed; others have more noise.
     fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
         if !self.record.is_computed() {
             return Vec::new();
@@ -75,7 +76,9 @@ impl Problem<'_> {
         parallel::list(self.grid.len() - 1, |k| {
             let [a, b] = [k, k + 1]
                 .map(|k| motion.node(self.grid.times[k], &smoothed.estimates[k].state, torque));
-            motion.left_out(&a, &b, torque).abs()
+            let [theta, omega] = motion.left_out(&a, &b, torque).map(f64::abs);
+            let h = b.t - a.t;
+            omega / h + 2.0 * theta / (h * h)
         })
     }
 }

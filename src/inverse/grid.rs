@@ -110,7 +110,7 @@ impl Piece<'_> {
 
 /// Largest way of the crank from node to node, rad, for measured and for computed samples: a step leaves out about 1e-10 rad,
 /// or no more than rounding.
-const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 200.0];
+const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 400.0];
 
 /// Least number of blocks or nodes of a long record, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;

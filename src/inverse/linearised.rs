@@ -204,7 +204,7 @@ mod tests {
             };
             let nodes = [of(0.0, &begin), of(h, &end)];
             let step = motion.linearised(&nodes[0], &nodes[1], None);
-            let stated = h * motion.left_out(&nodes[0], &nodes[1], None);
+            let stated = motion.left_out(&nodes[0], &nodes[1], None);
             (step.defect, stated)
         };
         for h in [0.006, 0.003] {
@@ -214,9 +214,11 @@ mod tests {
             }
         }
         let (defect, stated) = left(0.015);
-        assert!(
-            (defect[1] + stated).abs() < 0.1 * stated.abs(),
-            "{defect:?}: {stated}"
-        );
+        for (left, stated) in defect.iter().zip(stated) {
+            assert!(
+                (left + stated).abs() < 0.1 * stated.abs(),
+                "{left}: {stated}"
+            );
+        }
     }
 }

@@ -48,11 +48,11 @@ impl Motion<'_> {
         after
     }
 
-    /// Returns the acceleration, rad/s², that a step leaves out: its end less that by two steps of half the time (Richardson),
-    /// which leave 1/64 of it.
-    pub fn left_out(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> f64 {
+    /// Returns what a step leaves out of θ, rad, and ω, rad/s: the end by two steps of half the time less that by one (Richardson);
+    /// the two leave 1/64 of it.
+    pub fn left_out(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> [f64; 2] {
         if self.prior.unknown == Unknown::Acceleration {
-            return 0.0;
+            return [0.0; 2];
         }
         let (h, t) = (0.5 * (b.t - a.t), 0.5 * (a.t + b.t));
         let state = |theta: f64, omega: f64| {
@@ -69,7 +69,8 @@ impl Motion<'_> {
             middle = state(theta, omega);
         }
         let halves = self.predicted(&self.node(t, &middle, torque), b, torque);
-        (halves[1] - self.predicted(a, b, torque)[1]) / (b.t - a.t)
+        let whole = self.predicted(a, b, torque);
+        [0, 1].map(|k| halves[k] - whole[k])
     }
 
     /// Returns a node of a path without the derivatives by θ and ω.
