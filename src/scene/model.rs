@@ -81,7 +81,7 @@ impl Scene {
 pub struct LoadOf<'a> {
     /// The load.
     pub load: &'a Load,
-    /// Its name in scene files.
+    /// Name in scene files.
     pub key: LoadKey,
 }
 
