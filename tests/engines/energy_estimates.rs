@@ -178,8 +178,8 @@ impl Profile for Ellipse {
         &[]
     }
 
-    fn branch_points(&self) -> [[f64; 2]; 2] {
-        [[0.0, f64::INFINITY]; 2]
+    fn branch_points(&self) -> Vec<[f64; 2]> {
+        Vec::new()
     }
 
     fn corner_between(&self, _: f64, _: f64) -> Option<f64> {

@@ -159,7 +159,7 @@ impl Builder<'_> {
 
     fn analytic(&self) -> f64 {
         let branch_points = self.profile.branch_points();
-        longest_analytic(self.now.angle, self.now.direction, branch_points)
+        longest_analytic(self.now.angle, self.now.direction, &branch_points)
     }
 
     fn piece(&self) -> Piece {

@@ -13,16 +13,15 @@ pub(in crate::engine) const HALF_TURN: f64 = PI + 1e-9;
 /// rounding, from the branch points of the function, each an angle and the distance from it: the series decays like
 /// ρ⁻ⁿ, ρ the sum of the half axes of the Bernstein ellipse around [−1, 1] through the nearest branch point (Trefethen,
 /// Approximation Theory and Approximation Practice, 2013, theorem 8.1).
-pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: [[f64; 2]; 2]) -> f64 {
+pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: &[[f64; 2]]) -> f64 {
     let rho = SERIES_ROUNDING.powf(-1.0 / (MAX_DEGREE as f64 - 1.0));
     let size = 0.5 * (rho + 1.0 / rho);
     // The distances of a point on the ellipse from the panel ends add up to the length times the larger half axis.
-    let longest = |[angle, height]: [f64; 2]| {
+    let longest = |&[angle, height]: &[f64; 2]| {
         let ahead = (direction * (angle - at) + PI).rem_euclid(TAU) - PI;
         2.0 * (size * ahead.hypot(height) - ahead) / (size * size - 1.0)
     };
-    let [a, b] = branch_points.map(longest);
-    a.min(b)
+    branch_points.iter().map(longest).fold(TAU, f64::min)
 }
 
 /// End of a panel that is a turning point, where dt/dθ is infinite.

@@ -17,8 +17,8 @@ pub trait Profile {
     /// Returns the angles in [0, 2π), in rising order, at which panels must end in each turn.
     fn corners(&self) -> &[f64];
 
-    /// Returns the branch points of inertia and force in the complex angle: real part and distance from it, rad.
-    fn branch_points(&self) -> [[f64; 2]; 2];
+    /// Returns the branch points of √M and of the force in the complex angle: real part and distance from it, rad.
+    fn branch_points(&self) -> Vec<[f64; 2]>;
 
     /// Returns the next angle from `from` towards `to`, other than [`Self::corners`], at which a panel must end.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64>;

@@ -28,7 +28,9 @@ pub(super) struct AngleModel<'a> {
     guide: Option<&'a GuideFriction>,
     /// Whole turns of the start, added to all angles: loads over theta may differ from turn to turn.
     turns: f64,
-    /// Dead centres and corners of loads in a turn, rad.
+    /// Dead centres of a turn, rad.
+    dead_centres: Vec<f64>,
+    /// Corners of loads in a turn, rad, and dead centres where the inertia vanishes.
     corners: Vec<f64>,
     /// Number of turns after which the loads repeat.
     cycle: u32,
@@ -49,21 +51,25 @@ pub(super) struct AngleModel<'a> {
 
 impl<'a> AngleModel<'a> {
     /// Makes the model of a run; angles exclude the whole turns of the start. Panels end at the rows of tables over the
-    /// crank angle, and may end at dead centres, where the inertia of a mechanism without crank inertia has a corner.
+    /// crank angle, and at dead centres where the inertia vanishes: √M has a corner there.
     pub fn of(task: &'a RunSetup<'_>) -> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
         let dead_centres = task.dead_centres();
         let tables = loads.angle_corners().into_iter();
         let load_corners = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
-        let corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
+        let all_corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
         let mut model = AngleModel {
             equation,
             guide: task.maker.guide.as_deref(),
             turns: start.turns,
             cycle: 1,
-            cycle_corners: corners.clone(),
-            corners,
+            corners: match task.inertia_vanishes() {
+                true => all_corners.clone(),
+                false => load_corners.clone(),
+            },
+            cycle_corners: all_corners,
+            dead_centres,
             load_corners,
             panel_ends: PanelEnds::new(equation, start, task.speed),
             panel_ends_are_corners: false,
@@ -76,7 +82,7 @@ impl<'a> AngleModel<'a> {
         if task.plan.engine != Engine::Time
             && let Ok(turns) = cycle_over_angle(task.scene)
         {
-            model.take_cycle(turns, &dead_centres);
+            model.take_cycle(turns);
             if turns == 1 && task.plan.engine == Engine::Energy {
                 model.work_of_turn = Some(model.work_of_one_turn());
             }
@@ -93,7 +99,7 @@ impl<'a> AngleModel<'a> {
     }
 
     /// Adopts loads that repeat after a number of turns.
-    fn take_cycle(&mut self, turns: u32, dead_centres: &[f64]) {
+    fn take_cycle(&mut self, turns: u32) {
         self.cycle = turns;
         let length = f64::from(turns) * TAU;
         let panel_ends = self.panel_ends.between(0.0, length);
@@ -107,7 +113,7 @@ impl<'a> AngleModel<'a> {
             self.panel_ends_are_corners = true;
         }
         self.load_corners = sorted_corners(self.load_corners.iter().chain(&panel_ends).copied());
-        let all = angle::in_turns(dead_centres, 0..turns.into());
+        let all = angle::in_turns(&self.dead_centres, 0..turns.into());
         self.cycle_corners = sorted_corners(all.chain(self.load_corners.iter().copied()));
     }
 

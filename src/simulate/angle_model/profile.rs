@@ -1,6 +1,6 @@
 //! Inertia and force of loads of the position alone, for motions from their energy.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::AngleModel;
@@ -45,8 +45,17 @@ impl Profile for AngleModel<'_> {
         &self.corners
     }
 
-    fn branch_points(&self) -> [[f64; 2]; 2] {
-        self.equation.branch_points()
+    fn branch_points(&self) -> Vec<[f64; 2]> {
+        let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
+        // At dead centres x' vanishes. Where it is a sine around them, M does at this distance.
+        let of_root = |theta: &f64| {
+            let (least, largest) = (inertia(*theta), inertia(theta + FRAC_PI_2));
+            [*theta, (least / (largest - least).max(0.0)).sqrt().asinh()]
+        };
+        let of_linkage = self.equation.branch_points();
+        let smooth = self.dead_centres.iter();
+        let of_inertia = smooth.filter(|theta| !self.corners.contains(theta)).map(of_root);
+        of_linkage.into_iter().chain(of_inertia).collect()
     }
 
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {
