@@ -54,7 +54,9 @@ impl Profile for AngleModel<'_> {
         };
         let of_linkage = self.equation.branch_points();
         let smooth = self.dead_centres.iter();
-        let of_inertia = smooth.filter(|theta| !self.corners.contains(theta)).map(of_root);
+        let of_inertia = smooth
+            .filter(|theta| !self.corners.contains(theta))
+            .map(of_root);
         of_linkage.into_iter().chain(of_inertia).collect()
     }
 
