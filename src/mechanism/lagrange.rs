@@ -210,6 +210,21 @@ impl Equation {
         force + changed(here.torque, there.torque) + terms.dv.abs() + inertia
     }
 
+    /// Returns the rounding error of M at a crank angle, relative to M: half a unit in the last place of each part of
+    /// x' = −r (sin θ + cos θ tan φ), which may cancel, and of the angle (rad), if it `is_rounded`.
+    pub fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
+        let Terms { pose, inertia, .. } = self.terms(theta);
+        let parts = pose.sin.abs() + (pose.cos * pose.sin_phi / pose.cos_phi).abs();
+        let of_lever = self.slider_mass * pose.dx.abs() * self.linkage.r * parts;
+        let of_angle = if is_rounded {
+            inertia.half_dm.abs() * theta.abs()
+        } else {
+            0.0
+        };
+        let rounding = f64::EPSILON * (of_lever + of_angle) / inertia.m;
+        if rounding.is_finite() { rounding } else { 0.0 }
+    }
+
     /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, theta: f64, omega: f64) -> f64 {
         0.5 * self.terms(theta).inertia.m * omega * omega

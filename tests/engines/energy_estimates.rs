@@ -174,6 +174,10 @@ impl Profile for Ellipse {
         0.0
     }
 
+    fn inertia_rounding(&self, _: f64, _: bool) -> f64 {
+        0.0
+    }
+
     fn corners(&self) -> &[f64] {
         &[]
     }

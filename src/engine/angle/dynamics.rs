@@ -35,6 +35,9 @@ pub trait Dynamics {
         table: &mut Table<Self::Place>,
     );
 
+    /// Returns the rounding error of the inertia at an angle (rad), which may be rounded itself, relative to the inertia.
+    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64;
+
     /// Returns the store of panels that a run leaves to the next from the same angle; none where each run stands alone.
     fn shared(&self) -> Option<&RefCell<Panels<Self::Place>>>;
 

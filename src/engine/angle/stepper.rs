@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 
 use super::super::energy::NotApplicable;
-use super::super::energy::error_bound::energy_error_of_angle;
 use super::super::energy::piece::Piece;
 use super::cycle_panels::{self, CyclePanels};
 use super::guide::Guide;
@@ -67,22 +66,16 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         if panels.is_empty() {
             panels = cycle_panels::panels(dynamics, angle, fine, cuts)?;
         }
-        let first = &panels[0];
-        let [here, next, ..] = first.table.inertia;
-        let kinetic = 0.5 * here * from.speed * from.speed;
+        let kinetic = 0.5 * panels[0].table.inertia[0] * from.speed * from.speed;
         if !kinetic.is_finite() {
             return Err(NotApplicable::NotFinite);
         }
         if kinetic == 0.0 {
             return Err(NotApplicable::TooSlow);
         }
-        let off = if from.t == 0.0 && angle.turns == 0.0 {
-            // An angle as given, not reduced, is not rounded.
-            0.0
-        } else {
-            let beside = first.piece.angle(first.rule.points()[1]) - first.piece.from;
-            energy_error_of_angle(angle.rest, kinetic, [here, next], beside)
-        };
+        // An angle as given, not reduced, is not rounded.
+        let is_rounded = from.t != 0.0 || angle.turns != 0.0;
+        let off = kinetic * dynamics.inertia_rounding(angle.rest, is_rounded);
         Ok(PanelStepper {
             dynamics,
             fine,

@@ -4,19 +4,6 @@ use super::Orbit;
 use super::panel::Panel;
 use super::piece::Turning;
 
-/// Returns the error bound (J) of the initial kinetic energy (J) due to the rounded angle (rad): next to a limit
-/// position the inertia is steep. `inertias`: at the angle, and at a distance `beside` from it, rad.
-pub(in crate::engine) fn energy_error_of_angle(
-    theta: f64,
-    kinetic: f64,
-    inertias: [f64; 2],
-    beside: f64,
-) -> f64 {
-    let slope = (inertias[1] - inertias[0]) / (beside * inertias[0]);
-    let error = (0.5 * f64::EPSILON * theta * slope * kinetic).abs();
-    if error.is_finite() { error } else { 0.0 }
-}
-
 impl Orbit {
     /// Returns the error bound of a time, s, from the tails of the series and the rounding of energies.
     pub fn time_error(&self, until: f64) -> f64 {

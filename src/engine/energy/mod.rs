@@ -8,7 +8,7 @@
 
 mod build;
 mod equal_gains;
-pub(in crate::engine) mod error_bound;
+mod error_bound;
 mod euler_maclaurin;
 mod extreme;
 pub(in crate::engine) mod interpolated_turns;

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use super::build::KineticState;
 use super::equal_gains::EqualGains;
-use super::error_bound::energy_error_of_angle;
 use super::kinetic::at_start;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
@@ -53,13 +52,8 @@ impl Orbit {
             speed.signum()
         };
         // The kinetic energy is a product of rounded factors; an angle in the first turn is exact.
-        let mut energy_error = f64::EPSILON * kinetic;
-        if start.turns != 0.0 {
-            let apart = f64::EPSILON.sqrt();
-            let beside = profile.inertia_and_force(theta + apart).0;
-            let of_angle = energy_error_of_angle(theta, kinetic, [inertia, beside], apart);
-            energy_error = energy_error.hypot(of_angle);
-        }
+        let of_inertia = profile.inertia_rounding(theta, start.turns != 0.0);
+        let energy_error = f64::EPSILON.hypot(of_inertia) * kinetic;
         let begin = KineticState {
             angle: theta,
             direction,

@@ -11,6 +11,9 @@ pub trait Profile {
     /// Computes inertia and force at the first `count` angles, rad.
     fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values);
 
+    /// Returns the rounding error of the inertia at an angle (rad), which may be rounded itself, relative to the inertia.
+    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64;
+
     /// Returns the rounding error of the force at an angle, N m, beyond that due to the rounded angle.
     fn rounding(&self, theta: f64) -> f64;
 

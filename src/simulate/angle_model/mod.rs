@@ -182,6 +182,10 @@ impl Dynamics for AngleModel<'_> {
         }
     }
 
+    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
+        self.equation.inertia_rounding(theta, is_rounded)
+    }
+
     fn shared(&self) -> Option<&RefCell<Panels<PanelPlace>>> {
         self.shared.as_ref()
     }

@@ -29,6 +29,10 @@ impl Profile for AngleModel<'_> {
         }
     }
 
+    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
+        self.equation.inertia_rounding(theta, is_rounded)
+    }
+
     fn rounding(&self, theta: f64) -> f64 {
         self.count(1);
         let angle = self.angle(theta);
