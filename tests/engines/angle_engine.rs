@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::support::machines::machine;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
-use slider_crank::scene::{Crank, Every, Gravity, Load, Scene, Variables};
+use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene, Variables};
 use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn run(scene: &Scene, method: Method) -> Simulation {
@@ -190,6 +190,19 @@ fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
 }
 
 /// Crank alone under a time-dependent torque: I θ̈ = A sin(wt).
+/// v |v| is not analytic where the slider reverses: panels end there, and no more are needed than two in half a turn.
+#[test]
+fn panels_end_where_a_load_has_a_kink_at_the_dead_centres() {
+    let drag = Expression::parse("-1.5*v*abs(v)").unwrap();
+    let scene = machine([0.05, 0.15, 0.01], false, [8.0, 0.2, 0.5], 0.0)
+        .force(Load::Expression(drag))
+        .start(0.5, 60.0)
+        .revolutions(10.0)
+        .tolerance(1e-10);
+    let summary = run(&scene, Method::Angle).summary;
+    assert!(summary.steps <= 4 * 10, "{}", summary.steps);
+}
+
 #[test]
 fn loads_in_time_are_followed() {
     let (inertia, amplitude, w, speed) = (0.02, 3.0, 17.0, 60.0);

@@ -6,8 +6,8 @@ use super::Dynamics;
 use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
-use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
+use crate::numeric::angle::{Angle, in_turns};
+use crate::numeric::chebyshev::MAX_DEGREE;
 
 /// Panels of a cycle in the order of motion, and the position of a run among them.
 pub(super) struct CyclePanels<P> {
@@ -125,33 +125,23 @@ impl<P: Copy> CyclePanels<P> {
     }
 }
 
-/// Makes the panels of one cycle, which end at the corners.
+/// Makes the panels of one cycle, cut at fractions `cuts` up to 1. They end at the corners, and beside branch points too
+/// near for the series of half a turn to decay (Trefethen, theorem 8.1): shorter panels grade towards a point at an end.
 pub(super) fn panels<D: Dynamics>(
     dynamics: &D,
     start: Angle,
     fine: Fineness,
     cuts: &[f64],
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
-    let (few, all) = (dynamics.corners(), dynamics.corners_if_light());
-    if few.len() < all.len() {
-        // Beyond this degree more panels cost no more.
-        let heavy = between(dynamics, few, start, fine, cuts, FIRST_DEGREE)?;
-        if let Some(list) = heavy {
-            return Ok(list);
-        }
-    }
-    Ok(between(dynamics, all, start, fine, cuts, MAX_DEGREE)?.unwrap_or_default())
-}
-
-/// Makes the panels between corners, cut at fractions `cuts` up to 1; none if one is not resolved at degree `most`.
-fn between<D: Dynamics>(
-    dynamics: &D,
-    corners: &[f64],
-    start: Angle,
-    fine: Fineness,
-    cuts: &[f64],
-    most: usize,
-) -> Result<Option<Vec<PanelTable<D::Place>>>, NotApplicable> {
+    let is_near = |[_, height]: &[f64; 2]| {
+        let scaled = 2.0 * height / HALF_TURN;
+        let rho = scaled + scaled.hypot(1.0);
+        rho.powi(-(MAX_DEGREE as i32)) > fine.tail
+    };
+    let branch_points = dynamics.branch_points().into_iter().filter(is_near);
+    let feet: Vec<f64> = branch_points.map(|[theta, _]| theta).collect();
+    let feet = in_turns(&feet, 0..i64::from(dynamics.cycle()));
+    let corners: Vec<f64> = feet.chain(dynamics.corners().iter().copied()).collect();
     let direction = fine.speed.signum();
     let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
     let cycle = f64::from(dynamics.cycle());
@@ -165,6 +155,7 @@ fn between<D: Dynamics>(
             .filter(|ahead| *ahead > SHORTEST_PANEL && *ahead < TAU - SHORTEST_PANEL)
             .collect();
         ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|next, end| *next - *end <= SHORTEST_PANEL);
         ends.push(TAU);
         let turns = start.turns + direction * before;
         let mut from = 0.0;
@@ -182,15 +173,10 @@ fn between<D: Dynamics>(
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
                 // The degree of the neighbour is likely to suffice.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());
-                let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
-                panel.tabulate(dynamics)?;
-                if !panel.resolve(dynamics, fine, most)? && most < MAX_DEGREE {
-                    return Ok(None);
-                }
-                list.push(panel);
+                list.push(PanelTable::new(dynamics, turns, ends, 1.0, fine, degree)?);
                 from = until;
             }
         }
     }
-    Ok(Some(list))
+    Ok(list)
 }

@@ -68,9 +68,9 @@ pub trait Dynamics {
     /// Returns the angles of a cycle, rad, from zero on, in rising order, at which panels end.
     fn corners(&self) -> &[f64];
 
-    /// Returns the corners and further angles of a cycle, rad, at which panels have to end where the inertia nearly
-    /// vanishes: longer panels would not be resolved.
-    fn corners_if_light(&self) -> &[f64];
+    /// Returns the branch points of √M and of the forces in the complex angle: real part in a turn and distance from it,
+    /// rad.
+    fn branch_points(&self) -> Vec<[f64; 2]>;
 }
 
 /// Panels of a run, left to the next run from the same angle in the same direction, which uses the tables and starts

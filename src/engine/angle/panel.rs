@@ -91,35 +91,31 @@ impl<P: Copy> PanelTable<P> {
     ) -> Result<Self, NotApplicable> {
         let mut panel = Self::empty(turns, ends, Rule::of(first), side);
         panel.tabulate(dynamics)?;
-        panel.resolve(dynamics, fine, MAX_DEGREE)?;
+        panel.resolve(dynamics, fine)?;
         Ok(panel)
     }
 
-    /// Sets the least degree that resolves inertia and forces, or `most`; true if they are resolved.
+    /// Sets the least degree that resolves inertia and forces, or the largest.
     pub fn resolve(
         &mut self,
         dynamics: &impl Dynamics<Place = P>,
         fine: Fineness,
-        most: usize,
-    ) -> Result<bool, NotApplicable> {
+    ) -> Result<(), NotApplicable> {
         loop {
-            let enough = self.degree_for(fine);
-            let tried = self.rule.degree();
-            if enough.is_none() && tried >= most {
-                return Ok(false);
-            }
+            let (enough, tried) = (self.degree_for(fine), self.rule.degree());
             let next = if tried < FIRST_DEGREE {
                 FIRST_DEGREE
             } else {
-                most
+                MAX_DEGREE
             };
             let degree = enough.unwrap_or(next);
-            if degree != tried {
-                self.rule = Rule::of(degree);
-                self.tabulate(dynamics)?;
+            if degree == tried {
+                return Ok(());
             }
+            self.rule = Rule::of(degree);
+            self.tabulate(dynamics)?;
             if enough.is_some() {
-                return Ok(true);
+                return Ok(());
             }
         }
     }

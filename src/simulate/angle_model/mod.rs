@@ -7,14 +7,15 @@ mod work;
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
-use super::guide_friction::{GuideFriction, GuideLoadEffect, PanelPlace};
+use super::guide_friction::{GuideFriction, GuideLoadEffect, NEARBY_ANGLE, PanelPlace};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Dynamics, Panels, State, Table};
+use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
-use crate::numeric::enclosure::{MotionPiece, Variation};
+use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
 use crate::plan::{Engine, cycle_over_angle};
 use crate::scene::Variable;
 use panel_ends::{PanelEnds, sorted_corners};
@@ -26,8 +27,12 @@ pub(super) struct AngleModel<'a> {
     equation: &'a Equation,
     /// Guide, if it has friction.
     guide: Option<&'a GuideFriction>,
+    /// Crank speed at the start, rad/s.
+    speed: f64,
     /// Whole turns of the start, added to all angles: loads over theta may differ from turn to turn.
     turns: f64,
+    /// True if the inertia vanishes at the dead centres: √M has a corner there.
+    inertia_vanishes: bool,
     /// Dead centres of a turn, rad.
     dead_centres: Vec<f64>,
     /// Corners of loads in a turn, rad, and dead centres where the inertia vanishes.
@@ -51,7 +56,7 @@ pub(super) struct AngleModel<'a> {
 
 impl<'a> AngleModel<'a> {
     /// Makes the model of a run; angles exclude the whole turns of the start. Panels end at the rows of tables over the
-    /// crank angle, and at dead centres where the inertia vanishes: √M has a corner there.
+    /// crank angle, and at dead centres where the inertia vanishes.
     pub fn of(task: &'a RunSetup<'_>) -> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
@@ -59,15 +64,18 @@ impl<'a> AngleModel<'a> {
         let tables = loads.angle_corners().into_iter();
         let load_corners = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
         let all_corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
+        let inertia_vanishes = task.inertia_vanishes();
         let mut model = AngleModel {
             equation,
             guide: task.maker.guide.as_deref(),
+            speed: task.speed,
             turns: start.turns,
             cycle: 1,
-            corners: match task.inertia_vanishes() {
+            corners: match inertia_vanishes {
                 true => all_corners.clone(),
                 false => load_corners.clone(),
             },
+            inertia_vanishes,
             cycle_corners: all_corners,
             dead_centres,
             load_corners,
@@ -120,6 +128,25 @@ impl<'a> AngleModel<'a> {
     /// Returns the number of positions evaluated up to now.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
+    }
+
+    /// Whether loads of the state are not analytic where the slider reverses, like v |v|.
+    fn has_kinks_at_dead_centres(&self) -> bool {
+        let point = Interval::point;
+        let is_kink = |theta: &f64| {
+            let reach = MotionPiece {
+                t: point(0.0),
+                angle: Interval::new(theta - NEARBY_ANGLE, theta + NEARBY_ANGLE),
+                speed: point(self.speed),
+            };
+            self.variation(&reach, 1.0).deviation > 0.0
+        };
+        self.has_state_loads() && self.dead_centres.iter().any(is_kink)
+    }
+
+    /// Returns the corners of loads and the dead centres of a cycle, rad.
+    pub fn events(&self) -> &[f64] {
+        &self.cycle_corners
     }
 
     /// Returns the angle with the whole turns of the start.
@@ -240,13 +267,14 @@ impl Dynamics for AngleModel<'_> {
 
     fn corners(&self) -> &[f64] {
         // Friction changes sign at the dead centres.
-        match self.guide {
-            Some(_) => &self.cycle_corners,
-            None => &self.load_corners,
+        if self.guide.is_some() || self.inertia_vanishes || self.has_kinks_at_dead_centres() {
+            &self.cycle_corners
+        } else {
+            &self.load_corners
         }
     }
 
-    fn corners_if_light(&self) -> &[f64] {
-        &self.cycle_corners
+    fn branch_points(&self) -> Vec<[f64; 2]> {
+        Profile::branch_points(self)
     }
 }

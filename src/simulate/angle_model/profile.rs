@@ -57,11 +57,10 @@ impl Profile for AngleModel<'_> {
             [*theta, (least / (largest - least).max(0.0)).sqrt().asinh()]
         };
         let of_linkage = self.equation.branch_points();
-        let smooth = self.dead_centres.iter();
-        let of_inertia = smooth
-            .filter(|theta| !self.corners.contains(theta))
-            .map(of_root);
-        of_linkage.into_iter().chain(of_inertia).collect()
+        let of_inertia = self.dead_centres.iter().map(of_root);
+        // A corner is no branch point beside the real axis.
+        let beside = of_inertia.filter(|_| !self.inertia_vanishes);
+        of_linkage.into_iter().chain(beside).collect()
     }
 
     fn corner_between(&self, from: f64, to: f64) -> Option<f64> {

@@ -12,7 +12,6 @@ use super::super::stop;
 use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd, Reason};
 use super::stop_reason;
 use crate::engine::Counted;
-use crate::engine::angle::Dynamics;
 use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, MotionState, Settings};
 use crate::error::Error;
@@ -184,9 +183,9 @@ impl ResumeCondition<'_, '_> {
             && self.is_apart(angle)
     }
 
-    /// Whether an angle is apart from all corners, as they may be events.
+    /// Whether an angle is apart from all places of events.
     fn is_apart(&self, angle: Angle) -> bool {
-        let mut corners = self.pass.model.corners_if_light().iter();
+        let mut corners = self.pass.model.events().iter();
         corners.all(|corner| circular_distance(angle.rest, *corner) > NEARBY_ANGLE)
     }
 }
