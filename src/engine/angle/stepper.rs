@@ -158,7 +158,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
                 }
                 Switching::At(share) => {
                     panel.past.remember(&solution.kinetic);
-                    solution.end_at(panel.rule, start, share);
+                    solution.end_at(panel, start, share);
                     let [first, rest] = piece.cut(share);
                     let rest = self.panels.rest(self.dynamics, rest.from, self.fine)?;
                     self.panels.remember_rest();

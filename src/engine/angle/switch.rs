@@ -3,7 +3,7 @@
 use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
 use super::solution::PanelSolution;
 use super::{Dynamics, Switch};
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Series, Values, largest};
 use crate::numeric::dip::may_dip;
 use crate::numeric::exact::SUM_ROUNDING;
 use crate::numeric::maximum;
@@ -90,15 +90,24 @@ fn value<D: Dynamics>(
 }
 
 impl PanelSolution {
-    /// Ends the motion at the fraction `share` of the panel.
-    pub fn end_at(&mut self, rule: &Rule, start: PanelStart, share: f64) {
+    /// Ends the motion at the fraction `share` of the panel. The energy gained is less rounded than a value of the series
+    /// of the kinetic energy, whose rounding would add up over the turns.
+    pub fn end_at<P: Copy>(&mut self, panel: &PanelTable<P>, start: PanelStart, share: f64) {
+        let (rule, x) = (panel.rule, 2.0 * share - 1.0);
+        // Under steep loads the end energy is not the sum of start and gain.
+        let summed = self.end == start.kinetic + self.gain;
         self.slopes = rule.values(|x| share * (1.0 + x) - 1.0);
         let slopes = &mut self.slopes[..=rule.degree()];
         self.slope.values(slopes);
         slopes.iter_mut().for_each(|slope| *slope *= share);
         self.slope = rule.series(&self.slopes);
-        self.end = rule.series(&self.kinetic).value(2.0 * share - 1.0);
-        self.gain = self.end - start.kinetic;
+        if summed {
+            self.gain = panel.half() * rule.series(&self.forces.total).integral().value(x);
+            self.end = start.kinetic + self.gain;
+        } else {
+            self.end = rule.series(&self.kinetic).value(x);
+            self.gain = self.end - start.kinetic;
+        }
         self.share = share;
     }
 }
