@@ -254,3 +254,22 @@ impl Step {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_of_many_turns_is_to_end_after_one() {
+        let node = |t: f64, turns: f64| Node {
+            t,
+            theta: turns * TAU,
+            omega: TAU,
+            alpha: 0.0,
+            work: 0.0,
+        };
+        let part = |turns: f64| Step::new(0.0, node(0.0, 0.0), node(1.0, turns)).part_of_one_turn();
+        assert_eq!(part(1.9), None);
+        assert_eq!(part(-10.0), Some(0.1));
+    }
+}

@@ -9,21 +9,17 @@ use super::result::ErrorEstimate;
 use crate::engine::NODES;
 use crate::engine::step::Step;
 use crate::numeric::gauss;
+use crate::scene::LEAST_RUN_TOLERANCE;
 
 /// Least tail of a series, as part of its largest coefficient: below it rounding hides the decay of the coefficients.
 pub(super) const LEAST_TAIL: f64 = 4e-15;
-/// Least tolerance of a second run: below it rounding inside a step dominates.
-pub(super) const LEAST_SECOND_TOLERANCE: f64 = 1e-15;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Returns the tolerance of a second run by collocation, with negligible error.
-pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
-    // At the order of collocation two more digits take a fifth more evaluations.
-    let ratio = 1e4;
-    // That for the default 1e-10: short runs are far better than loose tolerances.
-    let largest = 1e-14;
-    (tolerance / ratio).clamp(LEAST_SECOND_TOLERANCE, largest)
+/// Returns the tolerance of a second run, whose error is then negligible beside that of the first.
+pub(super) fn finer(tolerance: f64) -> f64 {
+    let ratio = 1e3;
+    (tolerance / ratio).max(LEAST_RUN_TOLERANCE)
 }
 
 /// Returns the tolerance of a second run by the method of the first.

@@ -7,7 +7,8 @@ use crate::support::machines::machine;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use slider_crank::scene::{Expression, Gravity, Load, Scene};
+use slider_crank::plan::Method;
+use slider_crank::scene::{Crank, Expression, Gravity, Load, Scene, Slider};
 use slider_crank::simulate::{Options, simulate};
 
 const SCENES: usize = 520;
@@ -150,6 +151,34 @@ fn stated_errors_are_near_the_true_ones() {
                 _ => found.len() / 2,
             };
             assert!(over_floor.count() >= usual, "{method} {what}");
+        }
+    }
+}
+
+/// The second run starts from the first, three digits finer.
+#[test]
+fn an_estimate_costs_about_as_much_as_the_run() {
+    let scene = Scene::new(0.05, 0.15)
+        .offset(0.01)
+        .crank(Crank {
+            inertia: 0.02,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.8 })
+        .torque(expression("3 - 0.05*omega".to_owned()))
+        .force(expression("40*sin(30*t)".to_owned()))
+        .start(0.0, 100.0)
+        .duration(1.0);
+    for (method, ratio) in [(Method::Angle, 1.6), (Method::Time, 2.0)] {
+        for tolerance in [1e-5, 1e-7, 1e-9] {
+            let options = Options {
+                method,
+                ..Options::default()
+            };
+            let run = simulate(&scene.clone().tolerance(tolerance), &options).expect("a run");
+            let of_estimate = run.summary.estimate_cost.expect("a second run").evaluations;
+            let part = of_estimate as f64 / run.summary.evaluations as f64;
+            assert!(part <= ratio, "{method:?} {tolerance:e}: {part}");
         }
     }
 }

@@ -203,9 +203,9 @@ fn extremes_are_computed_or_refused() {
     }
 }
 
-/// A step whose speed grows beyond all bounds is divided before its turns are searched for events.
+/// Where the load in time is small beside the cubic loss, its rounding does not excuse the error of a step.
 #[test]
-fn a_step_of_countless_turns_is_divided() {
+fn a_steep_loss_is_resolved_at_the_loosest_tolerance() {
     let scene = Scene::new(100.0, 100.0)
         .offset(0.01)
         .crank(Crank {
@@ -220,5 +220,9 @@ fn a_step_of_countless_turns_is_divided() {
         max_evaluations: 100_000,
         ..Options::default()
     };
-    assert!(run_with(&scene, &options).stopped.is_some());
+    let summary = run_with(&scene, &options);
+    // The torques balance at the end, but for a lag of 3e-5 rad/s.
+    let balanced = (0.3f64.cos() / 8.0).cbrt();
+    let off = (summary.last.omega_rad_per_s - balanced).abs();
+    assert!(off < 1e-3, "{summary:?}");
 }

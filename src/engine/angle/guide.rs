@@ -13,18 +13,15 @@ use crate::numeric::chebyshev::Values;
 #[derive(Clone, Copy, Debug)]
 pub struct Guide<'a> {
     segment: &'a Segment,
-    /// Tail of its series.
-    pub(super) tail: f64,
     /// Index of the panel of the last request.
     index: usize,
 }
 
 impl<'a> Guide<'a> {
-    /// Makes a guide from a motion in one direction whose series have decayed to `tail`.
-    pub fn new(orbit: &'a Orbit, tail: f64) -> Guide<'a> {
+    /// Makes a guide from a motion in one direction.
+    pub fn new(orbit: &'a Orbit) -> Guide<'a> {
         Guide {
             segment: orbit.last_segment(),
-            tail,
             index: 0,
         }
     }

@@ -10,7 +10,7 @@ use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::progress::{Progress, SolvedPanel};
 use super::solution::PanelSolution;
-use super::sweep::{SWEEP_ERROR_SHARE, Tails, sweep};
+use super::sweep::sweep;
 use super::switch::{Switching, begins_beyond, switching};
 use super::{Dynamics, Panels, Resolution};
 use crate::engine::WorkLimit;
@@ -170,9 +170,9 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
 
     /// Solves the next panel as it stands; false, with the panel refined, if it is not solved or misses a load.
     fn solve(&mut self, start: PanelStart) -> Result<bool, NotApplicable> {
-        let tails = self.guess(start);
+        self.guess(start);
         let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
-        if let Err(why) = sweep(self.dynamics, panel, start, tails, solution) {
+        if let Err(why) = sweep(self.dynamics, panel, start, self.fine.tail, solution) {
             self.evaluations += self.solution.evaluations;
             self.refine(why)?;
             return Ok(false);
@@ -191,31 +191,22 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
     /// Sets the kinetic energy at the points of the next panel to a guess: that of the guide, whose error the sweeps
     /// are to show, or one from the last turns. The guide is not used for panels with a switch: after a switching they
     /// are solved as if there was none, which the guide does not know.
-    fn guess(&mut self, start: PanelStart) -> Tails {
+    fn guess(&mut self, start: PanelStart) {
         let (panel, dynamics) = (self.panels.next(), self.dynamics);
-        let series = self.fine.tail;
-        let mut tails = Tails {
-            series,
-            sweeps: series,
-        };
         if panel.is_in_closed_form(dynamics) {
-            return tails;
+            return;
         }
         let guide = self.guide.as_mut();
-        let of_guide = guide
+        let known = guide
             .filter(|_| panel.table.switch.is_none())
-            .and_then(|guide| {
-                let kinetic = guide.kinetic(panel, self.progress.turns, start.kinetic)?;
-                Some((kinetic, guide.tail))
-            });
-        if let Some((kinetic, tail)) = of_guide {
-            self.solution.kinetic = kinetic;
-            tails.sweeps = SWEEP_ERROR_SHARE * tail;
-        } else {
-            let reads_time = dynamics.reads_time();
-            panel.guess(start.kinetic, reads_time, &mut self.solution.kinetic);
+            .and_then(|guide| guide.kinetic(panel, self.progress.turns, start.kinetic));
+        match known {
+            Some(kinetic) => self.solution.kinetic = kinetic,
+            None => {
+                let reads_time = dynamics.reads_time();
+                panel.guess(start.kinetic, reads_time, &mut self.solution.kinetic);
+            }
         }
-        tails
     }
 
     /// Moves on over a piece of the next panel; `rest` is the remainder of the panel in this turn.

@@ -8,7 +8,7 @@ use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
 /// Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns.
-pub(super) const SWEEP_ERROR_SHARE: f64 = 1e-3;
+const SWEEP_ERROR_SHARE: f64 = 1e-3;
 
 /// Reason why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,27 +19,18 @@ pub(super) enum Unsolved {
     Stops,
 }
 
-/// Relative accuracy to which a panel is solved.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Tails {
-    /// Largest tail of the series.
-    pub series: f64,
-    /// Reference for the error of the sweeps, which may be a small fraction of it.
-    pub sweeps: f64,
-}
-
-/// Solves a panel from the guess of the kinetic energy at its points in `solution`.
+/// Solves a panel to a tail of its series, from the guess of the kinetic energy at its points in `solution`.
 pub(super) fn sweep<D: Dynamics>(
     dynamics: &D,
     panel: &mut PanelTable<D::Place>,
     start: PanelStart,
-    tails: Tails,
+    tail: f64,
     solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
     solution.evaluations = 0;
     solution.share = 1.0;
     if panel.is_in_closed_form(dynamics) {
-        return solution.take_undamped(dynamics, panel, start, tails);
+        return solution.take_undamped(dynamics, panel, start, tail);
     }
     // Evaluations of state loads cost more than the sweeps that they spare.
     let has_state_loads = dynamics.has_state_loads();
@@ -51,7 +42,7 @@ pub(super) fn sweep<D: Dynamics>(
     };
     // Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
     let energy_rounding = 2.0 * f64::EPSILON;
-    let largest_error = (error_share * tails.sweeps).max(energy_rounding);
+    let largest_error = (error_share * tail).max(energy_rounding);
     // Convergence factor that a sweep is assumed to have at least, however much the last one gained.
     let least_factor = 1e-3;
     // Sweeps that gain the factor SLOW_FACTOR each reach rounding after 30.
@@ -75,7 +66,7 @@ pub(super) fn sweep<D: Dynamics>(
         }
         let largest = add(&mut solution.kinetic, &mut change, panel.rule.degree() + 1)?;
         // The forces are as accurate as the motion: more sweeps would not resolve them.
-        if solution.forces_are_left_out(panel, start, tails.series, largest) {
+        if solution.forces_are_left_out(panel, start, tail, largest) {
             return Err(Unsolved::TooLong);
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
@@ -92,9 +83,9 @@ pub(super) fn sweep<D: Dynamics>(
         let gains = before.is_finite() && largest < SLOW_FACTOR * before;
         let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
-            if largest * factor.min(SLOW_FACTOR) <= tails.series || at_rounding {
+            if largest * factor.min(SLOW_FACTOR) <= tail || at_rounding {
                 solution.evaluate(dynamics, panel, start)?;
-                return solution.finish(panel, start, tails.series);
+                return solution.finish(panel, start, tail);
             }
         } else if largest * factor <= largest_error || at_rounding {
             if has_state_loads {
@@ -102,7 +93,7 @@ pub(super) fn sweep<D: Dynamics>(
             } else {
                 solution.evaluate(dynamics, panel, start)?;
             }
-            solution.finish(panel, start, tails.series)?;
+            solution.finish(panel, start, tail)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             solution.end = start.kinetic + solution.gain;
             return Ok(());
@@ -152,7 +143,7 @@ impl PanelSolution {
         dynamics: &D,
         panel: &PanelTable<D::Place>,
         start: PanelStart,
-        tails: Tails,
+        tail: f64,
     ) -> Result<(), Unsolved> {
         self.kinetic = panel.undamped(start.kinetic);
         let points = &self.kinetic[..=panel.rule.degree()];
@@ -160,7 +151,7 @@ impl PanelSolution {
             return Err(Unsolved::Stops);
         }
         self.evaluate(dynamics, panel, start)?;
-        self.finish(panel, start, tails.series)
+        self.finish(panel, start, tail)
     }
 
     /// Returns the change that a sweep makes, J.

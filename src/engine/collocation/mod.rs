@@ -49,7 +49,8 @@ pub fn run(
         let corner = motion.next_corner(state.t).min(hidden);
         let until = corner.min(settings.t_end);
         let left = until - state.t;
-        let way = wanted.min(TAU / state.omega.abs());
+        let beside_guide = attempt::length_beside(settings.guide, state.t);
+        let way = wanted.min(TAU / state.omega.abs()).min(beside_guide);
         let length = fitted(way, left);
         // Length that results from the rounded times.
         let h = (state.t + length) - state.t;

@@ -15,6 +15,8 @@ pub struct Collocation<'a> {
     pub(super) motion: &'a Counted<'a>,
     pub(super) tableau: &'static Tableau,
     pub(super) tolerance: f64,
+    /// Error that the sweeps may leave, as a fraction of the tolerance.
+    sweep_error: f64,
     /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
     varies_between_nodes: bool,
@@ -26,7 +28,7 @@ pub struct Collocation<'a> {
     pub(super) alpha: f64,
     /// True if sweeps did not converge on the last step.
     steep: bool,
-    /// Latest estimate of the rounding error of the acceleration due to rounded times, rad/s².
+    /// Rounding error of the acceleration due to rounded times, rad/s², where it was estimated for the step.
     pub(super) by_time: f64,
 }
 
@@ -36,6 +38,12 @@ impl<'a> Collocation<'a> {
             motion,
             tableau: Tableau::get(),
             tolerance: settings.tolerance,
+            // The largest error at the end of a step, where the order is 2 NODES: a run for comparison leaves less.
+            sweep_error: if settings.guide.is_empty() {
+                1e-2
+            } else {
+                1e-3
+            },
             guide: settings.guide,
             varies_between_nodes: motion.varies_between_nodes(),
             has_power: motion.has_power(),
@@ -86,6 +94,7 @@ impl<'a> Collocation<'a> {
         state: &State,
         Attempt { h, corners }: Attempt,
     ) -> Result<Accepted, Rejection> {
+        self.by_time = 0.0;
         let (sweeps, newton) = self.converge(state, h)?;
         let coefficients = self.coefficients();
         let (step, next, alpha) = self.finish(state, h, &coefficients);
@@ -94,18 +103,22 @@ impl<'a> Collocation<'a> {
         }
         // The nodes lie inside: a jump outside the outermost ones is visible only at the ends.
         let jumps = [step.start.alpha - self.alpha, step.end.alpha - alpha];
-        let mut error = self.error(state, h, &coefficients);
-        for (jump, at_corner) in jumps.into_iter().zip(corners) {
-            if !jump.is_finite() {
-                return Err(Rejection::NOT_FINITE);
-            } else if !at_corner {
-                error = error.max(self.error_of(state, h, jump, &coefficients));
-            }
+        if !jumps.iter().sum::<f64>().is_finite() {
+            return Err(Rejection::NOT_FINITE);
+        }
+        let [.., a, b] = coefficients;
+        let ends = jumps.into_iter().zip(corners);
+        let jump = ends.filter_map(|(jump, at_corner)| (!at_corner).then_some(jump.abs()));
+        let last_term = jump.fold(a.abs().max(b.abs()), f64::max);
+        let mut error = self.error_of(state, h, last_term, &coefficients);
+        if error > 1.0 && self.motion.depends_on_time() {
+            self.by_time = self.rounding_of_times(h);
+            error = self.error_of(state, h, last_term, &coefficients);
         }
         // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
         let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
         if error > 1.0 {
-            return Err(self.too_long(h, factor));
+            return Err(Rejection::TooLong(factor));
         }
         // Sweeps of a step of suitable length.
         let few_sweeps = 9;
@@ -130,8 +143,8 @@ impl<'a> Collocation<'a> {
     /// Sweeps until the accelerations at the nodes converge, with Newton's method where sweeps alone fail. Returns the
     /// number of sweeps and the factors of Newton's method, if it was used.
     fn converge(&mut self, state: &State, h: f64) -> Result<(u32, Option<Newton>), Rejection> {
-        // Fraction of the tolerance that the sweeps may leave, and relative rounding error of a state.
-        let (sweep_error, state_rounding) = (1e-2, 4.0 * f64::EPSILON);
+        // Relative rounding error of a state.
+        let state_rounding = 4.0 * f64::EPSILON;
         // Convergence factor below which the change is no rounding, and one with which the sweeps would be too many.
         let (fast, slow, most_sweeps) = (0.3, 0.7, 14);
         self.prepare(state, h);
@@ -156,7 +169,7 @@ impl<'a> Collocation<'a> {
             // Change that the next sweep would make.
             let left = change * rate.min(1.0);
             // The next sweep would change little, or this one changed no more than the rounding.
-            if sweeps > 1 && left <= sweep_error && change < 1.0
+            if sweeps > 1 && left <= self.sweep_error && change < 1.0
                 || change <= state_rounding / self.tolerance
             {
                 return Ok((sweeps, newton));
@@ -171,7 +184,7 @@ impl<'a> Collocation<'a> {
                 if self.steep {
                     // A steep slope due to a jump does not persist beyond it.
                     self.steep = false;
-                    return Err(self.too_long(h, 0.5));
+                    return Err(Rejection::TooLong(0.5));
                 }
                 self.steep = true;
                 self.prepare(state, h);

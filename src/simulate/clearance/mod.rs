@@ -18,7 +18,7 @@ use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::second_run::LEAST_SECOND_TOLERANCE;
+use super::second_run::finer;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, ContactSettings};
@@ -134,8 +134,8 @@ impl<'a, const N: usize> Loose<'a, N> {
     fn second_run(&self, t_end: f64) -> Option<SecondRun> {
         let begun = Instant::now();
         // Steps of a contact are bounded by its phases, too: bounds that stay would err alike.
-        let (ratio, share) = (1e3, 0.5);
-        let tolerance = (self.task.scene.run.tolerance / ratio).max(LEAST_SECOND_TOLERANCE);
+        let share = 0.5;
+        let tolerance = finer(self.task.scene.run.tolerance);
         let (ended, follower) = self.integrate(None, tolerance, share, t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),

@@ -13,7 +13,7 @@ use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
 use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
-use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
+use super::super::second_run::{Comparison, MARGIN, finer, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
@@ -46,7 +46,7 @@ pub(super) fn estimate(
         return Some(by_energy(pass.task, &piece.run, result, wants_rows));
     }
     let begun = Instant::now();
-    let guide = piece.map(|piece| Guide::new(&piece.run.orbit, pass.resolution.tail));
+    let guide = piece.map(|piece| Guide::new(&piece.run.orbit));
     let first_engine = match result.pieces_over_angle {
         0 => Engine::Time,
         _ => Engine::Angle,
@@ -57,7 +57,7 @@ pub(super) fn estimate(
             first_engine,
             is_second: true,
             extent: Extent::Duration(result.state.t),
-            resolution: second_run_resolution(guide),
+            resolution: second_run_resolution(pass.resolution.tail, guide),
             time_settings,
             // Another part of a turn than in the first run.
             resume_rotation: 1.4 * TAU,
@@ -133,7 +133,7 @@ fn second_settings<'a>(
     };
     let collocation = Settings {
         method: Method::Picard,
-        tolerance: collocation_tolerance(pass.time_settings.tolerance),
+        tolerance: finer(pass.time_settings.tolerance),
         guide: &record.checkpoints.first,
         ..again
     };

@@ -147,9 +147,11 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 }
 
 /// Returns a finer resolution, with panels cut at other angles: two runs on the same panels would have the same error.
-pub(super) fn second_run_resolution(guide: Option<Guide<'_>>) -> Resolution<'_> {
+pub(super) fn second_run_resolution(tail: f64, guide: Option<Guide<'_>>) -> Resolution<'_> {
+    // The series decay further than to the tail, as the degrees are few.
+    let ratio = 1e4;
     Resolution {
-        tail: LEAST_TAIL,
+        tail: (tail / ratio).max(LEAST_TAIL),
         cuts_unevenly: true,
         guide,
         limit: WorkLimit::NONE,
