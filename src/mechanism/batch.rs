@@ -6,6 +6,7 @@ use super::{Equation, Inertia, LoadValue, Normal, Terms};
 use crate::numeric::LANES;
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
+use crate::scene::Instant;
 
 /// Instants of one motion; all crank angles have the same whole turns.
 #[derive(Clone, Copy, Debug)]
@@ -67,14 +68,16 @@ impl Equation {
     ) {
         let sides = self.term_arrays(at.theta);
         let loads = self.loads();
+        let now: [Instant; N] = std::array::from_fn(|i| {
+            let angle = Angle::new(at.turns, at.theta[i]);
+            instant(at.t[i], angle, at.omega[i], [sides.x[i], sides.dx[i]])
+        });
+        let called = loads.beside_time(&now);
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
-            let angle = Angle::new(at.turns, at.theta[i]);
-            let now = instant(at.t[i], angle, omega, [x, dx]);
             let steady = loads.with_potential_at(x);
-            let spent = loads
-                .without_potential_beside(at.of_time[i], &now)
-                .generalized(dx);
+            let other = loads.damped(&now[i]).plus(at.of_time[i]).plus(called[i]);
+            let spent = other.generalized(dx);
             let inertia = Inertia {
                 m: sides.m[i],
                 half_dm: sides.half_dm[i],

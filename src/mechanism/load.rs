@@ -208,7 +208,9 @@ impl Loads {
         omega: f64,
         pose: &Pose,
     ) -> LoadValue {
-        self.without_potential_beside(self.of_time(t), &pose.instant(t, theta, omega))
+        let now = pose.instant(t, theta, omega);
+        let [called] = self.beside_time(&[now]);
+        self.damped(&now).plus(self.of_time(t)).plus(called)
     }
 
     /// Returns torque and force of the loads that depend on time (s) alone.
@@ -237,23 +239,16 @@ impl Loads {
 
     /// Returns torque and force of the nonlinear loads of speed or time, without dry loads, at some instants.
     pub fn of_states<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
-        let mut sums = self.timed.values(now);
-        if !self.mixed.is_empty() {
-            for (sum, mixed) in sums.iter_mut().zip(&self.mixed.values(now)) {
-                *sum = sum.plus(*mixed);
-            }
-        }
-        sums
+        NonlinearLoads::sums([&self.timed, &self.mixed], now)
     }
 
-    /// Returns [`Self::without_potential`], with [`Self::of_time`] already known.
-    pub(super) fn without_potential_beside(&self, of_time: LoadValue, now: &Instant) -> LoadValue {
-        let called = [&self.placed, &self.mixed, &self.dry].map(|loads| loads.value(now));
-        let damped = self.damped(now).plus(of_time);
-        called.into_iter().fold(damped, LoadValue::plus)
+    /// Returns torque and force of the nonlinear loads, but for those of time alone, at some instants.
+    pub(super) fn beside_time<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
+        NonlinearLoads::sums([&self.placed, &self.mixed, &self.dry], now)
     }
 
-    fn damped(&self, now: &Instant) -> LoadValue {
+    /// Returns torque and force of the loads that are linear in the speed.
+    pub(super) fn damped(&self, now: &Instant) -> LoadValue {
         LoadValue {
             torque: -self.damping.torque * now.omega,
             force: -self.damping.force * now.v,

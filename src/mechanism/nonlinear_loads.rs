@@ -76,6 +76,20 @@ impl NonlinearLoads {
         sums
     }
 
+    /// Returns the sums of several lists at some instants.
+    pub fn sums<const N: usize, const M: usize>(
+        lists: [&NonlinearLoads; M],
+        now: &[Instant; N],
+    ) -> [LoadValue; N] {
+        let mut sums = [LoadValue::default(); N];
+        for loads in lists.into_iter().filter(|loads| !loads.is_empty()) {
+            for (sum, value) in sums.iter_mut().zip(&loads.values(now)) {
+                *sum = sum.plus(*value);
+            }
+        }
+        sums
+    }
+
     /// Returns the first load without a finite value.
     pub fn without_value(&self, now: &Instant) -> Option<&Load> {
         let mut loads = self.0.iter();
