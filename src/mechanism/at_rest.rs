@@ -109,7 +109,8 @@ impl AtRest<'_> {
     /// Returns the forces that hold the mechanism at a time, s.
     pub fn held(&self, t: f64) -> Held {
         let terms = &self.terms;
-        let mut free = self.equation.without_dry(terms, t, self.q, 0.0);
+        let now = self.equation.instant(&terms.pose, t, self.q, 0.0);
+        let mut free = self.equation.without_dry(terms, &now, 0.0);
         if !self.equation.loads().are_dry() {
             return Held {
                 free,

@@ -10,7 +10,7 @@ use super::friction::{Free, GuideForces};
 use super::virtual_displacement::VirtualDisplacement;
 use super::{Curve, CurvePose, Equation, Linkage, LoadValue, Loads, Path, Sense};
 use crate::numeric::angle::Angle;
-use crate::scene::{Friction, Instant, Scene};
+use crate::scene::{Friction, Instant, Scene, Variable};
 
 /// Lagrange equation of one scene on its configuration curve.
 #[derive(Clone, Debug)]
@@ -103,11 +103,16 @@ impl CurveEquation {
             .get_or_init(|| coordinates.any(|q| self.vanishes_at(q)))
     }
 
-    /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s).
+    /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s); the crank angle only if a
+    /// load reads it, as it costs an inverse tangent.
     pub fn instant(&self, pose: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
+        let theta = match self.loads().reads().has(Variable::Theta) {
+            true => self.curve.crank_angle(q).radians(),
+            false => 0.0,
+        };
         Instant {
             t,
-            theta: self.curve.crank_angle(q).radians(),
+            theta,
             omega: pose.dtheta * speed,
             x: pose.x,
             v: pose.dx * speed,
@@ -148,9 +153,9 @@ impl CurveEquation {
 
     fn against(&self, t: f64, q: Angle, speed: f64, sense: Option<Sense>) -> Free {
         let terms = self.terms(q.rest);
-        let mut free = self.without_dry(&terms, t, q, speed);
+        let now = self.instant(&terms.pose, t, q, speed);
+        let mut free = self.without_dry(&terms, &now, speed);
         if self.loads().are_dry() {
-            let now = self.instant(&terms.pose, t, q, speed);
             let sense = sense.unwrap_or_else(|| Sense::of(now.omega, now.v));
             free.push(&terms, self.loads().dry(&now, sense), speed);
         }
@@ -158,10 +163,10 @@ impl CurveEquation {
     }
 
     /// Computes the motion without guide friction and without dry loads.
-    pub(super) fn without_dry(&self, terms: &CurveTerms, t: f64, q: Angle, speed: f64) -> Free {
+    pub(super) fn without_dry(&self, terms: &CurveTerms, now: &Instant, speed: f64) -> Free {
         let pose = &terms.pose;
         let loads = self.loads();
-        let non_conservative = loads.non_conservative(&self.instant(pose, t, q, speed));
+        let non_conservative = loads.non_conservative(now);
         let load = loads.with_potential_at(pose.x).plus(non_conservative);
         let squared = speed * speed;
         let pull = terms.along(load) - terms.dv;

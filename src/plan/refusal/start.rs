@@ -40,7 +40,11 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
     };
     let equation = CurveEquation::new(scene, curve);
     let before = list.len();
-    loads(scene, &equation.instant(&place, 0.0, q, pace), list);
+    let now = Instant {
+        theta: theta.radians(),
+        ..equation.instant(&place, 0.0, q, pace)
+    };
+    loads(scene, &now, list);
     if vanishes(&equation, q.rest) {
         list.push(Problem::new(
             "motion.angle",
