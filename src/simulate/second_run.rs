@@ -16,10 +16,11 @@ pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Returns the tolerance of a second run, whose error is then negligible beside that of the first.
+/// Returns the tolerance of a second run, whose error is then negligible beside that of the first: finer by 1000, near
+/// rounding by 10 at least.
 pub(super) fn finer(tolerance: f64) -> f64 {
-    let ratio = 1e3;
-    (tolerance / ratio).max(LEAST_RUN_TOLERANCE)
+    let (ratio, least_ratio) = (1e3, 10.0);
+    (tolerance / ratio).max(LEAST_RUN_TOLERANCE.min(tolerance / least_ratio))
 }
 
 /// Returns the tolerance of a second run by the method of the first.
