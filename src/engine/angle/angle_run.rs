@@ -62,8 +62,8 @@ pub struct EarlyEnd {
 pub struct Resolution<'a> {
     /// Largest tail of a resolved series.
     pub tail: f64,
-    /// True if panels are cut unevenly once more from the start: another discretization, for comparison.
-    pub cuts_unevenly: bool,
+    /// True for a second run: panels that end elsewhere than in the first, and the roundoff of both runs.
+    pub is_second: bool,
     /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,
     /// Limit of load evaluations and tabulated positions.

@@ -125,13 +125,14 @@ impl<P: Copy> CyclePanels<P> {
     }
 }
 
-/// Makes the panels of one cycle, cut at fractions `cuts` up to 1. They end at the corners, and beside branch points too
-/// near for the series of half a turn to decay (Trefethen, theorem 8.1): shorter panels grade towards a point at an end.
+/// Makes the panels of one cycle. They end at the corners, and beside branch points too near for the series of half a
+/// turn to decay (Trefethen, theorem 8.1): shorter panels grade towards a point at an end. Between these ends they are
+/// equally long, but for the first, which has the fraction `first` of the length.
 pub(super) fn panels<D: Dynamics>(
     dynamics: &D,
     start: Angle,
     fine: Fineness,
-    cuts: &[f64],
+    first: f64,
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
     let is_near = |[_, height]: &[f64; 2]| {
         let scaled = 2.0 * height / HALF_TURN;
@@ -162,14 +163,16 @@ pub(super) fn panels<D: Dynamics>(
         for to in ends {
             let parts = ((to - from) / HALF_TURN).ceil();
             let begin = from;
-            let whole = 0..parts as u32;
-            let shares = whole.flat_map(|part| cuts.iter().map(move |cut| f64::from(part) + cut));
-            for share in shares.map(|end| end / parts) {
+            for part in 0..=parts as u32 {
+                let share = (f64::from(part) + first) / parts;
                 let until = if share < 1.0 {
                     begin + share * (to - begin)
                 } else {
                     to
                 };
+                if until == from {
+                    break;
+                }
                 let ends = [from, until].map(|ahead| start.rest + direction * ahead);
                 // The degree of the neighbour is likely to suffice.
                 let degree = list.last().map_or(FIRST_DEGREE, |last| last.rule.degree());

@@ -56,15 +56,11 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             speed: from.speed,
         };
         let positions = dynamics.positions();
-        let cuts: &[f64] = if resolution.cuts_unevenly {
-            &[0.37, 1.0]
-        } else {
-            &[1.0]
-        };
-        let shared = dynamics.shared().filter(|_| !resolution.cuts_unevenly);
+        let first = if resolution.is_second { 0.37 } else { 1.0 };
+        let shared = dynamics.shared().filter(|_| !resolution.is_second);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
-            panels = cycle_panels::panels(dynamics, angle, fine, cuts)?;
+            panels = cycle_panels::panels(dynamics, angle, fine, first)?;
         }
         let kinetic = 0.5 * panels[0].table.inertia[0] * from.speed * from.speed;
         if !kinetic.is_finite() {
@@ -81,7 +77,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             fine,
             panels: CyclePanels::new(panels),
             shared,
-            is_second: resolution.cuts_unevenly,
+            is_second: resolution.is_second,
             solution: PanelSolution::new(),
             guide: resolution.guide,
             start: MotionState { angle, ..from },

@@ -95,14 +95,8 @@ impl Collocation<'_> {
         f64::EPSILON * later.t[NODES - 1].abs() * steepest
     }
 
-    /// Estimates the error of the motion inside the step from its last two Legendre coefficients.
-    pub(super) fn error(&self, state: &State, h: f64, coefficients: &[f64; NODES]) -> f64 {
-        let [.., a, b] = coefficients;
-        self.error_of(state, h, a.abs().max(b.abs()), coefficients)
-    }
-
     /// Returns the error due to a Legendre term (rad/s²) beyond the last, less the rounding error of accelerations.
-    pub(super) fn error_of(
+    pub(super) fn error(
         &self,
         state: &State,
         h: f64,
@@ -113,6 +107,11 @@ impl Collocation<'_> {
         let n = 2.0 * NODES as f64;
         self.in_units(state, h * h * term / (n * n), h * term / n)
     }
+}
+
+/// Returns the larger of the last two Legendre coefficients, rad/s²: the error of the motion inside a step.
+pub(super) fn last_term([.., a, b]: &[f64; NODES]) -> f64 {
+    a.abs().max(b.abs())
 }
 
 /// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step

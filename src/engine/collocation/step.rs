@@ -4,7 +4,7 @@ use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
-use super::attempt::{Accepted, Attempt, Rejection};
+use super::attempt::{Accepted, Attempt, Rejection, last_term};
 use super::newton::Newton;
 use super::state::State;
 use super::tableau::Tableau;
@@ -106,14 +106,13 @@ impl<'a> Collocation<'a> {
         if !jumps.iter().sum::<f64>().is_finite() {
             return Err(Rejection::NOT_FINITE);
         }
-        let [.., a, b] = coefficients;
         let ends = jumps.into_iter().zip(corners);
         let jump = ends.filter_map(|(jump, at_corner)| (!at_corner).then_some(jump.abs()));
-        let last_term = jump.fold(a.abs().max(b.abs()), f64::max);
-        let mut error = self.error_of(state, h, last_term, &coefficients);
+        let last_term = jump.fold(last_term(&coefficients), f64::max);
+        let mut error = self.error(state, h, last_term, &coefficients);
         if error > 1.0 && self.motion.depends_on_time() {
             self.by_time = self.rounding_of_times(h);
-            error = self.error_of(state, h, last_term, &coefficients);
+            error = self.error(state, h, last_term, &coefficients);
         }
         // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
         let mut factor = 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
@@ -192,7 +191,8 @@ impl<'a> Collocation<'a> {
                 continue;
             }
             if sweeps == 2 {
-                let error = self.error(state, h, &self.coefficients());
+                let coefficients = self.coefficients();
+                let error = self.error(state, h, last_term(&coefficients), &coefficients);
                 // Beyond hope, in units of the tolerance.
                 if error > 1e3 {
                     return Err(Rejection::TooLong(0.8 * error.powf(-1.0 / NODES as f64)));

@@ -140,7 +140,7 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     };
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
-        cuts_unevenly: false,
+        is_second: false,
         guide: None,
         limit: task.options.limit(),
     }
@@ -152,7 +152,7 @@ pub(super) fn second_run_resolution(tail: f64, guide: Option<Guide<'_>>) -> Reso
     let ratio = 1e4;
     Resolution {
         tail: (tail / ratio).max(LEAST_TAIL),
-        cuts_unevenly: true,
+        is_second: true,
         guide,
         limit: WorkLimit::NONE,
     }
