@@ -161,7 +161,8 @@ impl Equation {
     ) -> (f64, f64) {
         let theta = theta.into();
         let Terms { pose, inertia, dv } = self.terms(theta.rest);
-        let non_conservative = self.loads.without_potential(t, theta, omega, &pose);
+        let now = pose.instant(t, theta, omega);
+        let non_conservative = self.loads.without_potential(&now);
         let load = self.loads.with_potential_at(pose.x).plus(non_conservative);
         let alpha = forward(&inertia, dv, load.generalized(pose.dx), omega);
         (alpha, non_conservative.generalized(pose.dx) * omega)

@@ -188,8 +188,7 @@ impl Loads {
 
     /// Returns torque and force of all loads together.
     pub fn value(&self, t: f64, theta: impl Into<Angle>, omega: f64, pose: &Pose) -> LoadValue {
-        let non_conservative = self.without_potential(t, theta, omega, pose);
-        self.with_potential_at(pose.x).plus(non_conservative)
+        self.at(&pose.instant(t, theta, omega))
     }
 
     /// Returns torque and force of the loads with a potential at slider position x, m.
@@ -201,30 +200,27 @@ impl Loads {
     }
 
     /// Returns torque and force of the loads whose work must be integrated.
-    pub fn without_potential(
-        &self,
-        t: f64,
-        theta: impl Into<Angle>,
-        omega: f64,
-        pose: &Pose,
-    ) -> LoadValue {
-        let now = pose.instant(t, theta, omega);
-        let [called] = self.beside_time(&[now]);
-        self.damped(&now).plus(self.of_time(t)).plus(called)
+    pub fn without_potential(&self, now: &Instant) -> LoadValue {
+        let [called] = self.beside_time(&[*now]);
+        self.damped(now).plus(self.of_time(now.t)).plus(called)
     }
 
     /// Returns torque and force of the loads that depend on time (s) alone.
     pub fn of_time(&self, t: f64) -> LoadValue {
-        self.timed.value(&Instant {
+        let now = Instant {
             t,
             ..Instant::default()
-        })
+        };
+        let [value] = NonlinearLoads::sums([&self.timed], &[now]);
+        value
     }
 
     /// Returns torque and force of the loads without a known potential that depend on the position alone, at slider
     /// position x, m.
     pub fn of_place(&self, theta: impl Into<Angle>, x: f64) -> LoadValue {
-        self.placed.value(&instant(0.0, theta, 0.0, [x, 0.0]))
+        let now = instant(0.0, theta, 0.0, [x, 0.0]);
+        let [value] = NonlinearLoads::sums([&self.placed], &[now]);
+        value
     }
 
     /// Returns −dQ/dω of the loads that are linear in the speed, N m s/rad, where x' is `dx` (m/rad).
@@ -257,14 +253,14 @@ impl Loads {
 
     /// Returns torque and force of the loads whose work must be integrated, without dry loads.
     pub(super) fn non_conservative(&self, now: &Instant) -> LoadValue {
-        let called = [&self.placed, &self.timed, &self.mixed].map(|loads| loads.value(now));
-        called.into_iter().fold(self.damped(now), LoadValue::plus)
+        let [called] = NonlinearLoads::sums([&self.placed, &self.mixed], &[*now]);
+        self.damped(now).plus(self.of_time(now.t)).plus(called)
     }
 
     /// Returns torque and force of all loads together, also for a slider whose motion is not that of the ideal joints.
     pub fn at(&self, now: &Instant) -> LoadValue {
-        let non_conservative = self.non_conservative(now).plus(self.dry.value(now));
-        self.with_potential_at(now.x).plus(non_conservative)
+        self.with_potential_at(now.x)
+            .plus(self.without_potential(now))
     }
 
     /// Returns the potential of the loads that have one, J, from crank angle (from any fixed start) and position.

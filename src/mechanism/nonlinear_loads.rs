@@ -53,16 +53,8 @@ impl NonlinearLoads {
         self.0.iter().any(|(_, on_slider)| *on_slider == slider)
     }
 
-    #[inline]
-    pub fn value(&self, now: &Instant) -> LoadValue {
-        if self.is_empty() {
-            return LoadValue::default();
-        }
-        self.values(&[*now])[0]
-    }
-
     /// Returns the sums at some instants: each formula is interpreted once for all of them.
-    pub fn values<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
+    fn values<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
         let mut sums = [LoadValue::default(); N];
         for (load, on_slider) in &self.0 {
             let values = match load {
@@ -77,6 +69,7 @@ impl NonlinearLoads {
     }
 
     /// Returns the sums of several lists at some instants.
+    #[inline]
     pub fn sums<const N: usize, const M: usize>(
         lists: [&NonlinearLoads; M],
         now: &[Instant; N],

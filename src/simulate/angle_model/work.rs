@@ -49,7 +49,7 @@ impl AngleModel<'_> {
     pub(super) fn push(&self, theta: f64) -> f64 {
         let pose = self.equation.linkage().pose(theta);
         let loads = self.equation.loads();
-        let load = loads.without_potential(0.0, self.angle(theta), 0.0, &pose);
+        let load = loads.without_potential(&pose.instant(0.0, self.angle(theta), 0.0));
         load.generalized(pose.dx)
     }
 
