@@ -2,25 +2,11 @@
 //! derivatives each.
 
 use super::{Linkage, Pose};
-use crate::scene::{Geometry, Rod, RodModel, Scene};
-
-/// Link that a body is fixed to.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Link {
-    /// Crank, from O to A.
-    Crank,
-    /// Rod, from A to P.
-    #[default]
-    Rod,
-    /// Slider.
-    Slider,
-}
+use crate::scene::{RodModel, Scene};
 
 /// Mass, centre of gravity and moment of inertia of a body on its link.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Body {
-    /// Link that carries the body.
-    pub on: Link,
     /// Mass, kg.
     pub mass: f64,
     /// Centre of gravity along the link, from the end at which the link begins, m.
@@ -32,23 +18,6 @@ pub struct Body {
 }
 
 impl Body {
-    /// Returns a point mass on a link.
-    pub(super) fn point(on: Link, mass: f64, along: f64, lateral: f64) -> Body {
-        Body {
-            on,
-            mass,
-            along,
-            lateral,
-            inertia: 0.0,
-        }
-    }
-
-    /// Returns the mass of a two-mass rod at the crank pin as a body of the crank.
-    pub(super) fn at_crank_pin(rod: &Rod, geometry: &Geometry) -> Body {
-        let mass = rod.mass - rod.mass * rod.cg / geometry.rod;
-        Body::point(Link::Crank, mass, geometry.crank, 0.0)
-    }
-
     /// Returns the rod of a scene as one body that carries forces; none for the model `spin-only`, without translation.
     pub(super) fn rod(scene: &Scene) -> Option<Body> {
         let rod = scene.rod.unwrap_or_default();
@@ -60,8 +29,10 @@ impl Body {
             RodModel::SpinOnly => return None,
         };
         Some(Body {
+            mass: rod.mass,
+            along: rod.cg,
+            lateral: rod.cg_lateral,
             inertia,
-            ..Body::point(Link::Rod, rod.mass, rod.cg, rod.cg_lateral)
         })
     }
 
@@ -145,67 +116,19 @@ impl Path {
     }
 }
 
-/// Bodies of a scene, sorted into those with inertia and those with weight. The two differ only for the rod model
-/// `spin-only`.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bodies {
-    /// Constant part of M: crank inertia about O and masses fixed to the crank, kg m².
-    pub crank_inertia: f64,
-    /// Bodies whose part of M depends on the crank angle.
-    pub inertias: Vec<Body>,
-    /// Bodies on which gravity acts.
-    pub weights: Vec<Body>,
+/// Coefficients of V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Weight {
+    pub sine: f64,
+    pub cosine: f64,
+    pub rod: [f64; 2],
+    pub slider: [f64; 2],
 }
 
-impl Bodies {
-    /// Collects the bodies of a scene without parts of zero strength.
-    pub fn new(scene: &Scene) -> Bodies {
-        let mut bodies = Bodies::default();
-        let r = scene.geometry.crank;
-        let mut slider_mass = scene.slider.map_or(0.0, |slider| slider.mass);
-        if let Some(crank) = &scene.crank {
-            bodies.crank_inertia = crank.inertia;
-            if crank.mass != 0.0 {
-                let body = Body::point(Link::Crank, crank.mass, crank.cg, crank.cg_lateral);
-                bodies.weights.push(body);
-            }
-        }
-        if let Some(rod) = &scene.rod {
-            match rod.model {
-                RodModel::Massless => {}
-                RodModel::Rigid => {
-                    let body = Body::rod(scene);
-                    bodies.inertias.extend(body);
-                    bodies.weights.extend(body);
-                }
-                RodModel::TwoMass => {
-                    let on_pin = Body::at_crank_pin(rod, &scene.geometry);
-                    bodies.crank_inertia += on_pin.mass * r * r;
-                    bodies.weights.push(on_pin);
-                    slider_mass += rod.mass * rod.cg / scene.geometry.rod;
-                }
-                RodModel::SpinOnly => {
-                    bodies.inertias.push(Body {
-                        inertia: rod.inertia,
-                        ..Body::default()
-                    });
-                    let along = scene.geometry.rod + rod.cg;
-                    let body = Body::point(Link::Crank, rod.mass, along, 0.0);
-                    bodies.weights.push(body);
-                }
-            }
-        }
-        if slider_mass != 0.0 {
-            let slider = Body::point(Link::Slider, slider_mass, 0.0, 0.0);
-            bodies.inertias.push(slider);
-            bodies.weights.push(slider);
-        }
-        bodies
-    }
-
-    /// Whether any body resists acceleration in some position.
-    pub fn have_inertia(&self) -> bool {
-        let mut inertias = self.inertias.iter();
-        self.crank_inertia != 0.0 || inertias.any(|body| body.mass != 0.0 || body.inertia != 0.0)
+impl Weight {
+    /// Adds a mass (kg) on the crank, at a place along it and to its left (m), to V' = −Σ m g·p'.
+    pub fn add_on_crank(&mut self, [gx, gy]: [f64; 2], mass: f64, [along, lateral]: [f64; 2]) {
+        self.sine += mass * (gx * along + gy * lateral);
+        self.cosine += mass * (gx * lateral - gy * along);
     }
 }

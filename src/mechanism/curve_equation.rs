@@ -85,7 +85,7 @@ impl CurveEquation {
     /// Computes the terms at coordinate q, rad.
     pub fn terms(&self, q: f64) -> CurveTerms {
         let pose = self.curve.pose(q);
-        let path = pose.path(self.curve.linkage(), &self.equation.rod);
+        let path = pose.rod_path(self.curve.linkage(), &self.equation.rod);
         self.equation.curve_terms(pose, &path)
     }
 

@@ -1,6 +1,6 @@
 //! Position of the mechanism on its configuration curve, with derivatives along the curve.
 
-use super::{Body, Link, Linkage, Path, Pose};
+use super::{Body, Linkage, Path, Pose};
 
 /// Position with two derivatives with respect to q (a dash); q, like θ and Φ, is an angle in rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,23 +64,12 @@ impl CurvePose {
         }
     }
 
-    /// Returns the path of a body with respect to the coordinate.
-    pub(super) fn path(&self, linkage: &Linkage, body: &Body) -> Path {
-        let crank = [self.cos, self.sin];
-        let turn = [self.dtheta, self.d2theta];
-        match body.on {
-            Link::Crank => Path::turning(body.arm(crank), turn),
-            Link::Rod => {
-                let pin = Path::turning(crank.map(|part| linkage.r * part), turn);
-                let arm = body.arm([self.rod_cos, -self.rod_sin]);
-                pin.carrying(&Path::turning(arm, [-self.drod, -self.d2rod]))
-            }
-            Link::Slider => Path {
-                dp: [self.dx, 0.0],
-                d2p: [self.d2x, 0.0],
-                ..Path::default()
-            },
-        }
+    /// Returns the path of a body on the rod with respect to the coordinate.
+    pub(super) fn rod_path(&self, linkage: &Linkage, body: &Body) -> Path {
+        let crank = [self.cos, self.sin].map(|part| linkage.r * part);
+        let pin = Path::turning(crank, [self.dtheta, self.d2theta]);
+        let arm = body.arm([self.rod_cos, -self.rod_sin]);
+        pin.carrying(&Path::turning(arm, [-self.drod, -self.d2rod]))
     }
 
     /// Returns the rod inclination φ in [−90°, 90°], rad, as [`super::Pose::phi`].

@@ -1,9 +1,10 @@
 //! Lagrange equation M θ̈ + ½ M' θ̇² + V' = Q: forward (θ̈ from loads) and backward (loads from a motion).
 
+use super::body::Weight;
 use super::plane::dot;
-use super::{Bodies, Body, Link, Linkage, LoadValue, Loads, Path, Pose};
+use super::{Body, Linkage, LoadValue, Loads, Path, Pose};
 use crate::numeric::angle::Angle;
-use crate::scene::{Instant, Scene};
+use crate::scene::{Instant, RodModel, Scene};
 
 /// M and ½ M' at one crank angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,38 +48,58 @@ pub struct Equation {
     loads: Loads,
 }
 
-/// Coefficients of V' = sine·sin θ + cosine·cos θ − rod weight · p' − slider weight · (x', 0).
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Weight {
-    pub sine: f64,
-    pub cosine: f64,
-    pub rod: [f64; 2],
-    pub slider: [f64; 2],
-}
-
 impl Equation {
     /// Builds the equation of a scene without parts of zero strength.
     pub fn new(scene: &Scene) -> Equation {
         let scene = scene.reduced();
-        let bodies = Bodies::new(&scene);
         let gravity = scene.gravity.map_or([0.0; 2], |gravity| gravity.vector());
-        let mut equation = Equation {
-            linkage: Linkage::new(&scene.geometry),
-            crank_inertia: bodies.crank_inertia,
-            rod: Body::default(),
-            has_rod: false,
-            slider_mass: 0.0,
-            weight: Weight::of(&bodies.weights, gravity),
-            has_weight: gravity != [0.0; 2] && !bodies.weights.is_empty(),
-            loads: Loads::new(&scene),
-        };
-        for body in &bodies.inertias {
-            match body.on {
-                Link::Slider => equation.slider_mass += body.mass,
-                _ => (equation.rod, equation.has_rod) = (*body, true),
+        let (r, l) = (scene.geometry.crank, scene.geometry.rod);
+        let crank = scene.crank.unwrap_or_default();
+        let mut crank_inertia = crank.inertia;
+        let mut slider_mass = scene.slider.map_or(0.0, |slider| slider.mass);
+        let mut weight = Weight::default();
+        weight.add_on_crank(gravity, crank.mass, [crank.cg, crank.cg_lateral]);
+        let mut body = None;
+        if let Some(rod) = &scene.rod {
+            match rod.model {
+                RodModel::Massless => {}
+                RodModel::Rigid => {
+                    body = Body::rod(&scene);
+                    weight.rod = gravity.map(|part| rod.mass * part);
+                }
+                RodModel::TwoMass => {
+                    let at_wrist_pin = rod.mass * rod.cg / l;
+                    let at_crank_pin = rod.mass - at_wrist_pin;
+                    crank_inertia += at_crank_pin * r * r;
+                    weight.add_on_crank(gravity, at_crank_pin, [r, 0.0]);
+                    slider_mass += at_wrist_pin;
+                }
+                RodModel::SpinOnly => {
+                    body = Some(Body {
+                        inertia: rod.inertia,
+                        ..Body::default()
+                    });
+                    weight.add_on_crank(gravity, rod.mass, [l + rod.cg, 0.0]);
+                }
             }
         }
-        equation
+        weight.slider = gravity.map(|part| slider_mass * part);
+        Equation {
+            linkage: Linkage::new(&scene.geometry),
+            crank_inertia,
+            rod: body.unwrap_or_default(),
+            has_rod: body.is_some(),
+            slider_mass,
+            weight,
+            has_weight: weight != Weight::default(),
+            loads: Loads::new(&scene),
+        }
+    }
+
+    /// Whether any body resists acceleration in some position.
+    pub fn has_inertia(&self) -> bool {
+        let rod = self.rod.mass != 0.0 || self.rod.inertia != 0.0;
+        rod || self.crank_inertia != 0.0 || self.slider_mass != 0.0
     }
 
     /// Returns the linkage.
@@ -263,26 +284,4 @@ impl Equation {
 #[inline]
 pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
     (q - dv - inertia.half_dm * omega * omega) / inertia.m
-}
-
-impl Weight {
-    /// Sums V' = −Σ m g·p', with the points of the crank combined to one sine and one cosine.
-    fn of(weights: &[Body], [gx, gy]: [f64; 2]) -> Weight {
-        let mut weight = Weight::default();
-        for body in weights {
-            let (mass, along, lateral) = (body.mass, body.along, body.lateral);
-            match body.on {
-                Link::Crank => {
-                    weight.sine += mass * (gx * along + gy * lateral);
-                    weight.cosine += mass * (gx * lateral - gy * along);
-                }
-                Link::Rod => weight.rod = [mass * gx, mass * gy],
-                Link::Slider => {
-                    weight.slider[0] += mass * gx;
-                    weight.slider[1] += mass * gy;
-                }
-            }
-        }
-        weight
-    }
 }

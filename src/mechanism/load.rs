@@ -12,7 +12,7 @@ pub struct Loads {
     constant: LoadValue,
     /// Damping coefficients −d torque/dω, N m s/rad, and −d force/dv, N s/m.
     damping: LoadValue,
-    stiffness: f64,
+    pub(super) stiffness: f64,
     /// Loads of the position alone, without a known potential.
     pub(super) placed: NonlinearLoads,
     /// Loads of the time alone.

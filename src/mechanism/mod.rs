@@ -38,7 +38,7 @@ mod virtual_displacement;
 
 pub use at_rest::{AtRest, Held};
 pub use batch::Instants;
-pub use body::{Bodies, Body, Link, Path};
+pub use body::{Body, Path};
 pub use clearance::{Depth, JointTouch, LooseMechanism, NormalForce, Rubbing, SpeedSizes, Turned};
 pub use configuration_curve::Curve;
 pub use curve_equation::{CurveEquation, CurveTerms};

@@ -1,9 +1,7 @@
 //! Joint, guide and shaking forces of a motion by the Newton-Euler equations, body by body.
 
 use super::plane::cross;
-use super::{
-    Body, CurvePose, Equation, Link, Linkage, LoadValue, LooseRates, LooseState, Path, Pose,
-};
+use super::{Body, CurvePose, Equation, Linkage, LoadValue, LooseRates, LooseState, Path, Pose};
 use crate::error::Error;
 use crate::numeric::angle::Angle;
 use crate::scene::{Joint, Scene};
@@ -82,8 +80,10 @@ impl Reactor {
             linkage: Linkage::new(&scene.geometry),
             gravity: scene.gravity.map_or([0.0; 2], |gravity| gravity.vector()),
             crank: Body {
+                mass: crank.mass,
+                along: crank.cg,
+                lateral: crank.cg_lateral,
                 inertia: crank.inertia,
-                ..Body::point(Link::Crank, crank.mass, crank.cg, crank.cg_lateral)
             },
             rod: Body::rod(scene).ok_or_else(|| {
                 Error::refused(
@@ -154,7 +154,9 @@ impl Reactor {
 
     fn accelerations(&self, pose: &CurvePose, speed: f64, acceleration: f64) -> Accelerations {
         let squared = speed * speed;
-        let [crank, rod] = [&self.crank, &self.rod].map(|body| pose.path(&self.linkage, body));
+        let turn = [pose.dtheta, pose.d2theta];
+        let crank = Path::turning(self.crank.arm([pose.cos, pose.sin]), turn);
+        let rod = pose.rod_path(&self.linkage, &self.rod);
         let second = |first: f64, second: f64| first * acceleration + second * squared;
         let of = |path: &Path| [0, 1].map(|i| second(path.dp[i], path.d2p[i]));
         Accelerations {

@@ -1,6 +1,6 @@
 //! Checks of the model: combinations of parts that are not modelled, and mechanisms whose motion is undetermined.
 
-use crate::mechanism::{Bodies, Class, Curve, Linkage, LooseMechanism};
+use crate::mechanism::{Class, Curve, Equation, Linkage, LooseMechanism};
 use crate::numeric::angle::Angle;
 use crate::scene::{ContactLaw, Load, LoadOf, MotionKind, Problem, RodModel, Scene};
 
@@ -44,7 +44,7 @@ fn friction(scene: &Scene, list: &mut Vec<Problem>) {
 }
 
 fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
-    if !Bodies::new(scene).have_inertia() {
+    if !Equation::new(scene).has_inertia() {
         list.push(Problem::new(
             "crank.inertia",
             "the mechanism has no inertia, so its loads decide no motion",
