@@ -35,7 +35,7 @@ pub(super) fn friction_at(
     let sliding = |direction: f64| {
         let sense = Sense::of(direction, dx * direction);
         let free = guide.free_against(0.0, angle, omega, sense);
-        let sgn_v = free.velocity(direction).signum();
+        let sgn_v = (free.dx * direction).signum();
         let (alpha, touch) = free.sliding(free.opposing(mu, sgn_v));
         (free.clear_of_jam(mu) > 0.0).then_some((alpha, touch.friction))
     };

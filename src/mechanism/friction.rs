@@ -22,13 +22,13 @@ pub struct Free {
     /// κ = dN/dF, dimensionless
     pub kappa: f64,
     /// Generalized force Q − V', N m, which accelerates from rest
-    pub(super) pull: f64,
+    pub pull: f64,
     /// N − A q̈ without friction, N
     pub(super) normal_at_rest: f64,
     /// Change of x per lift of the slider, dimensionless
     pub(super) x_n: f64,
     /// x', m
-    pub(super) dx: f64,
+    pub dx: f64,
     /// Power of the loads without potential, W
     pub power: f64,
 }
@@ -73,16 +73,6 @@ impl Free {
         };
         let touch = GuideForces::rubbing(self.normal, kappa, c);
         (self.acceleration + gain * touch.friction, touch)
-    }
-
-    /// Returns the slider velocity, m/s, at a speed (rad/s) of the coordinate.
-    pub fn velocity(&self, speed: f64) -> f64 {
-        self.dx * speed
-    }
-
-    /// Whether the coordinate would grow from rest.
-    pub fn pulls_forward(&self) -> bool {
-        self.pull > 0.0
     }
 
     /// Returns c = −μ sgn(v) sgn(N) of a slider that slides in direction `sgn_v`.

@@ -156,7 +156,7 @@ impl GuideFriction {
         }
         let free = self.equation.free(t, angle, omega);
         let crank = self.equation.curve().linkage().r;
-        let mut dx = free.velocity(1.0);
+        let mut dx = free.dx;
         if dx.abs() < DEAD_CENTRE_WIDTH * crank {
             // At a dead centre x' is taken just before it, at the start of the run just after it.
             let way = NEARBY_ANGLE.copysign(if t == 0.0 { omega } else { -omega });

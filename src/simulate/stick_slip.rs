@@ -84,7 +84,7 @@ impl CurveMotion<'_> {
             StickSlipPhase::Sliding { c, opposed } => {
                 let free = self.equation.free_against(t, angle, speed, opposed);
                 let (acceleration, touch) = free.sliding(c);
-                let power = free.power + touch.friction * free.velocity(speed);
+                let power = free.power + touch.friction * (free.dx * speed);
                 (acceleration, touch, power)
             }
             StickSlipPhase::Sticking => {

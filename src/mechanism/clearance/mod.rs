@@ -190,11 +190,6 @@ impl LooseMechanism {
         &self.clearance
     }
 
-    /// Returns the factor of the elastic force at a rate of the depth (m/s); a contact presses while it is positive.
-    pub fn pressing(&self, rate: f64, approach: f64) -> f64 {
-        self.force.factor(rate, approach)
-    }
-
     /// Returns the speed by which the contact law divides, m/s, for a contact that begins with this speed.
     pub fn approach(&self, speed: f64) -> f64 {
         speed.max(self.clearance.least_approach_speed)

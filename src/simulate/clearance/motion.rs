@@ -224,7 +224,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
     }
 
     fn pressing(&self, approach: f64, rate: f64) -> f64 {
-        self.mechanism.pressing(rate, approach)
+        self.mechanism.force().factor(rate, approach)
     }
 
     /// A crank angle rounds by more as it grows, and with it the crank pin.

@@ -81,8 +81,8 @@ impl CurveRun<'_, '_> {
             return Err(end);
         }
         self.observer.event("slip", until, angle, 0.0);
-        let pull = equation.free(until, angle, 0.0);
-        Ok(if pull.pulls_forward() { 1.0 } else { -1.0 })
+        let free = equation.free(until, angle, 0.0);
+        Ok(if free.pull > 0.0 { 1.0 } else { -1.0 })
     }
 
     /// Returns the end of the run if rigid bodies jam at the current state.
