@@ -56,14 +56,12 @@ impl Curve {
                 let q = Angle::from(pose.sin_phi.atan2(rod_cos));
                 return Some((curve.started_at(q, theta), q));
             }
-            Class::DoubleRocker => {}
-            Class::ChangePoint if pose.cos_phi <= SAME_LENGTHS.sqrt() => {
-                // A limit is a crossing only where the crank, too, is normal to the guide.
-                if pose.cos.abs() < 1e-6 {
-                    return None;
-                }
-            }
-            Class::ChangePoint => {}
+            Class::DoubleRocker | Class::ChangePoint => {}
+        }
+        // A limit is a crossing only where the crank, too, is normal to the guide.
+        let is_limit = pose.cos_phi <= SAME_LENGTHS.sqrt();
+        if class == Class::ChangePoint && is_limit && pose.cos.abs() < 1e-6 {
+            return None;
         }
         let rocker = Rocker::new(linkage, class, pose.cos * rod_cos < 0.0);
         let q = Angle::from(rocker.coordinate(linkage, theta.rest, pose.cos, rod_cos));

@@ -114,10 +114,9 @@ impl Rocker {
     fn enclose(&self, linkage: &Linkage, q: Interval) -> PoseRanges {
         let point = Interval::point;
         let (mirror, fold) = (point(self.mirror), point(self.fold));
-        let quarter_less = q - point(FRAC_PI_2);
         let crank = self.crank.enclose(q);
         // cos q = sin(π/2 − q).
-        let rod = self.rod.enclose(-quarter_less);
+        let rod = self.rod.enclose(point(FRAC_PI_2) - q);
         let (r, l) = (point(linkage.r), point(linkage.l));
         let (dtheta, drod) = (mirror * crank.slope, mirror * fold * rod.slope);
         let (y, rod_y) = (-(r * mirror * crank.cos), l * mirror * rod.cos);
@@ -131,46 +130,27 @@ impl Rocker {
 }
 
 impl Curve {
-    fn enclose(&self, q: Interval) -> PoseRanges {
-        let point = Interval::point;
-        let turns = point(self.turns * TAU);
-        match &self.chart {
-            Chart::Crank => PoseRanges {
-                angle: q,
-                dangle: point(1.0),
-                ..self.linkage().enclose(q)
-            },
-            Chart::Rod(swapped) => {
-                let ranges = swapped.enclose(q);
-                let (angle, sign) = match swapped.s < 0.0 {
-                    true => (point(PI) - ranges.angle, -1.0),
-                    false => (ranges.angle, 1.0),
-                };
-                PoseRanges {
-                    angle: angle + turns,
-                    dangle: point(sign) * ranges.dangle,
-                    ..ranges
-                }
-            }
-            Chart::Rocker(rocker) => {
-                let ranges = rocker.enclose(self.linkage(), q);
-                PoseRanges {
-                    angle: ranges.angle + turns,
-                    ..ranges
-                }
-            }
-        }
-    }
-
     /// Returns the enclosed state of a motion over the coordinate; `with_slider`: with x and x', always if q is not θ.
     pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
-        if self.is_crank_angle() {
-            return self.linkage().enclosed_state(piece, with_slider);
-        }
-        let ranges = self.enclose(piece.angle);
+        let point = Interval::point;
+        let ranges = match &self.chart {
+            Chart::Crank => return self.linkage().enclosed_state(piece, with_slider),
+            Chart::Rod(swapped) => {
+                let ranges = swapped.enclose(piece.angle);
+                match swapped.s < 0.0 {
+                    true => PoseRanges {
+                        angle: point(PI) - ranges.angle,
+                        dangle: -ranges.dangle,
+                        ..ranges
+                    },
+                    false => ranges,
+                }
+            }
+            Chart::Rocker(rocker) => rocker.enclose(self.linkage(), piece.angle),
+        };
         EnclosedState {
             t: piece.t,
-            theta: ranges.angle,
+            theta: ranges.angle + point(self.turns * TAU),
             omega: ranges.dangle * piece.speed,
             x: ranges.x,
             v: ranges.dx * piece.speed,

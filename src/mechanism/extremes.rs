@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
-use crate::numeric::angle::{in_turn, in_turns};
+use crate::numeric::angle::{distinct, in_turn, in_turns};
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
@@ -169,10 +169,6 @@ impl Linkage {
         let turns = (from / TAU).floor() as i64..=(to / TAU).ceil() as i64;
         let grid = self.turn_grid(false);
         let all = in_turns(&grid, turns).chain(corners.iter().copied());
-        let mut angles: Vec<f64> = all.filter(|theta| (from..=to).contains(theta)).collect();
-        angles.sort_by(f64::total_cmp);
-        // Equal to rounding.
-        angles.dedup_by(|next, before| *next - *before <= 4.0 * f64::EPSILON * before.abs());
-        angles
+        distinct(all.filter(|theta| (from..=to).contains(theta)).collect())
     }
 }
