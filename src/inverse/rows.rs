@@ -28,13 +28,14 @@ fn demanded(
 ) -> (Vec<InverseRow>, Vec<Doubt>) {
     let times = measurement.times();
     let r = backwards.equation.linkage().r;
-    parallel::pairs(times.len(), |i| {
+    let rows = parallel::list(times.len(), |i| {
         let state = fitted.motion[i].stretched(measurement.period_uncertainty());
         let mut demand = backwards.demand(times[i], &state);
         [demand.force_se, demand.torque_se] = shared.with(i, [demand.force_se, demand.torque_se]);
         let row = InverseRow::new(times[i], &state, &demand);
         (row, Doubt::new(&demand, r))
-    })
+    });
+    rows.into_iter().unzip()
 }
 
 /// Returns crank torques and standard errors, N m; those of a rocker over |x'| in crank lengths where it exceeds 1, for

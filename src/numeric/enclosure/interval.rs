@@ -4,6 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::{Add, Mul, Neg, Sub};
 
+use crate::numeric::median::range;
+
 /// Interval of all numbers from one to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
@@ -21,7 +23,7 @@ impl Interval {
     };
 
     /// Returns the interval between two bounds; the whole line where one is NaN.
-    pub fn new(low: f64, high: f64) -> Interval {
+    pub const fn new(low: f64, high: f64) -> Interval {
         if low.is_nan() || high.is_nan() {
             return Interval::WHOLE;
         }
@@ -38,7 +40,7 @@ impl Interval {
     }
 
     /// Returns the interval of one number.
-    pub fn point(at: f64) -> Interval {
+    pub const fn point(at: f64) -> Interval {
         Interval::new(at, at)
     }
 
@@ -155,13 +157,7 @@ impl Mul for Interval {
         if ends.iter().any(|end| end.is_nan()) {
             return Interval::WHOLE;
         }
-        let none = Interval {
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        };
-        ends.iter().fold(none, |hull, end| Interval {
-            low: hull.low.min(*end),
-            high: hull.high.max(*end),
-        })
+        let (low, high) = range(&ends);
+        Interval { low, high }
     }
 }

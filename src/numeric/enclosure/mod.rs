@@ -36,7 +36,7 @@ impl Enclosed {
     /// Enclosure of an unknown function.
     pub const UNKNOWN: Enclosed = Enclosed {
         real: Interval::WHOLE,
-        plane: Rectangle::ZERO,
+        plane: Rectangle::point(0.0),
         deviation: f64::INFINITY,
     };
 

@@ -14,31 +14,14 @@ pub struct Rectangle {
 }
 
 impl Rectangle {
-    /// Rectangle of zero alone.
-    pub const ZERO: Rectangle = Rectangle {
-        re: Interval {
-            low: 0.0,
-            high: 0.0,
-        },
-        im: Interval {
-            low: 0.0,
-            high: 0.0,
-        },
-    };
-
     /// Returns the rectangle of real and imaginary parts.
-    pub fn new(re: Interval, im: Interval) -> Rectangle {
+    pub const fn new(re: Interval, im: Interval) -> Rectangle {
         Rectangle { re, im }
     }
 
     /// Returns the rectangle of one real number.
-    pub fn point(at: f64) -> Rectangle {
-        Rectangle::real(Interval::point(at))
-    }
-
-    /// Returns the rectangle of real numbers.
-    pub fn real(re: Interval) -> Rectangle {
-        Rectangle::new(re, Interval::point(0.0))
+    pub const fn point(at: f64) -> Rectangle {
+        Rectangle::new(Interval::point(at), Interval::point(0.0))
     }
 
     /// Whether all bounds are finite, and far from overflow.
