@@ -139,8 +139,7 @@ pub fn speed_range(step: &Step, known: (f64, f64)) -> (f64, f64) {
 
 /// Widens a range of speeds, rad/s, by the extremes on a step, which is refined first if a new extreme may lie inside.
 pub fn follow_speed(step: &mut Step, motion: &dyn Motion, known: (f64, f64)) -> (f64, f64) {
-    refine_for(step, motion, known, |step, t| step.at(t).1, speed_range);
-    speed_range(step, known)
+    refined_range(step, motion, known, |step, t| step.at(t).1, speed_range)
 }
 
 /// Widens the range of any quantity by its extremes on a step; `at` returns value and time derivative at a time.
@@ -154,21 +153,17 @@ pub fn follow(
         let rates: [f64; NODES + 1] = std::array::from_fn(|i| at(step, part(step, i, NODES)).1);
         widened(step, range, &rates, |t| at(step, t).0, |t| at(step, t).1)
     };
-    refine_for(step, motion, known, |step, t| at(step, t).0, look);
-    look(step, known)
+    refined_range(step, motion, known, |step, t| at(step, t).0, look)
 }
 
-/// Refines a step on which the quantity may go beyond `known` between the ends.
-fn refine_for(
+/// Widens a known range, as `look` does, on a step that is refined where the quantity may go beyond it between the ends.
+fn refined_range(
     step: &mut Step,
     motion: &dyn Motion,
     known: (f64, f64),
     value: impl Fn(&Step, f64) -> f64,
     look: impl Fn(&Step, (f64, f64)) -> (f64, f64),
-) {
-    if step.is_refined() {
-        return;
-    }
+) -> (f64, f64) {
     // Error bound of the extremes estimated from the ends alone.
     let margin = 1e-3 * known.0.abs().max(known.1.abs());
     let (a, b) = (value(step, step.start.t), value(step, step.end.t));
@@ -176,9 +171,10 @@ fn refine_for(
         a.min(b).min(known.0 + margin),
         a.max(b).max(known.1 - margin),
     );
-    if look(step, near) != near {
+    if !step.is_refined() && look(step, near) != near {
         step.refine(motion);
     }
+    look(step, known)
 }
 
 /// Returns the time at which the piece with this index begins, s.

@@ -55,12 +55,6 @@ impl<const N: usize> AcceptedStep<'_, N> {
 }
 
 impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
-    /// Accepts a step in time of length h, s.
-    pub fn accept(&mut self, stages: Stages<N>, h: f64) -> Halt {
-        let end = self.snapped(*stages.end(), h);
-        self.accept_at(stages, end)
-    }
-
     /// Accepts a step in time with its corrected end.
     pub fn accept_at(&mut self, mut stages: Stages<N>, end: [f64; N]) -> Halt {
         let then = self.sample(None, &end);

@@ -93,7 +93,8 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Accepts the first part of a step, of length h, s.
     pub(super) fn cut_at(&mut self, h: f64) -> Halt {
         let stages = self.try_step(h);
-        self.accept(stages, h)
+        let end = self.snapped(*stages.end(), h);
+        self.accept_at(stages, end)
     }
 
     /// Accepts the first part of a step, about h (s) long, up to the zero of the gap, by Newton's method.

@@ -18,23 +18,21 @@ impl Orbit {
             range = (range.0.min(low), range.1.max(high));
         };
         let there = self.forward.duration.0;
-        widen(self.forward.speed_range(0.0, until), self.direction);
         if let Some(later) = self.later.as_ref().filter(|_| until > there) {
             widen(later.speed_range(until), self.direction);
         }
-        if self.forward.after != After::TurnsBack || until <= there {
-            return range;
-        }
-        // The motion returns over the same states, beginning at the last.
-        let back = (2.0 * there - until).max(0.0);
-        widen(self.forward.speed_range(back, there), -self.direction);
-        if let Some(segment) = self.backward.as_ref().filter(|_| until > 2.0 * there) {
-            let since = until - 2.0 * there;
-            widen(segment.speed_range(0.0, since), -self.direction);
+        let forward = (Some(&self.forward), until, self.direction);
+        let backward = (self.backward.as_ref(), until - 2.0 * there, -self.direction);
+        for (segment, since, direction) in [forward, backward] {
+            let Some(segment) = segment.filter(|_| since > 0.0) else {
+                continue;
+            };
+            widen(segment.speed_range(0.0, since), direction);
             let end = segment.duration.0;
             if segment.after == After::TurnsBack && since > end {
+                // The motion returns over the same states, beginning at the last.
                 let back = (2.0 * end - since).max(0.0);
-                widen(segment.speed_range(back, end), self.direction);
+                widen(segment.speed_range(back, end), -direction);
             }
         }
         range
