@@ -11,21 +11,12 @@ use crate::numeric::enclosure::{Interval, Variation};
 use crate::numeric::root;
 
 /// Changes of law in a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Breaks<const N: usize> {
     /// Change or kink at the end of the present piece.
     due: Option<Break<N>>,
     /// Time of the last change, s, and number of changes at that time before it.
-    last: (f64, u32),
-}
-
-impl<const N: usize> Default for Breaks<N> {
-    fn default() -> Breaks<N> {
-        Breaks {
-            due: None,
-            last: (f64::NEG_INFINITY, 0),
-        }
-    }
+    last: Option<(f64, u32)>,
 }
 
 /// Change or kink that ends the present piece.
@@ -91,9 +82,11 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         let Some(beyond) = self.breaks.due.take().and_then(|due| due.beyond) else {
             return Ok(());
         };
-        let (t, before) = self.breaks.last;
-        let here = if t == self.y[0] { before + 1 } else { 0 };
-        self.breaks.last = (self.y[0], here);
+        let here = match self.breaks.last {
+            Some((t, before)) if t == self.y[0] => before + 1,
+            _ => 0,
+        };
+        self.breaks.last = Some((self.y[0], here));
         // Beyond so many changes at one time no law persists.
         let most_at_once = 4;
         if here > most_at_once {
