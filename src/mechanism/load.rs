@@ -103,7 +103,8 @@ impl Loads {
         [&self.placed, &self.timed, &self.mixed, &self.dry]
     }
 
-    pub(super) fn called(&self) -> impl Iterator<Item = &Load> {
+    /// Iterates over the nonlinear loads.
+    pub fn called(&self) -> impl Iterator<Item = &Load> {
         self.classes().into_iter().flat_map(NonlinearLoads::loads)
     }
 
@@ -118,20 +119,9 @@ impl Loads {
         !(self.timed.is_empty() && self.mixed.is_empty() && self.dry.is_empty())
     }
 
-    /// Returns crank angles, rad, of rows of tables over the crank angle; none for a period out of step with turns.
-    pub fn angle_corners(&self) -> Vec<f64> {
-        self.called().flat_map(Load::angle_corners).collect()
-    }
-
     /// Returns the rows of tables over the crank angle between two angles, rad.
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let corners = |load: &Load| load.corners_between(low, high);
-        self.called().flat_map(corners).collect()
-    }
-
-    /// Returns the rows between two crank angles, rad, of tables whose period is out of step with the turns.
-    pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
-        let corners = |load: &Load| load.corners_out_of_step(low, high);
         self.called().flat_map(corners).collect()
     }
 

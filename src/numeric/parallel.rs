@@ -13,11 +13,8 @@ pub fn map<J: Send, R: Send>(
 
 /// Returns the list of `f(0)`, `f(1)`, ... of this length.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    entries(length).map(&f).collect()
-}
-
-/// Returns the indices of a list, in parts that pay for a thread.
-fn entries(length: usize) -> impl IndexedParallelIterator<Item = usize> {
+    // Parts that pay for a thread.
     let least = 1 << 12;
-    (0..length).into_par_iter().with_min_len(least)
+    let indices = (0..length).into_par_iter().with_min_len(least);
+    indices.map(&f).collect()
 }

@@ -17,7 +17,7 @@ use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
 use crate::plan::{Engine, cycle_over_angle};
-use crate::scene::Variable;
+use crate::scene::{Load, Variable};
 use panel_ends::{PanelEnds, sorted_corners};
 
 pub(super) use panel_ends::SAME_CORNER;
@@ -61,7 +61,7 @@ impl<'a> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
         let dead_centres = task.dead_centres();
-        let tables = loads.angle_corners().into_iter();
+        let tables = loads.called().flat_map(Load::angle_corners);
         let load_corners = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
         let all_corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
         let inertia_vanishes = task.inertia_vanishes();

@@ -61,9 +61,10 @@ impl AngleModel<'_> {
         let mut cuts = vec![low];
         cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
         let before = self.turns * TAU;
-        let loads = self.equation.loads();
-        let out_of_step = loads.corners_out_of_step(low + before, high + before);
-        cuts.extend(out_of_step.iter().map(|corner| corner - before));
+        let loads = self.equation.loads().called();
+        let out_of_step =
+            loads.flat_map(|load| load.corners_out_of_step(low + before, high + before));
+        cuts.extend(out_of_step.map(|corner| corner - before));
         if !self.panel_ends_are_corners {
             let panel_ends = self.panel_ends.between(low + before, high + before);
             cuts.extend(panel_ends.iter().map(|panel_end| panel_end - before));
