@@ -1,62 +1,35 @@
 //! Selects the engine of a motion from clearance, prescribed speed, class, loads and start, with the reason.
 
-use std::borrow::Cow;
-
 use super::cycle::{cycle_over_angle, non_zero};
-use super::{Candidate, Engine, Method, Stepper};
+use super::{Candidate, Engine, Method};
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
 use crate::numeric::{dip, maximum};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
-/// First engine of a plan, with its stepper and the reason.
-pub(super) struct Choice {
-    pub engine: Engine,
-    pub stepper: Option<Stepper>,
-    pub reason: Cow<'static, str>,
-}
-
-impl Choice {
-    /// Creates the choice of an engine without a stepper.
-    fn without_stepper(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Choice {
-        Choice {
-            engine,
-            stepper: None,
-            reason: reason.into(),
-        }
-    }
-
-    /// Creates the choice of the time engine.
-    fn in_time(stepper: Stepper, reason: impl Into<Cow<'static, str>>) -> Choice {
-        Choice {
-            engine: Engine::Time,
-            stepper: Some(stepper),
-            reason: reason.into(),
-        }
-    }
-}
-
 /// Returns the engines that take over where the chosen engine cannot start or continue, in this order.
 pub(super) fn successors(
-    choice: &Choice,
+    first: Engine,
     method: Method,
     loads: &Loads,
     scene: &Scene,
 ) -> Vec<Candidate> {
-    let in_time = |reason| Candidate {
-        engine: Engine::Time,
-        reason,
-    };
-    match (choice.engine, method) {
+    match (first, method) {
         (Engine::Energy, Method::Auto) => {
-            let angle = choose(Method::Angle, loads, scene).ok().map(|_| Candidate {
-                engine: Engine::Angle,
-                reason: "if the crank comes too near to rest for the energy alone, or its turns differ and are too many to be kept",
+            let angle = choose(Method::Angle, loads, scene).ok().map(|_| {
+                Candidate::new(
+                    Engine::Angle,
+                    "if the crank comes too near to rest for the energy alone, or its turns differ and are too many to be kept",
+                )
             });
-            let time = in_time("if neither serves, and where the crank comes near to rest");
+            let time = Candidate::new(
+                Engine::Time,
+                "if neither serves, and where the crank comes near to rest",
+            );
             angle.into_iter().chain([time]).collect()
         }
-        (Engine::Angle, _) => vec![in_time(
+        (Engine::Angle, _) => vec![Candidate::new(
+            Engine::Time,
             "while the crank is near to rest, and if the angle does not serve",
         )],
         _ => Vec::new(),
@@ -67,12 +40,12 @@ const METHODS_IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
 const METHODS_WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
 
 /// Selects the first engine that serves a scene without parts of zero strength, or the engine that `method` asks for.
-pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Choice, Error> {
+pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Candidate, Error> {
     if scene.clearance.is_some() {
         return only_if(
             method,
             &[Method::Auto],
-            Choice::without_stepper(
+            Candidate::new(
                 Engine::Contact,
                 "a joint has clearance: rod and slider move freely of it but for the contact force; flight and contact are integrated apart",
             ),
@@ -84,7 +57,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         return only_if(
             method,
             &[Method::Auto, Method::ClosedForm],
-            Choice::without_stepper(
+            Candidate::new(
                 Engine::ClosedForm,
                 "the crank speed is prescribed: nothing to integrate, the equation is read backwards",
             ),
@@ -92,7 +65,6 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             "use --method auto, or motion kind = \"free\"",
         );
     }
-    let asked = "asked for; the loads and the start decide the motion";
     let class = Class::of(&Linkage::new(&scene.geometry));
     match method {
         Method::ClosedForm => Err(cannot_serve(
@@ -100,17 +72,17 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
             "a free motion",
             "use --method auto, or motion kind = \"constant-speed\"",
         )),
-        Method::Dop853 => Ok(Choice::in_time(Stepper::Dop853, asked)),
-        Method::Dopri5 => Ok(Choice::in_time(Stepper::Dopri5, asked)),
-        Method::Time => Ok(Choice::in_time(
-            Stepper::Picard,
+        Method::Dop853 | Method::Dopri5 => Ok(Candidate::new(
+            Engine::Time,
+            "asked for; the loads and the start decide the motion",
+        )),
+        Method::Time => Ok(Candidate::new(Engine::Time,
             "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
         )),
         _ if class == Class::ChangePoint => only_if(
             method,
             &[Method::Auto],
-            Choice::in_time(
-                Stepper::Picard,
+            Candidate::new(Engine::Time,
                 "a change point: integration in time along the configuration curve",
             ),
             "the lengths of a change point, which it passes onto the other branch",
@@ -120,8 +92,7 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
         _ if loads.are_dry() => only_if(
             method,
             &[Method::Auto],
-            Choice::in_time(
-                Stepper::Picard,
+            Candidate::new(Engine::Time,
                 "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
             ),
             "a load of kind \"dry\", which turns round with the motion",
@@ -135,10 +106,10 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Cho
 fn only_if(
     method: Method,
     methods: &[Method],
-    choice: Choice,
+    choice: Candidate,
     what: &str,
     help: &str,
-) -> Result<Choice, Error> {
+) -> Result<Candidate, Error> {
     match methods.contains(&method) {
         true => Ok(choice),
         false => Err(cannot_serve(method, what, help)),
@@ -150,7 +121,7 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 }
 
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
-fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Choice, Error> {
+fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Candidate, Error> {
     let has_friction = scene.friction.is_some();
     let without_energy = match has_friction {
         true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
@@ -158,7 +129,7 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
     };
     match (method, without_energy) {
         (Method::Auto | Method::Energy, None) => {
-            return Ok(Choice::without_stepper(
+            return Ok(Candidate::new(
                 Engine::Energy,
                 "every load depends on the position alone: omega from the energy, time from one quadrature",
             ));
@@ -169,7 +140,7 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
         _ => {}
     }
     match why_not_angle(scene, class) {
-        None => Ok(Choice::without_stepper(
+        None => Ok(Candidate::new(
             Engine::Angle,
             match has_friction {
                 true => {
@@ -187,8 +158,7 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
             };
             Err(cannot_serve(method, &what, METHODS_IN_TIME))
         }
-        Some(why) => Ok(Choice::in_time(
-            Stepper::Picard,
+        Some(why) => Ok(Candidate::new(Engine::Time,
             match has_friction {
                 true => format!(
                     "Coulomb friction, and {why}: integration in time, piece by piece between its changes"

@@ -18,7 +18,7 @@ pub use method::Method;
 pub use refusal::refuse;
 use refusal::{modelled, not_modelled};
 use terms::terms;
-pub use terms::{Term, TermName, TermReason};
+pub use terms::{Term, TermReason};
 
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage, Loads};
@@ -57,13 +57,20 @@ named! {
     }
 }
 
-/// Engine that may take over from the first one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+/// Engine with the reason for it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Candidate {
     /// The engine.
     pub engine: Engine,
-    /// Condition under which the engine takes over.
-    pub reason: &'static str,
+    /// Reason for the first engine, or condition under which another takes over.
+    pub reason: Cow<'static, str>,
+}
+
+impl Candidate {
+    fn new(engine: Engine, reason: impl Into<Cow<'static, str>>) -> Candidate {
+        let reason = reason.into();
+        Candidate { engine, reason }
+    }
 }
 
 /// Engines, coordinate, state, load cycle, events and terms of a scene.
@@ -117,17 +124,21 @@ impl Plan {
     fn of_modelled(scene: &Scene, reduced: Scene, method: Method) -> Result<Plan, Error> {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
-        let choice = choose(method, &loads, &reduced)?;
+        let Candidate { engine, reason } = choose(method, &loads, &reduced)?;
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
-            then: successors(&choice, method, &loads, &reduced),
-            engine: choice.engine,
-            reason: choice.reason,
-            stepper: choice.stepper,
-            coordinate: coordinate(choice.engine, &reduced, &linkage),
-            state: state(choice.engine, &reduced, &loads),
+            engine,
+            reason,
+            then: successors(engine, method, &loads, &reduced),
+            stepper: (engine == Engine::Time).then_some(match method {
+                Method::Dop853 => Stepper::Dop853,
+                Method::Dopri5 => Stepper::Dopri5,
+                _ => Stepper::Picard,
+            }),
+            coordinate: coordinate(engine, &reduced, &linkage),
+            state: state(engine, &reduced, &loads),
             cycle: Cycle::of(scene),
-            events: events(choice.engine, &reduced),
+            events: events(engine, &reduced),
             kept,
             left_out,
         })

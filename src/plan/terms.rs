@@ -1,28 +1,20 @@
 //! Terms of the equation that a scene keeps or leaves out, with the reasons, displayed in words.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use serde::Serialize;
 
-use crate::scene::{Clearance, Friction, Joint, Load, RodModel, Scene, Variables};
+use crate::scene::{Clearance, Friction, Joint, Load, LoadOf, RodModel, Scene, Variables};
 
 /// Term of the equation, modelled or left out.
 #[derive(Clone, Debug, Serialize)]
 pub struct Term {
-    /// Name of the term.
-    #[serde(serialize_with = "shown")]
-    pub name: TermName,
+    /// Name of the term, like `gravity` or `torque[1]`.
+    pub name: Cow<'static, str>,
     /// Why the term is kept or left out.
     #[serde(serialize_with = "shown")]
     pub reason: TermReason,
-}
-
-/// Name of a term, like `gravity` or `torque[1]`.
-#[derive(Clone, Copy, Debug)]
-pub struct TermName {
-    word: &'static str,
-    /// Number in a list of loads, from 1; none outside a list.
-    number: Option<usize>,
 }
 
 /// Reason to keep or leave out a term: the part of the scene that makes it.
@@ -56,15 +48,6 @@ pub(super) fn shown<S: serde::Serializer>(
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
     serializer.collect_str(what)
-}
-
-impl fmt::Display for TermName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.number {
-            Some(number) => write!(f, "{}[{number}]", self.word),
-            None => f.write_str(self.word),
-        }
-    }
 }
 
 impl fmt::Display for TermReason {
@@ -102,65 +85,56 @@ impl fmt::Display for TermReason {
     }
 }
 
-#[derive(Default)]
-struct Terms {
-    kept: Vec<Term>,
-    left_out: Vec<Term>,
-}
-
-impl Terms {
-    /// Lists a term under the reason to keep it, or under the reason, as the error, to leave it out.
-    fn list(&mut self, name: TermName, reason: Result<TermReason, TermReason>) {
-        let (list, reason) = match reason {
-            Ok(reason) => (&mut self.kept, reason),
-            Err(reason) => (&mut self.left_out, reason),
-        };
-        list.push(Term { name, reason });
-    }
-
-    /// Lists a part as kept, with the reason; else as left out: of zero strength if `is_given`, otherwise absent.
-    fn part(&mut self, word: &'static str, kept: Option<TermReason>, is_given: bool) {
-        let absent = match is_given {
-            true => TermReason::Zero,
-            false => TermReason::Absent,
-        };
-        self.list(TermName { word, number: None }, kept.ok_or(absent));
-    }
-
-    /// Lists torques or forces, each by its number.
-    fn loads(&mut self, word: &'static str, loads: &[Load], on_slider: bool) {
-        if loads.is_empty() {
-            self.part(word, None, false);
-        }
-        for (number, load) in (1..).zip(loads) {
-            let reason = match load.is_zero() {
-                true => Err(TermReason::NoLoad(load.clone())),
-                false => Ok(TermReason::Load(load.clone(), load.reads(on_slider))),
-            };
-            let number = Some(number);
-            self.list(TermName { word, number }, reason);
-        }
-    }
-}
-
 /// Returns the terms kept and the terms left out; `reduced` is `scene` without parts of zero strength.
 pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
-    let mut terms = Terms::default();
-    let kept = reduced.crank.map(|crank| TermReason::Crank(crank.inertia));
-    terms.part("crank inertia", kept, scene.crank.is_some());
-    let kept = reduced.rod.map(|rod| TermReason::Rod(rod.mass, rod.model));
-    terms.part("connecting rod inertia", kept, scene.rod.is_some());
-    let kept = reduced.slider.map(|slider| TermReason::Slider(slider.mass));
-    terms.part("slider inertia", kept, scene.slider.is_some());
-    let kept = reduced
-        .gravity
-        .map(|gravity| TermReason::Gravity(gravity.vector()));
-    terms.part("gravity", kept, scene.gravity.is_some());
-    terms.loads("torque", &scene.torques, false);
-    terms.loads("force", &scene.forces, true);
-    let kept = reduced.friction.map(TermReason::Friction);
-    terms.part("Coulomb friction", kept, scene.friction.is_some());
-    let kept = reduced.clearance.map(TermReason::Clearance);
-    terms.part("joint clearance", kept, scene.clearance.is_some());
-    (terms.kept, terms.left_out)
+    let crank = reduced.crank.map(|crank| TermReason::Crank(crank.inertia));
+    let rod = reduced.rod.map(|rod| TermReason::Rod(rod.mass, rod.model));
+    let slider = reduced.slider.map(|slider| TermReason::Slider(slider.mass));
+    let gravity = reduced.gravity.map(|g| TermReason::Gravity(g.vector()));
+    let friction = reduced.friction.map(TermReason::Friction);
+    let clearance = reduced.clearance.map(TermReason::Clearance);
+    let mut terms = vec![
+        part("crank inertia", crank, scene.crank.is_some()),
+        part("connecting rod inertia", rod, scene.rod.is_some()),
+        part("slider inertia", slider, scene.slider.is_some()),
+        part("gravity", gravity, scene.gravity.is_some()),
+    ];
+    let (forces, torques): (Vec<_>, Vec<_>) = scene.loads().partition(|of| of.key.on_slider);
+    for (word, loads) in [("torque", torques), ("force", forces)] {
+        terms.extend(loads.is_empty().then(|| part(word, None, false)));
+        terms.extend(loads.iter().map(load));
+    }
+    terms.extend([
+        part("Coulomb friction", friction, scene.friction.is_some()),
+        part("joint clearance", clearance, scene.clearance.is_some()),
+    ]);
+    let (mut kept, mut left_out) = (Vec::new(), Vec::new());
+    for (name, reason) in terms {
+        match reason {
+            Ok(reason) => kept.push(Term { name, reason }),
+            Err(reason) => left_out.push(Term { name, reason }),
+        }
+    }
+    (kept, left_out)
+}
+
+/// Name of a term, with the reason to keep it, or with the reason, as the error, to leave it out.
+type Reasoned = (Cow<'static, str>, Result<TermReason, TermReason>);
+
+/// Returns a part as kept, with the reason; else as left out: of zero strength if `is_given`, otherwise absent.
+fn part(name: &'static str, kept: Option<TermReason>, is_given: bool) -> Reasoned {
+    let absent = match is_given {
+        true => TermReason::Zero,
+        false => TermReason::Absent,
+    };
+    (name.into(), kept.ok_or(absent))
+}
+
+fn load(of: &LoadOf<'_>) -> Reasoned {
+    let load = of.load.clone();
+    let reason = match load.is_zero() {
+        true => Err(TermReason::NoLoad(load)),
+        false => Ok(TermReason::Load(load, of.reads())),
+    };
+    (of.key.to_string().into(), reason)
 }
