@@ -61,39 +61,52 @@ impl<'a> AngleModel<'a> {
         let (equation, start) = (task.equation(), task.start());
         let loads = equation.loads();
         let dead_centres = task.dead_centres();
-        let tables = loads.called().flat_map(Load::angle_corners);
-        let load_corners = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
-        let all_corners = sorted_corners(dead_centres.iter().chain(&load_corners).copied());
         let inertia_vanishes = task.inertia_vanishes();
+        let panel_ends = PanelEnds::new(equation, start, task.speed);
+        let known_cycle = match task.plan.engine {
+            Engine::Time => None,
+            _ => cycle_over_angle(task.scene).ok(),
+        };
+        let cycle = known_cycle.unwrap_or(1);
+        let length = f64::from(cycle) * TAU;
+        let ends_in_cycle = known_cycle.map(|_| panel_ends.between(0.0, length));
+        let ends_in_cycle = ends_in_cycle.unwrap_or_default();
+        let tables = loads.called().flat_map(Load::angle_corners);
+        let in_turn = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
+        let of_loads = match cycle {
+            1 => in_turn.clone(),
+            // Corners at the start of the cycle belong to the cycle.
+            _ => loads.corners_between(-SAME_CORNER, length - SAME_CORNER),
+        };
+        let load_corners = sorted_corners(of_loads.into_iter().chain(ends_in_cycle));
+        let in_cycle = angle::in_turns(&dead_centres, 0..cycle.into());
+        let cycle_corners = sorted_corners(in_cycle.chain(load_corners.iter().copied()));
         let mut model = AngleModel {
             equation,
             guide: task.maker.guide.as_deref(),
             speed: task.speed,
             turns: start.turns,
-            cycle: 1,
-            corners: match inertia_vanishes {
-                true => all_corners.clone(),
-                false => load_corners.clone(),
+            corners: match (cycle, inertia_vanishes) {
+                (1, true) => cycle_corners.clone(),
+                (1, false) => load_corners.clone(),
+                (_, true) => sorted_corners(dead_centres.iter().copied().chain(in_turn)),
+                (_, false) => in_turn,
             },
+            cycle,
             inertia_vanishes,
-            cycle_corners: all_corners,
+            cycle_corners,
             dead_centres,
             load_corners,
-            panel_ends: PanelEnds::new(equation, start, task.speed),
-            panel_ends_are_corners: false,
+            panel_ends,
+            panel_ends_are_corners: known_cycle == Some(1),
             repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
             limit: task.options.limit(),
             shared: None,
         };
-        if task.plan.engine != Engine::Time
-            && let Ok(turns) = cycle_over_angle(task.scene)
-        {
-            model.take_cycle(turns);
-            if turns == 1 && task.plan.engine == Engine::Energy {
-                model.work_of_turn = Some(model.work_of_one_turn());
-            }
+        if model.panel_ends_are_corners && task.plan.engine == Engine::Energy {
+            model.work_of_turn = Some(model.work_of_one_turn());
         }
         model
     }
@@ -104,25 +117,6 @@ impl<'a> AngleModel<'a> {
             shared: Some(RefCell::default()),
             ..self
         }
-    }
-
-    /// Adopts loads that repeat after a number of turns.
-    fn take_cycle(&mut self, turns: u32) {
-        self.cycle = turns;
-        let length = f64::from(turns) * TAU;
-        let panel_ends = self.panel_ends.between(0.0, length);
-        if turns > 1 {
-            // Corners at the start of the cycle belong to the cycle.
-            let before = -SAME_CORNER;
-            let loads = self.equation.loads();
-            self.load_corners = loads.corners_between(before, length + before);
-        } else {
-            self.corners = sorted_corners(self.corners.iter().chain(&panel_ends).copied());
-            self.panel_ends_are_corners = true;
-        }
-        self.load_corners = sorted_corners(self.load_corners.iter().chain(&panel_ends).copied());
-        let all = angle::in_turns(&self.dead_centres, 0..turns.into());
-        self.cycle_corners = sorted_corners(all.chain(self.load_corners.iter().copied()));
     }
 
     /// Returns the number of positions evaluated up to now.
