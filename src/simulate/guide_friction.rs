@@ -1,7 +1,5 @@
 //! Coulomb friction at the guide of a crank that turns fully: the slider reverses at the dead centres only.
 
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
-
 use crate::engine::angle::{State, Table};
 use crate::mechanism::{
     Curve, CurveEquation, Equation, GuideForces, LoadValue, Loads, Normal, UnitLoadEffects,
@@ -21,7 +19,6 @@ pub(super) struct GuideFriction {
     pub equation: CurveEquation,
     /// Kinetic coefficient of friction.
     pub mu: f64,
-    jams: AtomicBool,
 }
 
 /// Effect of the loads on the guide at one position of a panel.
@@ -85,13 +82,7 @@ impl GuideFriction {
         Some(GuideFriction {
             mu: equation.friction()?.coefficient,
             equation,
-            jams: AtomicBool::new(false),
         })
-    }
-
-    /// Whether a position was met at which rigid bodies jam.
-    pub fn jams(&self) -> bool {
-        self.jams.load(Relaxed)
     }
 
     /// Adds friction to the table of a panel between two dead centres. At its nodes: x' (m/rad), normal forces and, in
@@ -109,12 +100,11 @@ impl GuideFriction {
         let [torque, force] = loads.dampings();
         let mut switch = table.switch.take().unwrap_or_default();
         for (i, normal) in normals.iter().enumerate() {
-            let grip = normal.grip(c);
-            self.jams.fetch_or(grip.is_none(), Relaxed);
             let load_effect = GuideLoadEffect {
                 torque: normal.torque,
                 force: normal.force,
-                grip: grip.unwrap_or(f64::NAN),
+                // The plan takes another engine where rigid bodies jam at an angle of the turn.
+                grip: normal.grip(c).unwrap_or(f64::NAN),
             };
             let force = force * dx[i];
             let damping = LoadValue { torque, force };

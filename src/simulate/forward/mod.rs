@@ -60,7 +60,7 @@ pub(super) fn run(
     let caught = recorder.caught();
     let record = recorder.finish(&result)?;
     let wall_s = record.wall_s(begun);
-    let stopped = caught.or_else(|| stop_reason::reason(&pass, &result));
+    let stopped = caught.or_else(|| stop_reason::reason(task, &result));
     let of_curve = result.curve.as_ref();
     let mut warnings = Vec::from_iter(of_curve.and_then(|_| configuration_curve::warning(task)));
     let mut estimate = None;

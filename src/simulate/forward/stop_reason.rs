@@ -4,7 +4,7 @@ use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
 use super::super::stop::{Why, why_not_applicable};
-use super::engine_loop::{PassResult, PassSettings};
+use super::engine_loop::PassResult;
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, MotionState};
 use crate::error::Error;
@@ -12,8 +12,7 @@ use crate::mechanism::{CurveEquation, Singularity};
 use crate::scene::Extent;
 
 /// Returns the reason for an end before the goal, if any.
-pub(super) fn reason(pass: &PassSettings<'_>, result: &PassResult) -> Option<Why> {
-    let task = pass.task;
+pub(super) fn reason(task: &RunSetup<'_>, result: &PassResult) -> Option<Why> {
     let finish = match (&result.end, task.extent) {
         (EndReason::Named(why), _) => return Some((**why).clone()),
         (EndReason::Integrator(finish), _) => *finish,
@@ -86,9 +85,8 @@ pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
 
 /// Returns the reason why an engine over the angle is not applicable, as a clause of a message.
 pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
-    match &task.maker.guide {
-        Some(guide) if guide.jams() => "the slider jams in its guide at an angle of the turn",
-        _ if why == NotApplicable::NotFinite && !task.turns_fully() => {
+    match why {
+        NotApplicable::NotFinite if !task.turns_fully() => {
             "the mechanism reaches the limit of its motion"
         }
         _ => why_not_applicable(why),
