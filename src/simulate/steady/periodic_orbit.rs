@@ -125,25 +125,29 @@ fn solve(cycles: &mut SceneCycleMap<'_>, turns: u32, step: f64) -> Result<Period
                 format!("add a load that {load} and depends on the speed"),
             ));
         }
-        return found(task, turns, cycle, None);
+        let fixed = FixedPoint {
+            kinetic: cycles.first(),
+            slope: 0.0,
+            slope_error: 0.0,
+            approached: true,
+        };
+        return found(task, turns, cycle, fixed, true);
     }
     let fixed = fixed_point(cycles, step);
     let fixed = fixed.map_err(|why| no_cycle(why, cycles.stopped.take()))?;
-    let cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
-    found(task, turns, cycle, Some((fixed, cycles.noise())))
+    let mut cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
+    cycle.relative_error /= fixed.slope.abs().max(cycles.noise());
+    found(task, turns, cycle, fixed, false)
 }
 
-/// Makes the result from a cycle: a fixed point with the noise of its gain, or a cycle with any start speed.
+/// Makes the result from a cycle that begins at a fixed point.
 fn found(
     task: &RunSetup<'_>,
     turns: u32,
-    mut cycle: CycleRun,
-    fixed: Option<(FixedPoint, f64)>,
+    cycle: CycleRun,
+    fixed: FixedPoint,
+    any_speed: bool,
 ) -> Result<PeriodicOrbit, Error> {
-    if let Some((fixed, noise)) = fixed {
-        cycle.relative_error /= fixed.slope.abs().max(noise);
-    }
-    let fixed = fixed.map(|(fixed, _)| fixed);
     let mut found = PeriodicOrbit {
         start: task.start(),
         turns,
@@ -152,10 +156,10 @@ fn found(
             omega: cycle.speed,
         }; 2],
         // Motions do not cross: a negative multiplier is rounding.
-        multiplier: fixed.map_or(1.0, |fixed| (1.0 + fixed.slope).max(0.0)),
-        multiplier_error: fixed.map_or(0.0, |fixed| fixed.slope_error),
-        approached: fixed.is_none_or(|fixed| fixed.approached),
-        any_speed: fixed.is_none(),
+        multiplier: (1.0 + fixed.slope).max(0.0),
+        multiplier_error: fixed.slope_error,
+        approached: fixed.approached,
+        any_speed,
         cycle,
     };
     found.extremes = [-1.0, 1.0].map(|sign| extreme(task, &found, sign));
