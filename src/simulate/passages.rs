@@ -42,58 +42,52 @@ fn dead_centres_ahead(task: &RunSetup<'_>, of: Angle, direction: f64) -> Vec<(f6
     all
 }
 
-/// Lists the dead centres that a crank passes on a way (rad) from an angle without turning back, at most `kept`, each
-/// with its distance (rad) and its angle, and counts all of them.
+/// Lists the dead centres that a crank passes on a way (rad) from an angle without turning back, at most `kept`, and
+/// counts all of them; `at` returns time (s) and speed (rad/s) at a distance, rad.
 fn dead_centres_on_way(
     task: &RunSetup<'_>,
     (from, direction): (Angle, f64),
     way: f64,
     kept: usize,
-) -> (Vec<(f64, f64)>, u64) {
+    at: impl Fn(f64) -> (f64, f64),
+) -> (Vec<MotionState>, u64) {
     let way = (way + dead_centre_tolerance(from.rest.abs())) * (1.0 + 4.0 * f64::EPSILON);
     let first = dead_centres_ahead(task, from, direction);
     let count = |(ahead, _): &(f64, f64)| ((way - ahead) / TAU + 1.0).floor().max(0.0) as u64;
     let turns = (0u32..).map(|turn| f64::from(turn) * TAU);
     let marks = turns.flat_map(|before| first.iter().map(move |(ahead, dc)| (before + ahead, *dc)));
-    let passed = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
+    let marks = marks.take_while(|(ahead, _)| *ahead <= way).take(kept);
+    let passed = marks.map(|(ahead, dead_centre)| {
+        let (t, speed) = at(ahead);
+        passage(t, from, direction * ahead, dead_centre, speed)
+    });
     (passed.collect(), first.iter().map(count).sum())
 }
 
 /// Lists the passages of dead centres at constant speed until a time (s): the first in order, and the number of all.
 pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u64) {
-    let (start, speed) = (task.start(), task.speed);
+    let (from, speed) = ((task.start(), task.speed.signum()), task.speed);
     if speed == 0.0 {
         return (Vec::new(), 0);
     }
     let (way, kept) = (speed.abs() * end, task.options.events_kept);
-    let (passed, total) = dead_centres_on_way(task, (start, speed.signum()), way, kept);
-    let event = |(ahead, dead_centre): (f64, f64)| {
-        let way = speed.signum() * ahead;
-        let t = (way / speed).min(end);
-        Event::new(DEAD_CENTRE, passage(t, start, way, dead_centre, speed))
-    };
+    let at = |ahead: f64| ((ahead / speed.abs()).min(end), speed);
+    let (passed, total) = dead_centres_on_way(task, from, way, kept, at);
+    let event = |at| Event::new(DEAD_CENTRE, at);
     (passed.into_iter().map(event).collect(), total)
 }
 
 impl OrbitPiece<'_> {
     /// Lists the dead centres passed until a time (s) by a motion that does not turn back, in the time of the orbit: the
-    /// first, at most `kept`.
-    fn one_way(&self, until: f64, kept: usize) -> Vec<(&'static str, MotionState)> {
-        let (orbit, start) = (self.orbit, self.orbit.start());
-        let from = (start, orbit.direction());
-        let (passed, _) = dead_centres_on_way(self.task, from, self.way(until), kept);
-        let passages = passed.into_iter().map(|(ahead, dead_centre)| {
+    /// first, at most `kept`, and the number of all.
+    fn one_way(&self, until: f64, kept: usize) -> (Vec<MotionState>, u64) {
+        let orbit = self.orbit;
+        let from = (orbit.start(), orbit.direction());
+        let way = orbit.state(until).0.minus(orbit.start()).abs();
+        dead_centres_on_way(self.task, from, way, kept, |ahead| {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
-            let (t, speed) = known.unwrap_or_else(|| (until, orbit.state(until).1));
-            let way = orbit.direction() * ahead;
-            (DEAD_CENTRE, passage(t, start, way, dead_centre, speed))
-        });
-        passages.collect()
-    }
-
-    /// Returns the rotation, rad, at a time (s) of a motion that does not turn back.
-    fn way(&self, t: f64) -> f64 {
-        self.orbit.state(t).0.minus(self.orbit.start()).abs()
+            known.unwrap_or_else(|| (until, orbit.state(until).1))
+        })
     }
 
     /// Lists dead centres and turning points of a motion to and fro until a time (s), in the time of the orbit.
@@ -136,21 +130,21 @@ impl OrbitPiece<'_> {
         let (orbit, turns_back) = (self.orbit, self.orbit.turns_back());
         let repeats = orbit.period().filter(|(period, _)| *period < self.end);
         let (period, low) = repeats.unwrap_or((self.end, 0.0));
-        let once = match (turns_back, kept) {
-            (true, _) => self.to_and_fro(period),
-            (false, 0) => Vec::new(),
-            (false, _) => self.one_way(period, kept),
+        let once = match turns_back {
+            true => self.to_and_fro(period),
+            false => {
+                let passed = self.one_way(period, kept).0.into_iter();
+                passed.map(|at| (DEAD_CENTRE, at)).collect()
+            }
         };
         let over = self.end * (1.0 + 1e-14);
         let rounds = |(_, at): &(&str, MotionState)| match repeats {
             Some(_) => ((over - at.t) / period + 1.0).floor() as u64,
             None => 1,
         };
-        let total = if turns_back {
-            once.iter().map(rounds).sum()
-        } else {
-            let from = (orbit.start(), orbit.direction());
-            dead_centres_on_way(self.task, from, self.way(self.end), 0).1
+        let total = match turns_back {
+            true => once.iter().map(rounds).sum(),
+            false => self.one_way(self.end, 0).1,
         };
         let turns = if turns_back { 0.0 } else { orbit.direction() };
         let most = total.min(kept as u64) * u64::from(!once.is_empty());

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use super::row::{Row, RowSink};
 use super::schedule::{SAME_ROW, Schedule, check_row_count, integers_passed};
 use crate::error::Error;
+use crate::numeric::root;
 
 /// Part of a motion between two times, as rows see it.
 pub(super) trait RowSource {
@@ -15,7 +16,9 @@ pub(super) trait RowSource {
     fn turned(&mut self, t: f64) -> f64;
 
     /// Finds the time (s) between two times at which the crank has turned by `turned` (rad) since the start of the run.
-    fn time_of(&mut self, turned: f64, between: [f64; 2]) -> Option<f64>;
+    fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
+        root::bracketed(|t| self.turned(t) - turned, from, to)
+    }
 
     /// Lists the times at which the crank turns back, s, in order.
     fn turning_times(&mut self) -> Vec<f64> {

@@ -90,7 +90,7 @@ impl<'a> RunSetup<'a> {
 
     /// Whether friction or a dry load may hold the mechanism at rest.
     pub fn may_stick(&self) -> bool {
-        self.scene.reduced().friction.is_some() || self.equation().loads().are_dry()
+        self.maker.guide.is_some() || self.equation().loads().are_dry()
     }
 
     /// Lists the dead centres, rad in [0, 2π).

@@ -39,12 +39,12 @@ pub enum Why {
     #[error("interrupted")]
     Interrupted,
     /// The crank does not complete this number of turns within 1e9 s.
-    #[error("the crank does not complete {}", Turns(*.0))]
+    #[error("the crank does not complete {}", counted(*.0))]
     TurnsNeverComplete(f64),
     /// The crank swings periodically and does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: shown is one period of {period} s",
-        Turns(*turns)
+        counted(*turns)
     )]
     Period {
         /// Number of turns asked for.
@@ -55,7 +55,7 @@ pub enum Why {
     /// The last turning points led no further than between two angles: the crank does not complete its turns.
     #[error(
         "the crank swings to and fro and does not complete {}: in its last {since} turning points it came no further than between theta = {} rad and {} rad",
-        Turns(*turns), unrounded(reach[0]), unrounded(reach[1])
+        counted(*turns), unrounded(reach[0]), unrounded(reach[1])
     )]
     Caught {
         /// Number of turns asked for.
@@ -66,7 +66,7 @@ pub enum Why {
         reach: [f64; 2],
     },
     /// The crank comes to rest for good before its turns are complete.
-    #[error("the crank comes to rest{} and does not complete {}", held(held_by.as_ref()), Turns(*turns))]
+    #[error("the crank comes to rest{} and does not complete {}", held(held_by.as_ref()), counted(*turns))]
     AtRest {
         /// Number of turns asked for.
         turns: f64,
@@ -77,7 +77,7 @@ pub enum Why {
     #[error(
         "the crank stalled at theta = {} rad, {torques}{}",
         unrounded(*theta),
-        turns.map_or_else(String::new, |turns| format!(" and does not complete {}", Turns(turns)))
+        turns.map_or_else(String::new, |turns| format!(" and does not complete {}", counted(turns)))
     )]
     Stalled {
         /// Crank angle of the balance, rad.
@@ -200,14 +200,10 @@ impl Serialize for Stopped {
     }
 }
 
-/// Number of turns, for messages.
-struct Turns(f64);
-
-impl fmt::Display for Turns {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = if self.0 == 1.0 { "turn" } else { "turns" };
-        write!(f, "{} {unit}", self.0)
-    }
+/// Returns a number of turns in words.
+fn counted(turns: f64) -> String {
+    let unit = if turns == 1.0 { "turn" } else { "turns" };
+    format!("{turns} {unit}")
 }
 
 fn state(at: &MotionState) -> String {

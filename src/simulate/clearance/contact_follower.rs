@@ -11,7 +11,6 @@ use crate::engine::events::{self, Crossing};
 use crate::engine::step::{Node, Step};
 use crate::engine::time::MotionState;
 use crate::mechanism::LooseState;
-use crate::numeric::root;
 
 pub(super) struct ContactHistory {
     pub record: JournalRecord,
@@ -178,10 +177,6 @@ impl<const N: usize> RowSource for InAccepted<'_, '_, '_, N> {
 
     fn turned(&mut self, t: f64) -> f64 {
         self.model.state(&self.accepted.at(t)).theta - self.model.start.theta
-    }
-
-    fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
-        root::bracketed(|t| self.turned(t) - turned, from, to)
     }
 
     fn row(&mut self, t: f64) -> Row {
