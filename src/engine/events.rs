@@ -178,7 +178,7 @@ fn refined_range(
 }
 
 /// Returns the time at which the piece with this index begins, s.
-fn part(step: &Step, index: usize, pieces: usize) -> f64 {
+pub fn part(step: &Step, index: usize, pieces: usize) -> f64 {
     if index == pieces {
         step.end.t
     } else {

@@ -76,13 +76,15 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Can
             Engine::Time,
             "asked for; the loads and the start decide the motion",
         )),
-        Method::Time => Ok(Candidate::new(Engine::Time,
+        Method::Time => Ok(Candidate::new(
+            Engine::Time,
             "the loads and the start decide the motion: integration in time, by sweeps over Gauss nodes",
         )),
         _ if class == Class::ChangePoint => only_if(
             method,
             &[Method::Auto],
-            Candidate::new(Engine::Time,
+            Candidate::new(
+                Engine::Time,
                 "a change point: integration in time along the configuration curve",
             ),
             "the lengths of a change point, which it passes onto the other branch",
@@ -92,7 +94,8 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Can
         _ if loads.are_dry() => only_if(
             method,
             &[Method::Auto],
-            Candidate::new(Engine::Time,
+            Candidate::new(
+                Engine::Time,
                 "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
             ),
             "a load of kind \"dry\", which turns round with the motion",
@@ -158,7 +161,8 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
             };
             Err(cannot_serve(method, &what, METHODS_IN_TIME))
         }
-        Some(why) => Ok(Candidate::new(Engine::Time,
+        Some(why) => Ok(Candidate::new(
+            Engine::Time,
             match has_friction {
                 true => format!(
                     "Coulomb friction, and {why}: integration in time, piece by piece between its changes"

@@ -35,17 +35,17 @@ pub(super) fn run<'a>(
     let asked = duration(task.extent, speed);
     let blocked = time_to_limit(task, start, speed).filter(|t| *t < asked);
     let end = blocked.unwrap_or(asked);
-    let last = start.plus(speed * end);
     let mut motion = ConstantSpeedMotion {
         maker: &task.maker,
         start,
         speed,
         end,
     };
-    let (torque, warnings) = match blocked.is_none().then(|| motion.torque_range()) {
-        None => (None, Vec::new()),
-        Some(Ok(range)) => (Some(range), Vec::new()),
-        Some(Err(why)) => (None, vec![Warning::NoTorqueRange(why)]),
+    let last = motion.angle(end);
+    let range = blocked.is_none().then(|| motion.torque_range());
+    let (torque, warnings) = match range.transpose() {
+        Ok(range) => (range, Vec::new()),
+        Err(why) => (None, vec![Warning::NoTorqueRange(why)]),
     };
     let balance = match blocked {
         None => motion.energy_balance(),
@@ -129,7 +129,6 @@ impl RowSource for ConstantSpeedMotion<'_> {
     }
 
     fn row(&mut self, t: f64) -> Row {
-        let angle = self.start.plus(self.speed * t);
-        self.maker.row(t, angle, self.speed, Some(0.0))
+        self.row_at(t)
     }
 }

@@ -2,7 +2,7 @@
 //! the coordinate of the configuration curve.
 
 use super::row::{Row, RowMaker};
-use super::stick_slip::{CurveMotion, StickSlipPhase};
+use super::stick_slip::CurveMotion;
 use crate::engine::step::Step;
 use crate::engine::time::MotionState;
 use crate::engine::{Batch, Counted, Motion};
@@ -69,41 +69,39 @@ impl Motion for Equation {
     }
 }
 
-/// Coordinate of a step: states and rows of the crank from it.
-pub(super) trait Coordinate {
+/// Coordinate of a step, with its equation of motion.
+pub(super) enum Coordinate<'a> {
+    /// Crank angle.
+    Crank(&'a Counted<'a>),
+    /// Coordinate of the configuration curve in one phase.
+    Curve(CurveMotion<'a>),
+}
+
+impl Coordinate<'_> {
     /// Equation of motion with which steps are refined.
-    fn motion(&self) -> &dyn Motion;
+    pub fn motion(&self) -> &dyn Motion {
+        match self {
+            Coordinate::Crank(motion) => *motion,
+            Coordinate::Curve(motion) => motion,
+        }
+    }
 
     /// Returns the crank angle and the crank speed (rad/s) at a time (s) of a step.
-    fn crank(&self, step: &Step, t: f64) -> (Angle, f64);
+    pub fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
+        let (q, speed) = step.at(t);
+        let angle = step.angle(q);
+        match self {
+            Coordinate::Crank(_) => (angle, speed),
+            Coordinate::Curve(motion) => motion.equation.crank(angle, speed),
+        }
+    }
 
     /// Makes the row at a time (s), an angle of the coordinate and a rate of the coordinate (rad/s).
-    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row;
-
-    /// Returns the phase of the slider in its guide; none for a smooth coordinate.
-    fn phase(&self) -> Option<StickSlipPhase> {
-        None
-    }
-}
-
-/// Crank angle as the coordinate.
-pub(super) struct Crank<'a> {
-    pub maker: &'a RowMaker,
-    pub motion: &'a Counted<'a>,
-}
-
-impl Coordinate for Crank<'_> {
-    fn motion(&self) -> &dyn Motion {
-        self.motion
-    }
-
-    fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
-        let (theta, speed) = step.at(t);
-        (step.angle(theta), speed)
-    }
-
-    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
-        self.maker.row(t, angle, speed, None)
+    pub fn row(&self, maker: &RowMaker, t: f64, angle: Angle, speed: f64) -> Row {
+        match self {
+            Coordinate::Crank(_) => maker.row(t, angle, speed, None),
+            Coordinate::Curve(motion) => motion.row(maker, t, angle, speed),
+        }
     }
 }
 
@@ -120,43 +118,22 @@ pub(super) fn crank_state(equation: &CurveEquation, at: MotionState) -> MotionSt
     MotionState { angle, speed, ..at }
 }
 
-/// Coordinate of the configuration curve in one phase.
-pub(super) struct AlongCurve<'a> {
-    pub maker: &'a RowMaker,
-    pub motion: CurveMotion<'a>,
-}
-
-impl AlongCurve<'_> {
+impl CurveMotion<'_> {
     /// Returns the crank speed (rad/s) and the crank acceleration (rad/s²) at a time (s) of a step.
     pub fn crank_speed(&self, step: &Step, t: f64) -> (f64, f64) {
         let (q, speed) = step.at(t);
-        let place = self.motion.equation.curve().pose(q);
+        let place = self.equation.curve().pose(q);
         let rate = place.dtheta * step.acceleration_at(t) + place.d2theta * speed * speed;
         (place.dtheta * speed, rate)
     }
-}
 
-impl Coordinate for AlongCurve<'_> {
-    fn motion(&self) -> &dyn Motion {
-        &self.motion
-    }
-
-    fn crank(&self, step: &Step, t: f64) -> (Angle, f64) {
-        let (q, speed) = step.at(t);
-        self.motion.equation.crank(step.angle(q), speed)
-    }
-
-    fn phase(&self) -> Option<StickSlipPhase> {
-        Some(self.motion.phase)
-    }
-
-    fn row(&self, t: f64, angle: Angle, speed: f64) -> Row {
-        let motion = &self.motion;
-        let curve = motion.equation.curve();
+    /// Makes the row at a time (s), an angle of the coordinate and a rate of the coordinate (rad/s).
+    pub fn row(&self, maker: &RowMaker, t: f64, angle: Angle, speed: f64) -> Row {
+        let curve = self.equation.curve();
         let place = curve.pose(angle.rest);
-        let (acceleration, touch, _) = motion.state(t, angle, speed);
-        let reactions = self.maker.reactor.as_ref().map(|reactor| {
-            let load = motion.load(&place, t, angle, speed);
+        let (acceleration, touch, _) = self.state(t, angle, speed);
+        let reactions = maker.reactor.as_ref().map(|reactor| {
+            let load = self.load(&place, t, angle, speed);
             let force = load.force + touch.friction;
             reactor.on_curve(&place, speed, acceleration, force, touch.normal)
         });

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::energy_balance::EnergyBalance;
 use super::load_resolution;
 use super::result::TorqueRange;
-use super::row::RowMaker;
+use super::row::{Row, RowMaker};
 use super::warning::NoRange;
 use crate::engine::time::MotionState;
 use crate::mechanism::Equation;
@@ -38,9 +38,19 @@ impl ConstantSpeedMotion<'_> {
         &self.maker.equation
     }
 
+    /// Returns the crank angle at a time, s.
+    pub fn angle(&self, t: f64) -> Angle {
+        self.start.plus(self.speed * t)
+    }
+
+    /// Makes the row at a time, s.
+    pub fn row_at(&self, t: f64) -> Row {
+        self.maker.row(t, self.angle(t), self.speed, Some(0.0))
+    }
+
     /// Returns the driving torque at a time (s), friction at the guide included, N m.
     fn torque(&self, t: f64) -> f64 {
-        let angle = self.start.plus(self.speed * t);
+        let angle = self.angle(t);
         let torque = self.equation().driving_torque(t, angle, self.speed, 0.0);
         let friction = self.maker.friction(t, angle, self.speed, 0.0);
         if friction == 0.0 {
@@ -51,7 +61,7 @@ impl ConstantSpeedMotion<'_> {
 
     /// Returns the reason that the torque has no finite value at a time, s.
     fn not_finite(&self, t: f64) -> NoRange {
-        let (angle, speed) = (self.start.plus(self.speed * t), self.speed);
+        let (angle, speed) = (self.angle(t), self.speed);
         let at = MotionState { t, angle, speed };
         NoRange::NotFinite {
             at_limit: !self.equation().linkage().pose(angle.rest).is_regular(),
@@ -128,11 +138,8 @@ impl ConstantSpeedMotion<'_> {
         let mut times = self.times(turned);
         times.extend(&cuts);
         let times = angle::distinct(times);
-        let row = |t: f64| {
-            let angle = self.start.plus(self.speed * t);
-            Some(self.maker.row(t, angle, self.speed, Some(0.0)))
-        };
-        let pieces = load_resolution::unresolved(loads, &times, &row).ok_or(NoRange::TooQuick)?;
+        let pieces = load_resolution::unresolved(loads, &times, &|t| Some(self.row_at(t)))
+            .ok_or(NoRange::TooQuick)?;
         cuts.extend(pieces.iter().flat_map(|piece| [piece.from, piece.to]));
         Ok(Samples {
             times: load_resolution::with_pieces(times, &pieces),

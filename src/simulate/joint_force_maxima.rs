@@ -102,7 +102,7 @@ struct Parametrization<'a> {
 /// Parametrizes a run at constant speed by time: one turn if all are equal, otherwise all; resolves geometry and loads.
 fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
     let (start, speed) = run.trajectory.as_ref()?.as_uniform()?;
-    let maker = run.dense.maker.as_ref()?;
+    let maker = run.maker.as_ref()?;
     let drive = ConstantSpeedMotion {
         maker,
         start,
@@ -112,10 +112,9 @@ fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
     let samples = drive.samples().ok()?;
     let is_one_turn = samples.is_one_turn;
     let turn = TAU / speed.abs();
-    let row = move |t: f64| maker.row(t, start.plus(speed * t), speed, Some(0.0));
     Some(Parametrization {
         parameters: samples.times,
-        sizes: Box::new(move |t| row(t).reactions.as_ref().map(sizes)),
+        sizes: Box::new(move |t| drive.row_at(t).reactions.as_ref().map(sizes)),
         time: Box::new(move |t| if is_one_turn { t.rem_euclid(turn) } else { t }),
     })
 }
@@ -124,7 +123,7 @@ fn at_constant_speed(run: &Simulation) -> Option<Parametrization<'_>> {
 fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
     let orbit = run.trajectory.as_ref()?.as_orbit()?;
     let end = run.summary.last.t_s;
-    let maker = run.dense.maker.as_ref()?;
+    let maker = run.maker.as_ref()?;
     // The time of a place costs more than all else: it is computed only where a load reads it.
     let timed = maker.equation.loads().reads().has(Variable::T);
     let reactions = move |at: f64| {
@@ -160,7 +159,7 @@ fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'
     let times = (0..=rows as usize).map(|index| (index as f64 * step).min(span));
     let times = angle::distinct(times.collect());
     let times = with_narrow_peaks(&Linkage::new(&scene.geometry), run, times)?;
-    let loads = run.dense.maker.as_ref()?.equation.loads();
+    let loads = run.maker.as_ref()?.equation.loads();
     let pieces = load_resolution::unresolved(loads, &times, &|t| run.row(t))?;
     Some(Parametrization {
         parameters: load_resolution::with_pieces(times, &pieces),

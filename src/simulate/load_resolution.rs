@@ -173,8 +173,7 @@ fn between([a, b]: &[End; 2]) -> EnclosedState {
 fn inverse_ranges(loads: &Loads, states: &[EnclosedState], ellipse: f64) -> UnitLoadEffects {
     let hull = |value: fn(&EnclosedState) -> Interval| {
         let all = states.iter().map(value);
-        let hull = |a: Interval, b: Interval| Interval::new(a.low.min(b.low), a.high.max(b.high));
-        all.reduce(hull).unwrap_or(Interval::WHOLE)
+        all.reduce(Interval::hull).unwrap_or(Interval::WHOLE)
     };
     let whole = EnclosedState {
         t: hull(|state| state.t),
@@ -192,14 +191,7 @@ fn inverse_ranges(loads: &Loads, states: &[EnclosedState], ellipse: f64) -> Unit
         let range = Some(range(&whole)).filter(known).or_else(of_pieces);
         range.filter(|range| *range > 0.0).map_or(1.0, f64::recip)
     };
-    UnitLoadEffects {
-        torque: inverse(UnitLoadEffects {
-            torque: 1.0,
-            force: 0.0,
-        }),
-        force: inverse(UnitLoadEffects {
-            torque: 0.0,
-            force: 1.0,
-        }),
-    }
+    let [torque, force] =
+        [[1.0, 0.0], [0.0, 1.0]].map(|[torque, force]| inverse(UnitLoadEffects { torque, force }));
+    UnitLoadEffects { torque, force }
 }

@@ -13,11 +13,11 @@ use super::run_setup::RunSetup;
 use super::schedule::Schedule;
 use super::second_run::Checkpoints;
 use super::simulation::PhaseInterval;
-use crate::engine::PIECES;
+use super::stick_slip::CurveMotion;
 use crate::engine::step::Step;
+use crate::engine::{PIECES, events};
 use crate::error::Error;
 use crate::mechanism::CurveEquation;
-use crate::numeric::angle::Angle;
 use crate::numeric::root;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
@@ -154,13 +154,13 @@ impl<'a> Recorder<'a> {
     }
 
     /// Records a step until a time (s) inside it; true if a row failed, which ends the run.
-    pub fn step(&mut self, step: &mut Step, until: f64, along: &dyn Coordinate) -> bool {
+    pub fn step(&mut self, step: &mut Step, until: f64, along: &Coordinate<'_>) -> bool {
         self.record.checkpoints.add(step);
         let mut part = StepRows {
             step,
             until,
             along,
-            start: self.task.start(),
+            task: self.task,
         };
         if self.rows(&mut part) {
             return true;
@@ -168,7 +168,7 @@ impl<'a> Recorder<'a> {
         if self.motion.is_some() && self.takes_room() {
             step.refine(along.motion());
             self.steps.push(*step);
-            if let Some(phase) = along.phase() {
+            if let Coordinate::Curve(CurveMotion { phase, .. }) = *along {
                 let (phases, from, until) = (&mut self.record.phases, step.start.t, step.end.t);
                 match phases.last_mut() {
                     Some(last) if last.until == from && last.phase == phase => last.until = until,
@@ -223,9 +223,8 @@ struct StepRows<'a> {
     step: &'a mut Step,
     /// Last time, s.
     until: f64,
-    along: &'a dyn Coordinate,
-    /// Crank angle at the start of the run.
-    start: Angle,
+    along: &'a Coordinate<'a>,
+    task: &'a RunSetup<'a>,
 }
 
 impl RowSource for StepRows<'_> {
@@ -234,7 +233,7 @@ impl RowSource for StepRows<'_> {
     }
 
     fn turned(&mut self, t: f64) -> f64 {
-        self.along.crank(self.step, t).0.minus(self.start)
+        self.along.crank(self.step, t).0.minus(self.task.start())
     }
 
     fn time_of(&mut self, turned: f64, [from, to]: [f64; 2]) -> Option<f64> {
@@ -244,13 +243,9 @@ impl RowSource for StepRows<'_> {
 
     fn turning_times(&mut self) -> Vec<f64> {
         let step = &*self.step;
-        let time = |piece: usize| match piece {
-            PIECES => step.end.t,
-            _ => step.start.t + step.length() * piece as f64 / PIECES as f64,
-        };
         let speed = |t: f64| self.along.crank(step, t).1;
         let turns = |i: usize| {
-            let (from, to) = (time(i), time(i + 1));
+            let [from, to] = [i, i + 1].map(|piece| events::part(step, piece, PIECES));
             let turns = speed(from) * speed(to) < 0.0;
             turns.then(|| root::bracketed(speed, from, to))?
         };
@@ -262,6 +257,7 @@ impl RowSource for StepRows<'_> {
             self.step.refine(self.along.motion());
         }
         let (theta, speed) = self.step.at(t);
-        self.along.row(t, self.step.angle(theta), speed)
+        let angle = self.step.angle(theta);
+        self.along.row(&self.task.maker, t, angle, speed)
     }
 }

@@ -6,7 +6,7 @@ use super::energy_balance::EnergyBalance;
 use super::recorder::Record;
 use super::result::{Cost, ErrorEstimate, Final, Piece, Summary};
 use super::run_setup::RunSetup;
-use super::simulation::{DenseRows, Simulation};
+use super::simulation::Simulation;
 use super::stalled::stalled;
 use super::stop::{Stopped, Why};
 use super::warning::Warning;
@@ -149,11 +149,9 @@ impl RunEnd {
         Simulation {
             summary,
             trajectory: record.trajectory,
-            dense: DenseRows {
-                maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
-                curve: record.curve,
-                phases: record.phases,
-            },
+            maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
+            curve: record.curve,
+            phases: record.phases,
         }
     }
 }

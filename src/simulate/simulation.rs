@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::coordinate::{AlongCurve, Coordinate};
 use super::result::Summary;
 use super::row::{Row, RowMaker};
 use super::stick_slip::{CurveMotion, StickSlipPhase};
@@ -16,7 +15,12 @@ pub struct Simulation {
     pub summary: Summary,
     /// Dense motion, if it was recorded.
     pub trajectory: Option<Trajectory>,
-    pub(super) dense: DenseRows,
+    /// Maker of rows; none with a loose joint.
+    pub(super) maker: Option<RowMaker>,
+    /// Configuration curve, if the whole run follows its coordinate.
+    pub(super) curve: Option<Arc<CurveEquation>>,
+    /// Intervals of motion along a configuration curve, in order.
+    pub(super) phases: Vec<PhaseInterval>,
 }
 
 impl Simulation {
@@ -39,19 +43,18 @@ impl Simulation {
     /// println!("x = {} m, {:?} N at the wrist pin", row.x, row.reactions.unwrap().wrist_pin);
     /// ```
     pub fn row(&self, t: f64) -> Option<Row> {
-        let maker = self.dense.maker.as_ref()?;
+        let maker = self.maker.as_ref()?;
         let trajectory = self.trajectory.as_ref()?;
         let (angle, speed) = trajectory.coordinate(t)?;
-        let phases = &self.dense.phases;
-        let after = phases.partition_point(|interval| interval.until < t);
-        let interval = phases.get(after).filter(|interval| interval.from <= t);
+        let after = self.phases.partition_point(|interval| interval.until < t);
+        let interval = self.phases.get(after);
+        let interval = interval.filter(|interval| interval.from <= t);
         let row = match interval {
             Some(interval) => {
                 let guide = maker.guide.as_deref().map(|guide| &guide.equation);
-                let equation = self.dense.curve.as_deref().or(guide)?;
+                let equation = self.curve.as_deref().or(guide)?;
                 let phase = interval.phase;
-                let motion = CurveMotion { equation, phase };
-                AlongCurve { maker, motion }.row(t, angle, speed)
+                CurveMotion { equation, phase }.row(maker, t, angle, speed)
             }
             None => {
                 let alpha = trajectory.as_uniform().map(|_| 0.0);
@@ -73,14 +76,4 @@ pub(super) struct PhaseInterval {
     /// Last time, s.
     pub until: f64,
     pub phase: StickSlipPhase,
-}
-
-/// Maker of the rows of a finished run.
-#[derive(Clone, Debug)]
-pub(super) struct DenseRows {
-    pub maker: Option<RowMaker>,
-    /// Configuration curve, if the whole run follows its coordinate.
-    pub curve: Option<Arc<CurveEquation>>,
-    /// Intervals of motion along a configuration curve, in order.
-    pub phases: Vec<PhaseInterval>,
 }

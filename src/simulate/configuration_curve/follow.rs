@@ -140,8 +140,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 self.signs[index] = -self.signs[index];
                 self.update_dry_signs(of);
                 if let Some(kind) = event(of) {
-                    let MotionState { angle, speed, .. } = self.state;
-                    self.observer.event(kind, t, angle, speed);
+                    self.observer.event(kind, MotionState { t, ..self.state });
                 }
                 None
             }
@@ -174,7 +173,8 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             let changes =
                 event_functions::changes(&mut step, &looked_at, events, follows, &mut after);
             for change in changes {
-                let (theta, speed) = step.at(change.t);
+                let Change { t, .. } = change;
+                let (theta, speed) = step.at(t);
                 if vanishing && equation.vanishes_at(theta) {
                     (reason, beyond) = (Some(no_inertia()), true);
                     return true;
@@ -196,7 +196,8 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                 let from_rest = index == Speed && step.start.omega == 0.0;
                 if let Some(kind) = event(index).filter(|_| !from_rest) {
                     let speed = if index == Speed { 0.0 } else { speed };
-                    observer.event(kind, change.t, step.angle(theta), speed);
+                    let angle = step.angle(theta);
+                    observer.event(kind, MotionState { t, angle, speed });
                 }
             }
             reason = match observer.step(&step, Some(along)) {

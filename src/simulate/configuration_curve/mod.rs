@@ -84,7 +84,7 @@ pub(super) trait StepObserver {
     fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool;
 
     /// Takes an event on the curve.
-    fn event(&mut self, _kind: &'static str, _t: f64, _angle: Angle, _speed: f64) {}
+    fn event(&mut self, _kind: &'static str, _at: MotionState) {}
 }
 
 /// End of a piece in time.

@@ -19,12 +19,12 @@ impl CurveRun<'_, '_> {
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<EndReason> {
         let friction = self.equation.friction();
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
-        let MotionState { t, angle, .. } = self.state;
-        let held = self.equation.at_rest(angle).held(t);
+        let at = self.state;
+        let held = self.equation.at_rest(at.angle).held(at.t);
         let direction = match held.free.from_rest(mu, mu_static) {
             FromRest::Move(direction) => {
                 if before.is_some_and(|before| before != direction) {
-                    self.observer.event("turning-point", t, angle, 0.0);
+                    self.observer.event("turning-point", at);
                 }
                 direction
             }
@@ -40,7 +40,8 @@ impl CurveRun<'_, '_> {
 
     /// Stays at rest until static friction gives way; returns the direction of the slip, or the end of the run.
     fn rest(&mut self, mu_static: f64) -> Result<f64, EndReason> {
-        let MotionState { t, angle, .. } = self.state;
+        let at = self.state;
+        let MotionState { t, angle, .. } = at;
         let equation = self.equation;
         let is_open = self.events.turn_limit.is_some();
         // A run of turns has no last time: it seeks a release for this many times its time up to now, or this many s.
@@ -61,7 +62,7 @@ impl CurveRun<'_, '_> {
             Release::Never => "rest",
             _ => "stick",
         };
-        self.observer.event(kind, t, angle, 0.0);
+        self.observer.event(kind, at);
         let (until, ends) = match release {
             Release::Never if is_open => return Err(EndReason::AtRest),
             Release::Never => (end, Some(EndReason::Done)),
@@ -80,7 +81,7 @@ impl CurveRun<'_, '_> {
         if let Some(end) = ends {
             return Err(end);
         }
-        self.observer.event("slip", until, angle, 0.0);
+        self.observer.event("slip", MotionState { t: until, ..at });
         let free = equation.free(until, angle, 0.0);
         Ok(if free.pull > 0.0 { 1.0 } else { -1.0 })
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::super::angle_model::SAME_CORNER;
 use super::super::bounded_motion::BoundedMotion;
 use super::super::configuration_curve::{CurveProblem, StepObserver};
-use super::super::coordinate::{AlongCurve, Coordinate, Crank, crank_state};
+use super::super::coordinate::{Coordinate, crank_state};
 use super::super::passages::{OrbitPiece, is_dead_centre};
 use super::super::recorder::{Record, Recorder};
 use super::super::result::Event;
@@ -20,7 +20,6 @@ use crate::engine::step::Step;
 use crate::engine::time::{self, MotionState, Settings};
 use crate::error::Error;
 use crate::mechanism::CurveEquation;
-use crate::numeric::angle::Angle;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
 
@@ -33,8 +32,8 @@ pub(super) struct ForwardRecorder<'a> {
     dead_centres: Vec<f64>,
     /// Record of turning points, if the crank may never complete its turns.
     bounded_motion: Option<BoundedMotion>,
-    /// Time (s) and reason of an end inside the last step.
-    ends_at: Option<(f64, EndsBy)>,
+    /// Time of an end inside the last step, s: the turns are complete, or the swing of the crank no longer grows.
+    ends_at: Option<f64>,
     /// Start of a piece at a dead centre that is already recorded.
     recorded_dead_centre: Option<MotionState>,
     crossings: Vec<(f64, Crossing)>,
@@ -42,15 +41,6 @@ pub(super) struct ForwardRecorder<'a> {
     curve: Option<Arc<CurveEquation>>,
     /// Last phase of the slider in its guide.
     phase: StickSlipPhase,
-}
-
-/// Reason for an end inside a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum EndsBy {
-    /// The turns asked for are complete.
-    Turns,
-    /// The crank swings to and fro, and its swing no longer grows.
-    BoundedMotion,
 }
 
 impl<'a> ForwardRecorder<'a> {
@@ -87,10 +77,10 @@ impl<'a> ForwardRecorder<'a> {
         self.recorder.finish(|| {
             Some(match (result.last_step, &result.curve) {
                 (Some(last), Some(curve)) => {
-                    let (equation, maker) = (&*curve.equation, &task.maker);
+                    let equation = &*curve.equation;
                     let motion = CurveMotion { equation, phase };
-                    let along = AlongCurve { maker, motion };
-                    along.row(t, last.angle(last.end.theta), last.end.omega)
+                    let end = last.end;
+                    motion.row(&task.maker, t, last.angle(end.theta), end.omega)
                 }
                 _ => task.maker.row(t, angle, speed, None),
             })
@@ -104,26 +94,22 @@ impl<'a> ForwardRecorder<'a> {
         if self.ends_at.is_none() {
             self.follow_speed(&mut step);
         }
-        let until = self.ends_at.map_or(step.end.t, |(t, _)| t);
-        let crank = Crank {
-            maker: &self.task.maker,
-            motion: self.motion,
-        };
+        let until = self.ends_at.unwrap_or(step.end.t);
+        let crank = Coordinate::Crank(self.motion);
         self.recorder.step(&mut step, until, &crank) || self.ends_at.is_some()
     }
 
     /// Records a step along the configuration curve; true ends the run.
     fn step_on_curve(&mut self, mut step: Step, motion: CurveMotion<'_>) -> bool {
         self.phase = motion.phase;
-        let maker = &self.task.maker;
-        let along = AlongCurve { maker, motion };
         if motion.phase != StickSlipPhase::Sticking {
             let speed = self.recorder.speed();
-            let crank = |step: &Step, t: f64| along.crank_speed(step, t);
-            *speed = events::follow(&mut step, along.motion(), *speed, crank);
+            let crank = |step: &Step, t: f64| motion.crank_speed(step, t);
+            *speed = events::follow(&mut step, &motion, *speed, crank);
         }
         let until = step.end.t;
-        self.recorder.step(&mut step, until, &along) || self.is_bounded()
+        let curve = Coordinate::Curve(motion);
+        self.recorder.step(&mut step, until, &curve) || self.is_bounded()
     }
 
     /// Whether the crank swings to and fro, and its swing no longer grows.
@@ -152,8 +138,8 @@ impl<'a> ForwardRecorder<'a> {
         let until = |t_end: f64, sink: &mut dyn FnMut(&Step) -> bool| {
             time::shortened(motion, step, t_end, settings, sink)
         };
-        let (mut t, by) = self.ends_at?;
-        if let Some(limit) = self.task.extent.angle().filter(|_| by == EndsBy::Turns) {
+        let mut t = self.ends_at?;
+        if let Some(limit) = self.task.extent.angle().filter(|_| !self.is_bounded()) {
             t = step.newton_time(t, 3, |t| {
                 let last = until(t, &mut |_| false);
                 let turned = self.turned(&last);
@@ -177,7 +163,7 @@ impl<'a> ForwardRecorder<'a> {
         step.refine(self.motion);
         let target = step.end.theta - (turned - limit.copysign(turned));
         let t = step.time_of_angle(target, step.start.t, step.end.t);
-        self.ends_at = Some((t.unwrap_or(step.end.t), EndsBy::Turns));
+        self.ends_at = Some(t.unwrap_or(step.end.t));
     }
 
     fn look_for_events(&mut self, step: &mut Step) {
@@ -190,12 +176,12 @@ impl<'a> ForwardRecorder<'a> {
         }
         for &(t, what) in &crossings {
             // Rounding may put an event at the end of the run beside the end.
-            let end = self.ends_at.map_or(t, |(t, _)| t);
+            let end = self.ends_at.unwrap_or(t);
             if t > end * (1.0 + 8.0 * f64::EPSILON) {
                 break;
             }
             self.record_crossing(step, t.min(end), what);
-            if matches!(self.ends_at, Some((_, EndsBy::BoundedMotion))) {
+            if self.is_bounded() {
                 break;
             }
         }
@@ -204,20 +190,21 @@ impl<'a> ForwardRecorder<'a> {
 
     /// Records a crossing at a time (s) of a step, and the end of the run if the crank is caught.
     fn record_crossing(&mut self, step: &Step, t: f64, what: Crossing) {
-        let (theta, omega) = step.at(t);
-        let at = step.angle(theta);
+        let (theta, speed) = step.at(t);
+        let angle = step.angle(theta);
+        let at = MotionState { t, angle, speed };
         if let Some(known) = self.recorded_dead_centre.take()
-            && at.minus(known.angle).abs() < SAME_CORNER
-            && omega * known.speed > 0.0
+            && angle.minus(known.angle).abs() < SAME_CORNER
+            && speed * known.speed > 0.0
         {
             return;
         }
         match what {
-            Crossing::Angle(_) => self.event("dead-centre", t, at, omega),
-            Crossing::Turning => self.event("turning-point", t, at, 0.0),
+            Crossing::Angle(_) => self.event("dead-centre", at),
+            Crossing::Turning => self.event("turning-point", MotionState { speed: 0.0, ..at }),
         }
         if what == Crossing::Turning && self.is_bounded() {
-            self.ends_at = Some((t, EndsBy::BoundedMotion));
+            self.ends_at = Some(t);
         }
     }
 }
@@ -230,13 +217,12 @@ impl StepObserver for ForwardRecorder<'_> {
         }
     }
 
-    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
+    fn event(&mut self, kind: &'static str, at: MotionState) {
         if kind == "turning-point"
             && let Some(bounded_motion) = &mut self.bounded_motion
         {
-            bounded_motion.add_turning_point(angle);
+            bounded_motion.add_turning_point(at.angle);
         }
-        let at = MotionState { t, angle, speed };
         let crank = |equation: &Arc<CurveEquation>| crank_state(equation, at);
         let at = self.curve.as_ref().map_or(at, crank);
         self.recorder.event(Event::new(kind, at));

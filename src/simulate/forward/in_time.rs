@@ -156,8 +156,8 @@ impl StepObserver for ResumeCondition<'_, '_> {
         ends || self.is_met
     }
 
-    fn event(&mut self, kind: &'static str, t: f64, angle: Angle, speed: f64) {
-        self.observer.event(kind, t, angle, speed);
+    fn event(&mut self, kind: &'static str, at: MotionState) {
+        self.observer.event(kind, at);
     }
 }
 
