@@ -3,7 +3,8 @@
 use crate::numeric::median::median;
 use serde::Serialize;
 
-use super::row::{Doubt, InverseRow, LONG_ARM};
+use super::inverse_dynamics::Leverage;
+use super::row::InverseRow;
 
 /// Stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,6 +33,9 @@ pub struct BandRule {
     /// Rule in words.
     pub rule: &'static str,
 }
+
+/// Lever arm |x'|, in crank lengths, below which forces may be left empty.
+const LONG_ARM: f64 = 0.5;
 
 const RULE: &str = "within |x'| < r/2 the slider force is left empty where half of its 95 % band is wider than the largest crank torque of the motion (or ten times the median half-width of that torque's band, if larger) over the crank length, or where x' is less than five standard errors from zero; near the limit of a rocker (cos phi < 0.3) the width alone counts, and each torque of a rocker is divided by |x'| where that is longer than the crank; it is left empty too with friction or dry loads where the crank speed is less than five standard errors from zero";
 
@@ -71,22 +75,25 @@ impl BandRule {
     pub(super) fn reason(
         &self,
         row: &InverseRow,
-        doubt: &Doubt,
+        leverage: &Leverage,
         factor: f64,
     ) -> Option<&'static str> {
         let [force, error] =
             [row.slider_force, row.slider_force_se].map(|value| value.unwrap_or(f64::NAN));
         let narrow = factor * error <= self.half_width_max_n;
+        let (arm, near_limit) = (leverage.arm.abs(), leverage.near_limit);
+        // Not-a-number counts as uncertain.
+        let certain = arm > 5.0 * leverage.arm_se;
         if !force.is_finite() || !error.is_finite() {
             // At a dead centre itself the lever arm is zero.
-            Some(if doubt.near_limit { AT_LIMIT } else { NO_SIGN })
-        } else if !doubt.friction_known {
+            Some(if near_limit { AT_LIMIT } else { NO_SIGN })
+        } else if !leverage.friction_known {
             Some(AT_REST)
-        } else if doubt.near_limit && !narrow {
+        } else if near_limit && !narrow {
             Some(TOO_WIDE_AT_LIMIT)
-        } else if doubt.long_arm {
+        } else if arm >= self.arm_m {
             None
-        } else if !doubt.certain {
+        } else if !certain {
             Some(NO_SIGN)
         } else if !narrow {
             Some(TOO_WIDE)

@@ -7,7 +7,8 @@ use super::prior::Prior;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
-use super::samples::{kinematic, record};
+use super::row::Residual;
+use super::samples::{self, kinematic};
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
@@ -19,14 +20,12 @@ use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement};
 
 /// Estimated motion, with residuals and figures of the fit.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Fitted {
     /// Motion at each row of the measurement.
     pub motion: Vec<MotionEstimate>,
-    /// Measured values, rad or m; a crank angle continued over the turns, a crank-pin angle with its sign.
-    pub measured: Vec<f64>,
-    /// Measured minus fitted values, rad or m.
-    pub residuals: Vec<f64>,
+    /// Measured values and residuals; a crank-pin angle has its sign.
+    pub residuals: Vec<Residual>,
     /// Degrees of freedom of the noise.
     pub free: f64,
     pub summary: FitSummary,
@@ -62,14 +61,14 @@ impl Fitted {
         options: &InverseOptions,
         sources: &[Source],
     ) -> Result<Fitted, String> {
-        let record = record(measurement, angles);
+        let record = samples::record(measurement, angles);
         let degree = match options.size {
             FitSize::Auto => None,
             FitSize::Fixed(degree) => Some(degree),
         };
         let polynomial = |reason: &str| {
             let found = Polynomial::new(&record, &angles.theta, degree)?;
-            let fitted = Fitted::of_polynomial(&record, &found, reason);
+            let fitted = Fitted::of_polynomial(measurement, &record, &found, reason);
             let degree = fitted.summary.degree;
             let of =
                 |source: &Source| source.polynomial(&record, &fitted.motion, degree, measurement);
@@ -138,30 +137,27 @@ impl Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
-            ..Fitted::of_smoother(
-                &record(measurement, angles),
-                &problem,
-                &smoothed,
-                &candidates,
-            )
+            ..Fitted::of_smoother(measurement, angles, &problem, &smoothed, &candidates)
         }
     }
 
     fn of_smoother(
-        samples: &Record<'_>,
+        measurement: &Measurement,
+        angles: &CrankAngles<'_>,
         problem: &Problem<'_>,
         smoothed: &Smoothed,
         candidates: &[(Prior, f64)],
     ) -> Fitted {
+        let samples = samples::record(measurement, angles);
         let record = &problem.record;
-        let motion = problem.motion_at(smoothed, samples.times.as_ref());
+        let motion = problem.motion_at(smoothed, measurement.elapsed());
         let sigma = smoothed.noise.sigma;
         let parameters = problem.parameters(smoothed, &motion);
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;
-        let mut fitted = Fitted::of_motion(samples, motion);
-        let size = |row: &usize| fitted.residuals[*row].abs();
+        let mut fitted = Fitted::of_motion(measurement, &samples, motion);
+        let size = |row: &usize| fitted.residuals[*row].residual.abs();
         fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
         let beside = record.beside.iter().map(|other| SensorSummary {
             column: other.sensor.measured.name(),
@@ -213,14 +209,19 @@ impl Fitted {
         fitted
     }
 
-    fn of_polynomial(record: &Record<'_>, polynomial: &Polynomial, reason: &str) -> Fitted {
+    fn of_polynomial(
+        measurement: &Measurement,
+        record: &Record<'_>,
+        polynomial: &Polynomial,
+        reason: &str,
+    ) -> Fitted {
         let Polynomial {
             fit,
             motion,
             converged,
         } = polynomial;
-        let mut fitted = Fitted::of_motion(record, motion.clone());
-        let whiteness = Whiteness::of(fitted.residuals.iter().copied());
+        let mut fitted = Fitted::of_motion(measurement, record, motion.clone());
+        let whiteness = Whiteness::of(fitted.residuals.iter().map(|row| row.residual));
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
@@ -246,20 +247,32 @@ impl Fitted {
     }
 
     /// Computes measured values and residuals of a motion.
-    fn of_motion(record: &Record<'_>, motion: Vec<MotionEstimate>) -> Fitted {
-        let sensor = record.sensor;
-        let value = |row: usize| record.values[row];
+    fn of_motion(
+        measurement: &Measurement,
+        record: &Record<'_>,
+        motion: Vec<MotionEstimate>,
+    ) -> Fitted {
+        let (sensor, times) = (record.sensor, measurement.times());
         let residuals = parallel::list(motion.len(), |row| {
-            sensor.residual(value(row), motion[row].value[0]).0
-        });
-        let measured = parallel::list(motion.len(), |row| match sensor.measured {
-            Measured::Gamma => sensor.shown(motion[row].value[0]).value + residuals[row],
-            _ => value(row),
+            let value = record.values[row];
+            let (residual, shown) = sensor.residual(value, motion[row].value[0]);
+            Residual {
+                t: times[row],
+                measured: match sensor.measured {
+                    Measured::Gamma => shown.value + residual,
+                    _ => value,
+                },
+                residual,
+            }
         });
         let n = residuals.len() as f64;
-        let squares: f64 = residuals.iter().map(|r| r * r).sum();
-        let mean = measured.iter().sum::<f64>() / n;
-        let about: f64 = measured.iter().map(|v| (v - mean) * (v - mean)).sum();
+        let squares: f64 = residuals
+            .iter()
+            .map(|row| row.residual * row.residual)
+            .sum();
+        let measured = residuals.iter().map(|row| row.measured);
+        let mean = measured.clone().sum::<f64>() / n;
+        let about: f64 = measured.map(|v| (v - mean) * (v - mean)).sum();
         let summary = FitSummary {
             r_squared: if about > 0.0 {
                 1.0 - squares / about
@@ -271,19 +284,11 @@ impl Fitted {
         };
         Fitted {
             motion,
-            measured,
             residuals,
-            free: 1.0,
             summary,
-            patterned: false,
-            converged: true,
-            cycle: 0,
-            told: 0.0,
-            farthest_outlier: None,
-            coded: None,
-            moved: Vec::new(),
             of_noise: 1.0,
             floor: record.floor,
+            ..Fitted::default()
         }
     }
 }

@@ -3,24 +3,17 @@
 
 use super::guide::Guide;
 use super::motion_estimate::MotionEstimate;
+use super::row::InverseRow;
 use crate::mechanism::{Equation, LoadValue, Pose, Sense, Terms};
 use crate::scene::Instant;
 
-/// Torque, force and lever arm at one sample.
+/// Lever arm of the slider force at one sample, and what leaves the force in doubt.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Demand {
-    /// Torque on the crank that the motion needs beside the torques of the scene, N m.
-    pub torque: f64,
-    /// Standard error of the torque, N m.
-    pub torque_se: f64,
+pub(super) struct Leverage {
     /// Lever arm x', m/rad.
     pub arm: f64,
     /// Standard error of x', m/rad.
     pub arm_se: f64,
-    /// Force on the slider that drives the motion in place of the torque, N.
-    pub force: f64,
-    /// Standard error of the force, N.
-    pub force_se: f64,
     /// Whether the rod is nearly normal to the guide, where the terms of the equation grow without bound.
     pub near_limit: bool,
     /// Whether friction of the guide and dry loads are known: none in the scene, or the slider certainly slides.
@@ -93,9 +86,15 @@ impl InverseDynamics<'_> {
         self.needed_at(t, &self.equation.terms(at[0]), at, sense.signum())
     }
 
-    /// Computes force, torque and standard errors of a state. At rest friction and dry loads may be anything up to
-    /// their magnitude: the torque is then the middle of its range, and its standard error includes half of the range.
-    pub fn demand(&self, t: f64, state: &MotionEstimate) -> Demand {
+    /// Computes force and torque of a state, before the rule of empty forces is applied; `with_shared` adds the errors that all
+    /// samples share to the standard errors of force and torque. At rest friction and dry loads may be anything up to their
+    /// magnitude: the torque is then the middle of its range, and its standard error includes half of the range.
+    pub fn demand(
+        &self,
+        t: f64,
+        state: &MotionEstimate,
+        with_shared: impl Fn([f64; 2]) -> [f64; 2],
+    ) -> (InverseRow, Leverage) {
         let [theta, omega, alpha] = state.value;
         let terms = self.equation.terms(theta);
         let moves = omega.abs() > 5.0 * state.error(&[0.0, 1.0, 0.0], 0.0);
@@ -154,15 +153,28 @@ impl InverseDynamics<'_> {
         let of_arm = 4.0 * f64::EPSILON * r;
         let of_force = (rounding + of_arm * force.abs()) / arm.abs();
         let bend = [(ends[0].2 - ends[1].2) / wide, 0.0, 0.0];
-        Demand {
-            torque,
-            torque_se: state.error(&gradients[1], rounding) + bent[1] + holding,
+        let [force_se, torque_se] = with_shared([
+            state.error(&gradients[0], of_force) + bent[0],
+            state.error(&gradients[1], rounding) + bent[1] + holding,
+        ]);
+        let is_known = torque.is_finite() && torque_se.is_finite();
+        let row = InverseRow {
+            t,
+            theta,
+            omega,
+            alpha,
+            slider_force: Some(force),
+            slider_force_se: Some(force_se),
+            crank_torque: is_known.then_some(torque),
+            crank_torque_se: is_known.then_some(torque_se),
+            near_dead_centre: false,
+        };
+        let leverage = Leverage {
             arm,
             arm_se: state.error(&bend, of_arm),
-            force,
-            force_se: state.error(&gradients[0], of_force) + bent[0],
             near_limit,
             friction_known,
-        }
+        };
+        (row, leverage)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::bands::{BandRule, DeadCentreBand, alike};
 use super::fitted::Fitted;
-use super::inverse_dynamics::InverseDynamics;
-use super::row::{Doubt, InverseRow, Residual};
+use super::inverse_dynamics::{InverseDynamics, Leverage};
+use super::row::InverseRow;
 use super::shared_errors::SharedErrors;
 use crate::mechanism::Linkage;
 use crate::numeric::parallel;
@@ -17,25 +17,6 @@ pub(super) struct Rows {
     pub rule: BandRule,
     /// First sample whose crank angle the mechanism cannot take.
     pub unreachable: Option<usize>,
-}
-
-/// Computes all rows with their forces, and the criteria of doubt for each.
-fn demanded(
-    backwards: &InverseDynamics<'_>,
-    fitted: &Fitted,
-    measurement: &Measurement,
-    shared: &SharedErrors,
-) -> (Vec<InverseRow>, Vec<Doubt>) {
-    let times = measurement.times();
-    let r = backwards.equation.linkage().r;
-    let rows = parallel::list(times.len(), |i| {
-        let state = fitted.motion[i].stretched(measurement.period_uncertainty());
-        let mut demand = backwards.demand(times[i], &state);
-        [demand.force_se, demand.torque_se] = shared.with(i, [demand.force_se, demand.torque_se]);
-        let row = InverseRow::new(times[i], &state, &demand);
-        (row, Doubt::new(&demand, r))
-    });
-    rows.into_iter().unzip()
 }
 
 /// Returns crank torques and standard errors, N m; those of a rocker over |x'| in crank lengths where it exceeds 1, for
@@ -55,17 +36,6 @@ fn torques<'a>(
     })
 }
 
-impl Residual {
-    pub(super) fn list(fitted: &Fitted, measurement: &Measurement) -> Vec<Residual> {
-        let times = measurement.times();
-        parallel::list(times.len(), |i| Residual {
-            t: times[i],
-            measured: fitted.measured[i],
-            residual: fitted.residuals[i],
-        })
-    }
-}
-
 impl Rows {
     /// Computes the rows; half of a 95 % band is `factor` standard errors.
     pub fn new(
@@ -76,24 +46,28 @@ impl Rows {
         factor: f64,
     ) -> Rows {
         let linkage = backwards.equation.linkage();
-        let (rows, doubts) = demanded(backwards, fitted, measurement, shared);
+        let times = measurement.times();
+        let (rows, leverages) = parallel::pairs(times.len(), |i| {
+            let state = fitted.motion[i].stretched(measurement.period_uncertainty());
+            backwards.demand(times[i], &state, |noise| shared.with(i, noise))
+        });
         let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
         let mut found = Rows {
             rows,
             bands: Vec::new(),
             rule,
-            unreachable: doubts.iter().position(|doubt| !doubt.exists),
+            unreachable: leverages.iter().position(|one| !one.arm.is_finite()),
         };
-        found.leave_out_doubtful(&doubts, factor);
+        found.leave_out_doubtful(&leverages, factor);
         found
     }
 
     /// Empties the forces that are in doubt, and lists the bands.
-    fn leave_out_doubtful(&mut self, doubts: &[Doubt], factor: f64) {
+    fn leave_out_doubtful(&mut self, leverages: &[Leverage], factor: f64) {
         let mut before: Option<&str> = None;
-        for (i, doubt) in doubts.iter().enumerate() {
+        for (i, leverage) in leverages.iter().enumerate() {
             let row = &mut self.rows[i];
-            let reason = self.rule.reason(row, doubt, factor);
+            let reason = self.rule.reason(row, leverage, factor);
             if let Some(reason) = reason {
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;

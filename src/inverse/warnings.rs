@@ -121,7 +121,7 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
         warnings.push(format!(
             "{samples}, the farthest at {} by {}",
             measurement.place(farthest),
-            measurement.shown(fitted.residuals[farthest])
+            measurement.shown(fitted.residuals[farthest].residual)
         ));
     }
     if summary.kind == "polynomial" && measurement.has_sensors_beside() {

@@ -13,8 +13,19 @@ pub fn map<J: Send, R: Send>(
 
 /// Returns the list of `f(0)`, `f(1)`, ... of this length.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    // Parts that pay for a thread.
+    entries(length).map(&f).collect()
+}
+
+/// Returns the lists of the first and of the second values of `f(0)`, `f(1)`, ...
+pub fn pairs<A: Send, B: Send>(
+    length: usize,
+    f: impl Fn(usize) -> (A, B) + Sync,
+) -> (Vec<A>, Vec<B>) {
+    entries(length).map(&f).unzip()
+}
+
+/// Returns the indices of a list, in parts that pay for a thread.
+fn entries(length: usize) -> impl IndexedParallelIterator<Item = usize> {
     let least = 1 << 12;
-    let indices = (0..length).into_par_iter().with_min_len(least);
-    indices.map(&f).collect()
+    (0..length).into_par_iter().with_min_len(least)
 }
