@@ -237,23 +237,25 @@ fn recovered(
         &equation,
         &found.rows,
     ));
+    let [slider_force, crank_torque] = ForceRange::of_rows(&found.rows);
     let summary = InverseSummary {
+        scene: scene.title.clone().unwrap_or_default(),
+        plan,
+        data: DataSummary::new(measurement, &found.rows),
+        fit: fitted.summary,
+        beside_forces: options.beside_forces,
+        band_factor: factor,
+        slider_force,
+        crank_torque: crank_torque.unwrap_or_default(),
         error_budget: shared.budget(&found.rows),
-        ..InverseSummary::new(
-            scene,
-            plan,
-            measurement,
-            &fitted,
-            &found,
-            (options.beside_forces, factor),
-            warnings,
-        )
+        dead_centre_bands: found.bands,
+        dead_centre_rule: found.rule,
+        warnings,
     };
-    let residuals = Residual::list(&fitted, measurement);
     Ok(Inverse {
         summary,
         rows: found.rows,
-        residuals,
+        residuals: fitted.residuals,
         reactor,
         equation,
         shared,

@@ -3,14 +3,11 @@
 use serde::Serialize;
 
 use super::bands::{BandRule, DeadCentreBand};
-use super::fitted::Fitted;
 use super::row::InverseRow;
-use super::rows::Rows;
 use super::shared_errors::BudgetShare;
 use crate::numeric::median::median;
-use crate::numeric::parallel;
 use crate::plan::Plan;
-use crate::scene::{Measurement, Scene};
+use crate::scene::Measurement;
 
 /// Summary of an inverse computation; its JSON is the object that `inverse --json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -139,7 +136,7 @@ pub struct CandidateSummary {
 }
 
 /// Smallest and largest value, and median of the standard errors.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ForceRange {
     /// Smallest value, N or N m.
     pub min: f64,
@@ -161,6 +158,17 @@ pub struct ForceRange {
 type Estimate = (f64, f64, f64);
 
 impl ForceRange {
+    /// Returns the ranges of slider force and crank torque of the rows that have them.
+    pub(super) fn of_rows(rows: &[InverseRow]) -> [Option<ForceRange>; 2] {
+        let of: [fn(&InverseRow) -> Option<Estimate>; 2] = [
+            |row| Some((row.t, row.slider_force?, row.slider_force_se?)),
+            |row| Some((row.t, row.crank_torque?, row.crank_torque_se?)),
+        ];
+        let range = |of| ForceRange::of(rows.iter().filter_map(of));
+        let [force, torque] = of;
+        rayon::join(|| range(force), || range(torque)).into()
+    }
+
     fn of(mut values: impl Iterator<Item = Estimate>) -> Option<ForceRange> {
         let first = values.next()?;
         let (mut min, mut max, mut errors) = (first, first, vec![first.2]);
@@ -186,50 +194,8 @@ impl ForceRange {
     }
 }
 
-impl InverseSummary {
-    pub(super) fn new(
-        scene: &Scene,
-        plan: Plan,
-        measurement: &Measurement,
-        fitted: &Fitted,
-        found: &Rows,
-        (beside_forces, band_factor): (bool, f64),
-        warnings: Vec<String>,
-    ) -> InverseSummary {
-        let of: [fn(&InverseRow) -> Option<Estimate>; 2] = [
-            |row| Some((row.t, row.slider_force?, row.slider_force_se?)),
-            |row| Some((row.t, row.crank_torque?, row.crank_torque_se?)),
-        ];
-        let range = |of| ForceRange::of(found.rows.iter().filter_map(of));
-        let ranges = parallel::map(of.into_iter(), range);
-        let nothing = ForceRange {
-            min: 0.0,
-            min_t_s: 0.0,
-            min_se: 0.0,
-            max: 0.0,
-            max_t_s: 0.0,
-            max_se: 0.0,
-            median_se: 0.0,
-        };
-        InverseSummary {
-            scene: scene.title.clone().unwrap_or_default(),
-            plan,
-            data: DataSummary::new(measurement, &found.rows),
-            fit: fitted.summary.clone(),
-            beside_forces,
-            band_factor,
-            slider_force: ranges[0],
-            crank_torque: ranges[1].unwrap_or(nothing),
-            error_budget: Vec::new(),
-            dead_centre_bands: found.bands.clone(),
-            dead_centre_rule: found.rule,
-            warnings,
-        }
-    }
-}
-
 impl DataSummary {
-    fn new(measurement: &Measurement, rows: &[InverseRow]) -> DataSummary {
+    pub(super) fn new(measurement: &Measurement, rows: &[InverseRow]) -> DataSummary {
         let (first, last) = (&rows[0], &rows[rows.len() - 1]);
         DataSummary {
             file: measurement.file(),
