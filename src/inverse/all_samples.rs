@@ -28,6 +28,7 @@ impl Problem<'_> {
             prior: motion.prior,
             scales,
         };
+        let states = motion.prior.states() + usize::from(first.correlated.is_some());
         let [lowest, highest] = scales.corners().map(f64::ln);
         let mut likeliest = *first;
         for _ in 0..CORNER_ROUNDS {
@@ -38,7 +39,8 @@ impl Problem<'_> {
                 likelihood: f64::NEG_INFINITY,
                 ..*first
             });
-            let evidences = self.evidences(motion, path, &linear, &noises);
+            let evidences =
+                with_dimension!(states, N => self.filtered::<N>(motion, path, &linear, &noises));
             let pairs = noises.iter().zip(&evidences);
             let judged: Vec<Noise> = pairs.map(|(n, e)| linear.judged(*n, e, 1)).collect();
             likeliest = judged.iter().copied().fold(judged[2], better);
@@ -56,18 +58,6 @@ impl Problem<'_> {
     }
 
     /// Computes the likelihood terms of several noises.
-    fn evidences(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        linear: &Linear<'_>,
-        noises: &[Noise],
-    ) -> Vec<Evidence> {
-        let correlated = noises.iter().any(|noise| noise.correlated.is_some());
-        let states = motion.prior.states() + usize::from(correlated);
-        with_dimension!(states, N => self.filtered::<N>(motion, path, linear, noises))
-    }
-
     fn filtered<const N: usize>(
         &self,
         motion: &Motion<'_>,

@@ -4,12 +4,13 @@ use std::ops::Range;
 
 use super::grid::Path;
 use super::harmonics::{Increments, ways};
-use super::likelihood::{Linear, Stretch};
+use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, better};
 use super::prior::{LADDERS, Prior, SMOOTH, TORQUE};
 use super::problem::Problem;
-use super::scales::{Autoregression, Noise, Scales};
+use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
+use super::state_space::Stretch;
 use crate::numeric::parallel;
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
@@ -61,7 +62,7 @@ impl About {
         prior: Prior,
         first: Noise,
         least: f64,
-        correlated: &[Autoregression],
+        correlated: &[f64],
     ) -> Option<Candidate> {
         let linear = self.linear(prior);
         let first = linear.begun(first);
@@ -95,7 +96,7 @@ impl Problem<'_> {
     }
 
     /// Priors about a path, the likeliest first.
-    pub fn tried(&self, kinematic: &Smoothed, correlated: &[Autoregression]) -> Vec<Candidate> {
+    pub fn tried(&self, kinematic: &Smoothed, correlated: &[f64]) -> Vec<Candidate> {
         let is_computed = self.record.is_computed();
         let tried = parallel::map(LADDERS.iter(), |ladder| {
             let about = self.about(ladder[0], kinematic);
@@ -123,7 +124,7 @@ impl Problem<'_> {
         turns: f64,
         tried: &[Candidate],
         abouts: &[About],
-        correlated: &[Autoregression],
+        correlated: &[f64],
     ) -> Vec<Candidate> {
         let torque = tried.iter().find(|one| one.prior == TORQUE);
         let torque = torque.filter(|_| turns >= 2.0);

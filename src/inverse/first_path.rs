@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::estimate::Estimate;
-use super::grid::{Grid, Path};
+use super::grid::{Grid, NODE_ROTATION, Path};
 use super::prior::{Prior, State, Unknown};
 use super::problem::Problem;
 use super::smoother::Smoothed;
@@ -67,7 +67,7 @@ impl Problem<'_> {
         let angles = from.estimates.iter().map(|estimate| estimate.state[0]);
         let corner = found.noise.corner.max(found.noise.speed_corner);
         let is_white = self.grid.block == 0.0 && found.noise.correlated.is_none();
-        let blocks = Grid::of_long_blocks(&self.record.times, angles)
+        let blocks = Grid::in_blocks(&self.record.times, angles, NODE_ROTATION[0])
             .filter(|blocks| is_white && blocks.resolves(corner));
         let Some(blocks) = blocks else {
             return self.path_of(found.prior, from, self.all());

@@ -198,7 +198,7 @@ impl Fitted {
             parameters,
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
             intensities: intensities.collect(),
-            noise_correlation_s: smoothed.noise.correlated.map(|c| 1.0 / c.decay),
+            noise_correlation_s: smoothed.noise.correlated.map(f64::recip),
             beside: beside.collect(),
             outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,

@@ -34,15 +34,6 @@ pub(super) struct Visit<const N: usize> {
     pub step: Option<Step<N>>,
 }
 
-/// Companion of the filter that goes back with the smoother.
-pub(super) trait Returning<const N: usize>: Companion<N> {
-    /// Called when the smoother returns to a node.
-    #[inline(always)]
-    fn returned(&mut self, _node: usize, _visit: &Visit<N>) {}
-}
-
-impl<const N: usize> Returning<N> for () {}
-
 impl<const N: usize> Gaussian<N> {
     /// Returns the distribution by all samples.
     #[inline(always)]
@@ -129,9 +120,9 @@ impl<C: Companion<N>, const N: usize> Companion<N> for Forward<'_, C, N> {
 /// deviations (in units of σ), by node.
 pub(super) fn smooth<const N: usize>(
     model: &Deviations<'_>,
-    companion: &mut impl Returning<N>,
+    companion: &mut impl Companion<N>,
 ) -> (Vec<Gaussian<N>>, Vec<Option<f64>>) {
-    let nodes = model.observed.len();
+    let nodes = model.stretch.observed.len();
     let mut forward = Forward {
         path: Vec::with_capacity(nodes),
         innovations: vec![None; nodes],
@@ -172,47 +163,37 @@ mod tests {
     use nalgebra::{DMatrix, DVector, Matrix3, RowVector3, Vector3};
 
     use super::*;
-    use crate::inverse::harmonics::Increments;
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::{Prior, Unknown};
-    use crate::inverse::state_space::Observed;
+    use crate::inverse::state_space::{Observed, Stretch};
     use crate::inverse::transition::exponential;
 
     const STEPS: usize = 800;
 
-    /// Returns a crank with losses under an unknown torque, over 80 of its time constants.
-    fn step() -> Linearised {
-        Linearised {
+    /// Returns samples of a crank with losses under an unknown torque; `STEPS` are 80 of its time constants.
+    fn stretch(steps: usize) -> Stretch {
+        let step = Linearised {
             h: 0.1,
             top: exponential(0.1, 0.0, -1.0, 1.7),
             lever: 1.7,
             intensity: 1.0,
             ..Linearised::default()
+        };
+        let observed = |k: usize| Observed {
+            residual: (1.7 * k as f64).sin() + 0.01 * k as f64,
+            slope: 1.0,
+            variance: 1.0,
+        };
+        Stretch {
+            steps: vec![step; steps],
+            observed: (0..=steps).map(observed).collect(),
+            ..Stretch::default()
         }
     }
 
-    fn observed() -> Vec<Observed> {
-        let residual = |k: usize| (1.7 * k as f64).sin() + 0.01 * k as f64;
-        let [slope, variance] = [1.0; 2];
-        (0..=STEPS)
-            .map(|k| Observed {
-                residual: residual(k),
-                slope,
-                variance,
-            })
-            .collect()
-    }
-
-    fn model<'a>(
-        steps: &'a [Linearised],
-        increments: &'a Increments,
-        observed: &'a [Observed],
-        noise: f64,
-    ) -> Deviations<'a> {
+    fn model(stretch: &Stretch, noise: f64) -> Deviations<'_> {
         Deviations {
-            steps,
-            increments,
-            observed,
+            stretch,
             prior: Prior::new(Unknown::Torque, 1),
             noise,
             speed_noise: 0.0,
@@ -230,8 +211,8 @@ mod tests {
     /// start as wide as 1e5 σ.
     #[test]
     fn the_smoother_is_as_stable_as_the_mechanism() {
-        let (steps, increments, observed) = ([step(); STEPS], Increments::default(), observed());
-        let model = model(&steps, &increments, &observed, 0.0);
+        let stretch = stretch(STEPS);
+        let model = model(&stretch, 0.0);
         let (found, _) = smooth::<3>(&model, &mut ());
         let transition = Matrix3::from_fn(|i, j| model.step::<3>(0).transition[i][j]);
         let mut powers = vec![Matrix3::identity()];
@@ -239,7 +220,7 @@ mod tests {
         let spread = Vector3::new(1e3, 1e4, 1e5).map(|spread| f64::powi(spread, -2));
         let mut information = Matrix3::from_diagonal(&spread);
         let mut sum = Vector3::zeros();
-        for (power, observed) in powers.iter().zip(&observed) {
+        for (power, observed) in powers.iter().zip(&stretch.observed) {
             let row: RowVector3<f64> = power.row(0).into();
             information += row.transpose() * row;
             sum += row.transpose() * observed.residual;
@@ -258,9 +239,8 @@ mod tests {
     #[test]
     fn the_smoother_solves_the_normal_equations() {
         const NODES: usize = 30;
-        let (steps, increments, observed) =
-            ([step(); NODES - 1], Increments::default(), observed());
-        let model = model(&steps, &increments, &observed[..NODES], 0.3);
+        let stretch = stretch(NODES - 1);
+        let model = model(&stretch, 0.3);
         let (found, _) = smooth::<3>(&model, &mut ());
         let [transition, noise] = [model.step::<3>(0).transition, model.step::<3>(0).noise]
             .map(|matrix| Matrix3::from_fn(|i, j| matrix[i][j]));
@@ -272,7 +252,7 @@ mod tests {
         }
         for node in 0..NODES {
             information[(3 * node, 3 * node)] += 1.0;
-            right[3 * node] = observed[node].residual;
+            right[3 * node] = stretch.observed[node].residual;
         }
         // What a step leaves: the state after it less what follows from the state before.
         let sides = [-transition, Matrix3::identity()];

@@ -110,18 +110,19 @@ impl Piece<'_> {
 
 /// Largest way of the crank from node to node, rad, for measured and for computed samples: a step leaves out about 1e-10 rad,
 /// or no more than rounding.
-const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 400.0];
+pub(super) const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 400.0];
 
 /// Least number of blocks or nodes of a long record, and largest crank rotation within a block, rad.
 const LEAST_BLOCKS: usize = 50_000;
-const BLOCK_ROTATION: f64 = 0.02;
+pub(super) const BLOCK_ROTATION: f64 = 0.02;
 
 /// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
 const BLOCK_PHASE: f64 = 0.3;
 
 impl Grid {
-    /// Returns nodes that stand for blocks of samples, if there are so many that blocks of at most this rotation, rad, pay.
-    fn in_blocks(
+    /// Returns nodes that stand for blocks of samples, if there are so many that blocks of at most this rotation, rad, pay:
+    /// `BLOCK_ROTATION` where little may happen in a block, `NODE_ROTATION` for the motion of an equation that is known in it.
+    pub fn in_blocks(
         times: &[f64],
         angles: impl ExactSizeIterator<Item = f64>,
         longest: f64,
@@ -148,19 +149,6 @@ impl Grid {
             first,
             block: widest,
         })
-    }
-
-    /// Returns blocks in which little happens along crank angles, rad.
-    pub fn of_blocks(times: &[f64], angles: impl ExactSizeIterator<Item = f64>) -> Option<Grid> {
-        Grid::in_blocks(times, angles, BLOCK_ROTATION)
-    }
-
-    /// Returns blocks as long as the way from node to node may be, for the motion of an equation that is known in a block.
-    pub fn of_long_blocks(
-        times: &[f64],
-        angles: impl ExactSizeIterator<Item = f64>,
-    ) -> Option<Grid> {
-        Grid::in_blocks(times, angles, NODE_ROTATION[0])
     }
 
     /// True if a smoother with a corner frequency, rad/s, finds nothing but noise within a block.

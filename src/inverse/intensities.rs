@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::fixed_interval::{self, Returning, Visit};
+use super::fixed_interval::{self, Visit};
 use super::kalman::{Companion, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
@@ -37,9 +37,7 @@ struct Scores {
     list: Vec<Score>,
 }
 
-impl<const N: usize> Companion<N> for Scores {}
-
-impl<const N: usize> Returning<N> for Scores {
+impl<const N: usize> Companion<N> for Scores {
     /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
     fn returned(&mut self, node: usize, visit: &Visit<N>) {
         let Some(Step { noise, .. }) = &visit.step else {
@@ -64,7 +62,7 @@ impl<const N: usize> Returning<N> for Scores {
 fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
     let mut scores = Scores {
         per_variance: 1.0 / (sigma * sigma),
-        list: vec![Score::default(); model.steps.len()],
+        list: vec![Score::default(); model.stretch.steps.len()],
     };
     fixed_interval::smooth::<N>(model, &mut scores);
     scores.list
@@ -184,23 +182,16 @@ impl Problem<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inverse::harmonics::Increments;
-    use crate::inverse::kalman;
+    use crate::inverse::kalman::{self, Evidence};
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::TORQUE;
-    use crate::inverse::state_space::Observed;
+    use crate::inverse::state_space::{Observed, Stretch};
     use crate::inverse::transition::exponential;
 
-    /// Returns a model of samples about a path of these steps.
-    fn model<'a>(
-        steps: &'a [Linearised],
-        increments: &'a Increments,
-        observed: &'a [Observed],
-    ) -> Deviations<'a> {
+    /// Returns a model of a stretch of samples.
+    fn model(stretch: &Stretch) -> Deviations<'_> {
         Deviations {
-            steps,
-            increments,
-            observed,
+            stretch,
             prior: TORQUE,
             noise: 3.0,
             speed_noise: 0.0,
@@ -219,20 +210,23 @@ mod tests {
             intensity: 1.0,
             ..Linearised::default()
         };
-        let mut steps = vec![step; 20];
         let sample = |k: usize| Observed {
             residual: (3.0 * (k * k) as f64).sin() + 0.02 * (k * k) as f64,
             slope: 1.0,
             variance: 1.0,
         };
-        let observed: Vec<Observed> = (0..21).map(sample).collect();
-        let increments = Increments::default();
-        let found = scores::<3>(&model(&steps, &increments, &observed), 1.0);
+        let mut stretch = Stretch {
+            steps: vec![step; 20],
+            observed: (0..21).map(sample).collect(),
+            ..Stretch::default()
+        };
+        let found = scores::<3>(&model(&stretch), 1.0);
         for k in [0, 7, 19] {
             let mut at = |log: f64| {
-                steps[k].intensity = log.exp();
-                let evidence = kalman::evidence::<3>(&model(&steps, &increments, &observed));
-                steps[k].intensity = 1.0;
+                stretch.steps[k].intensity = log.exp();
+                let mut evidence = Evidence::default();
+                kalman::run::<3>(&model(&stretch), None, &mut evidence);
+                stretch.steps[k].intensity = 1.0;
                 -0.5 * (evidence.squares + evidence.log_variances)
             };
             let slope = (at(1e-3) - at(-1e-3)) / 2e-3;

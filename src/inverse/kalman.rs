@@ -6,6 +6,7 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
+use super::fixed_interval::Visit;
 use super::matrix::{Matrix, Vector, congruent, dot, sum, times};
 use super::state_space::Deviations;
 
@@ -63,6 +64,10 @@ pub(super) trait Companion<const N: usize> {
     /// Called after a sample has updated the state.
     #[inline(always)]
     fn updated(&mut self, _node: usize, _sample: &Sample<N>, _found: &Innovation<N>) {}
+
+    /// Called when the smoother returns to a node.
+    #[inline(always)]
+    fn returned(&mut self, _node: usize, _visit: &Visit<N>) {}
 }
 
 /// Likelihood terms of a model, from the prediction errors v of the samples with variances S.
@@ -134,13 +139,6 @@ impl<const N: usize> Companion<N> for Evidence {
     }
 }
 
-/// Computes the prediction error decomposition of the likelihood.
-pub(super) fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
-    let mut evidence = Evidence::default();
-    run::<N>(model, None, &mut evidence);
-    evidence
-}
-
 /// Runs the filter from the prior before the first sample, or from a known distribution after it.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
@@ -150,7 +148,7 @@ pub(super) fn run<const N: usize>(
 ) -> Gaussian<N> {
     let first = usize::from(known.is_some());
     let mut now = known.unwrap_or_else(|| model.start());
-    for node in first..model.observed.len() {
+    for node in first..model.stretch.observed.len() {
         if node > 0 {
             let step = model.step(node - 1);
             now = now.predicted(&step);

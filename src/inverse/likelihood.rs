@@ -1,15 +1,12 @@
 //! Marginal likelihood of a prior (prediction error decomposition with a diffuse start, that is REML), maximised over the
 //! intensity of its noise; the variance of a sample is profiled out.
 
-use super::harmonics::Increments;
 use super::kalman::{self, Evidence};
-use super::linearised::Linearised;
 use super::periodic::Regressed;
-use super::prior::Prior;
-use super::prior::State;
+use super::prior::{Prior, State};
 use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
-use super::state_space::{Deviations, Observed, with_dimension};
+use super::state_space::{Deviations, Stretch, with_dimension};
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]
@@ -18,15 +15,6 @@ pub(super) struct Linear<'a> {
     pub stretches: &'a [Stretch],
     pub prior: Prior,
     pub scales: Scales,
-}
-
-/// A stretch of nodes.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Stretch {
-    pub steps: Vec<Linearised>,
-    /// Increments of the harmonics of the periodic part in each step.
-    pub increments: Increments,
-    pub observed: Vec<Observed>,
 }
 
 impl Linear<'_> {
@@ -46,9 +34,7 @@ impl Linear<'_> {
     /// The linear model of one stretch.
     pub fn deviations<'a>(&self, stretch: &'a Stretch, noise: &Noise) -> Deviations<'a> {
         Deviations {
-            steps: &stretch.steps,
-            increments: &stretch.increments,
-            observed: &stretch.observed,
+            stretch,
             prior: self.prior,
             noise: self.scales.density(noise.corner, self.prior.order),
             speed_noise: match self.prior.follows_speed {
@@ -63,7 +49,11 @@ impl Linear<'_> {
     fn evidence(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            with_dimension!(model.dimension(), N => kalman::evidence::<N>(&model))
+            let mut evidence = Evidence::default();
+            with_dimension!(model.dimension(), N => {
+                kalman::run::<N>(&model, None, &mut evidence);
+            });
+            evidence
         };
         self.stretches.iter().map(of).sum()
     }

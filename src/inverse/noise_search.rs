@@ -2,7 +2,7 @@
 
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, better, climb};
-use super::scales::{Autoregression, Noise};
+use super::scales::Noise;
 
 /// A frequency of a noise, rad/s; none if the noise is without it.
 type Frequency = fn(&mut Noise) -> Option<&mut f64>;
@@ -50,7 +50,7 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
-    pub fn anywhere(&self, correlated: Option<Autoregression>) -> Noise {
+    pub fn anywhere(&self, correlated: Option<f64>) -> Noise {
         let lowest = (0.5 / self.scales.duration).ln();
         let highest = (3.0 / self.scales.spacing).ln();
         let count = (highest - lowest).ceil().max(1.0);
@@ -77,7 +77,7 @@ impl Linear<'_> {
     }
 
     /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess.
-    pub fn correlated(&self, from: &Noise, guesses: &[Autoregression]) -> Noise {
+    pub fn correlated(&self, from: &Noise, guesses: &[f64]) -> Noise {
         let tried = guesses.iter().map(|guess| {
             self.evaluated(Noise {
                 correlated: Some(*guess),
@@ -86,8 +86,6 @@ impl Linear<'_> {
             })
         });
         let best = tried.reduce(better).unwrap_or(*from);
-        self.in_turn(best, |noise| {
-            noise.correlated.as_mut().map(|noise| &mut noise.decay)
-        })
+        self.in_turn(best, |noise| noise.correlated.as_mut())
     }
 }

@@ -11,19 +11,18 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::fixed_interval::{Returning, Visit};
-use super::harmonics::{Increments, responses};
+use super::fixed_interval::Visit;
+use super::harmonics::responses;
 use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
 use super::repeating::dot;
-use super::state_space::Deviations;
+use super::state_space::{Deviations, Stretch};
 
 /// Derivatives of the state by the coefficients, along the filter.
 struct Columns<'a, const N: usize> {
-    steps: &'a [Linearised],
-    increments: &'a Increments,
+    stretch: &'a Stretch,
     /// Derivatives by the coefficients, one row for each state.
     of: Vec<f64>,
     /// Room for the rows after a step, and for E.
@@ -33,10 +32,9 @@ struct Columns<'a, const N: usize> {
 
 impl<'a, const N: usize> Columns<'a, N> {
     fn new(model: &Deviations<'a>) -> Self {
-        let count = model.increments.count;
+        let count = model.stretch.increments.count;
         Columns {
-            steps: model.steps,
-            increments: model.increments,
+            stretch: model.stretch,
             of: vec![0.0; N * count],
             room: vec![0.0; N * count],
             errors: vec![0.0; count],
@@ -58,9 +56,9 @@ impl<'a, const N: usize> Columns<'a, N> {
     /// Takes a step, with what the coefficients add to the state in it.
     fn step(&mut self, node: usize, step: &Step<N>) {
         self.transform(&step.transition);
-        let Linearised { h, lever, .. } = self.steps[node];
-        let torques = self.increments.of(node);
-        let rows = self.of.chunks_exact_mut(self.increments.count);
+        let Linearised { h, lever, .. } = self.stretch.steps[node];
+        let torques = self.stretch.increments.of(node);
+        let rows = self.of.chunks_exact_mut(self.errors.len());
         for (row, response) in rows.zip(responses(h, lever)) {
             for (factor, torque) in response.into_iter().zip(torques) {
                 add(row, factor, torque);
@@ -124,7 +122,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
 /// Derivatives of the smoothed states by the coefficients.
 pub(super) struct Sensitivities<'a, const N: usize> {
     regressed: Regressed<'a, N>,
-    found: Derivatives,
+    pub found: Derivatives,
     /// Samples that are not on the way back yet.
     left: usize,
 }
@@ -141,7 +139,7 @@ pub(super) struct Derivatives {
 impl<'a, const N: usize> Sensitivities<'a, N> {
     pub fn new(model: &Deviations<'a>, to: &'a mut Regression) -> Self {
         let regressed = Regressed::new(model, to);
-        let rows = model.observed.len();
+        let rows = model.stretch.observed.len();
         Sensitivities {
             found: Derivatives {
                 list: Vec::with_capacity(rows * regressed.columns.of.len()),
@@ -150,10 +148,6 @@ impl<'a, const N: usize> Sensitivities<'a, N> {
             regressed,
             left: 0,
         }
-    }
-
-    pub fn derivatives(self) -> Derivatives {
-        self.found
     }
 }
 
@@ -208,9 +202,7 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
         let rows = self.regressed.columns.errors.iter();
         self.found.errors.extend(rows.map(|value| value * per));
     }
-}
 
-impl<const N: usize> Returning<N> for Sensitivities<'_, N> {
     /// The rows follow the recursion of the smoother's correction.
     fn returned(&mut self, node: usize, visit: &Visit<N>) {
         let columns = &mut self.regressed.columns;

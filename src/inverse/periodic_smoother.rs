@@ -27,7 +27,7 @@ impl Problem<'_> {
             let model = linear.deviations(&stretch, noise);
             let mut sensitivities = Sensitivities::new(&model, &mut to);
             let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut sensitivities);
-            (deviations, innovations, sensitivities.derivatives())
+            (deviations, innovations, sensitivities.found)
         });
         let stretches: Vec<_> = stretches.collect();
         to.multiply();

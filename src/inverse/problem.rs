@@ -5,14 +5,15 @@ use std::ops::Range;
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
-use super::likelihood::{Linear, Stretch};
+use super::likelihood::Linear;
 use super::linearised::{Linearised, Motion, Node};
 use super::matrix::Matrix;
+use super::measurement_model::Scale;
 use super::prior::Prior;
 use super::record::Record;
 use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::with_dimension;
+use super::state_space::{Stretch, with_dimension};
 use super::{fixed_interval, kalman};
 use crate::mechanism::Equation;
 use crate::numeric::interpolate::cubic;
@@ -67,6 +68,17 @@ impl<'a> Problem<'a> {
             alpha: motion.acceleration(t, theta, omega, unknown)[0],
             covariance: std::array::from_fn(between),
             innovation: f64::NAN,
+        }
+    }
+
+    /// Returns the record less its codes by another mechanism and scale of the sensor, shifted by a zero, rad.
+    pub fn moved<'b>(&'b self, equation: &'b Equation, scale: Scale, zero: f64) -> Problem<'b> {
+        Problem {
+            record: self.record.moved(equation.linkage(), scale, zero),
+            grid: self.grid.clone(),
+            equation,
+            intensities: self.intensities.clone(),
+            stop: self.stop,
         }
     }
 

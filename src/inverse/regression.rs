@@ -127,18 +127,19 @@ impl Regression {
         let mut now = near.unwrap_or_else(|| self.likeliest_of_middle(sizes, rest));
         let mut found = self.solved(now)?;
         loop {
-            let mut step = self.scoring(&found, rest.variance(&found), now)?;
+            let step = self.scoring(&found, rest.variance(&found), now)?;
+            let mut part = 1.0;
             loop {
-                if step.rise.max(0.0) < ENOUGH_RISE {
+                if part * step.rise.max(0.0) < ENOUGH_RISE {
                     return Some((now, found));
                 }
-                let next = now.moved(step.change, sizes);
+                let next = now.moved(step.change.map(|change| part * change), sizes);
                 match self.solved(next) {
                     Some(other) if rest.likelihood(&other) > rest.likelihood(&found) => {
                         (now, found) = (next, other);
                         break;
                     }
-                    _ => step = step.halved(),
+                    _ => part *= 0.5,
                 }
             }
         }
@@ -216,15 +217,6 @@ impl Regression {
 struct Scoring {
     change: [f64; 2],
     rise: f64,
-}
-
-impl Scoring {
-    fn halved(self) -> Scoring {
-        Scoring {
-            change: self.change.map(|part| 0.5 * part),
-            rise: 0.5 * self.rise,
-        }
-    }
 }
 
 /// The coefficients given the samples, in units of σ.

@@ -1,13 +1,11 @@
 //! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
 use super::branch_tracking::CrankAngles;
-use super::grid::Grid;
+use super::grid::{BLOCK_ROTATION, Grid};
 use super::measurement_model::{Scale, Sensor};
-use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
-use super::record::Record;
-use super::record::SensorBeside;
+use super::record::{Record, SensorBeside};
 use super::scales::Intensities;
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
@@ -70,7 +68,7 @@ pub(super) fn problem<'a>(
     equation: &'a Equation,
     stop: Option<&'a Stop>,
 ) -> Problem<'a> {
-    let grid = Grid::of_blocks(&record.times, theta.iter().copied())
+    let grid = Grid::in_blocks(&record.times, theta.iter().copied(), BLOCK_ROTATION)
         .unwrap_or_else(|| Grid::new(&record.times, theta, record.is_computed()));
     Problem {
         record,
@@ -157,16 +155,14 @@ fn without_outliers<'a>(
         };
         few = judged.few;
         let before = std::mem::replace(&mut problem.record.weights, judged.weights);
-        let path = problem.path_of(KINEMATIC, &kinematic, problem.all());
-        kinematic = problem.kinematic(path, kinematic.noise.sigma);
+        kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
         if outliers::alike(&before, &problem.record.weights) {
             break;
         }
     }
     if !few {
         problem.record.weights.fill(1.0);
-        let path = problem.path_of(KINEMATIC, &kinematic, problem.all());
-        kinematic = problem.kinematic(path, kinematic.noise.sigma);
+        kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     (problem, kinematic)
 }

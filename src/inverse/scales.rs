@@ -37,8 +37,9 @@ pub(super) struct Noise {
     pub speed_corner: f64,
     /// Variances of the harmonics of the periodic part.
     pub spectrum: Option<Spectrum>,
-    /// First-order autoregression in the noise of the samples.
-    pub correlated: Option<Autoregression>,
+    /// Decay rate, 1/s, of the correlation of the sample noise, a first-order autoregression beside white noise; none for
+    /// white noise.
+    pub correlated: Option<f64>,
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
     /// ln of the marginal likelihood.
@@ -58,6 +59,9 @@ impl Noise {
         }
     }
 }
+
+/// White fraction of the variance of correlated noise, held fixed.
+pub(super) const WHITE_FRACTION: f64 = 0.02;
 
 /// Standard deviations of the initial state over those left by the first few samples alone: diffuse enough to count for
 /// 1e-6 of one sample, narrow enough to keep ten digits under rounding.
@@ -83,32 +87,15 @@ impl Scales {
         [0.1 / self.duration, 30.0 / self.spacing]
     }
 
+    /// Returns first decay rates of a correlation, 1/s: over 0.2, 1 and 5 samples.
+    pub fn decays(&self) -> [f64; 3] {
+        [0.2, 1.0, 5.0].map(|steps| 1.0 / (steps * self.spacing))
+    }
+
     /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.
     pub fn density(&self, corner: f64, order: usize) -> f64 {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);
         corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
-    }
-}
-
-/// Correlated sample noise: a first-order autoregression beside white noise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Autoregression {
-    /// Decay rate of the correlation, 1/s.
-    pub decay: f64,
-    /// White fraction of the variance of a sample.
-    pub white: f64,
-}
-
-/// White fraction of the variance of correlated noise, held fixed.
-const WHITE_FRACTION: f64 = 0.02;
-
-impl Autoregression {
-    /// Returns first guesses for a sample spacing, s: correlation over 0.2, 1 and 5 samples.
-    pub fn guesses(spacing: f64) -> [Autoregression; 3] {
-        [0.2, 1.0, 5.0].map(|steps| Autoregression {
-            decay: 1.0 / (steps * spacing),
-            white: WHITE_FRACTION,
-        })
     }
 }
 

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::alignment;
 use super::guide::Guide;
 use super::inverse_dynamics::InverseDynamics;
+use super::measurement_model::Scale;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::problem::Problem;
@@ -60,11 +61,9 @@ pub(super) fn sources(
 }
 
 impl Source {
-    /// Returns the samples under this error: a position sensor is aligned with the changed mechanism.
-    fn record<'a>(&'a self, record: &'a Record<'_>, measurement: &Measurement) -> Record<'a> {
-        let linkage = self.equation.linkage();
-        let scale = alignment::realigned(&record.sensor, linkage, measurement);
-        record.moved(linkage, scale, self.zero)
+    /// Returns the scale of a position sensor that is aligned with the changed mechanism.
+    fn scale(&self, record: &Record<'_>, measurement: &Measurement) -> Scale {
+        alignment::realigned(&record.sensor, self.equation.linkage(), measurement)
     }
 
     /// Returns θ, ω, θ̈ of the polynomial of a degree under this error.
@@ -76,7 +75,9 @@ impl Source {
         measurement: &Measurement,
     ) -> Vec<[f64; 3]> {
         let theta: Vec<f64> = motion.iter().map(|m| m.value[0] + self.zero).collect();
-        let found = Polynomial::new(&self.record(record, measurement), &theta, Some(degree));
+        let scale = self.scale(record, measurement);
+        let record = record.moved(self.equation.linkage(), scale, self.zero);
+        let found = Polynomial::new(&record, &theta, Some(degree));
         let found = found.map_or_else(|_| motion.to_vec(), |found| found.motion);
         found.iter().map(|state| state.value).collect()
     }
@@ -89,14 +90,8 @@ impl Source {
         measurement: &Measurement,
     ) -> Vec<[f64; 3]> {
         let times = measurement.elapsed();
-        let record = &problem.record;
-        let problem = Problem {
-            record: self.record(record, measurement),
-            grid: problem.grid.clone(),
-            equation: &self.equation,
-            intensities: problem.intensities.clone(),
-            stop: problem.stop,
-        };
+        let scale = self.scale(&problem.record, measurement);
+        let problem = problem.moved(&self.equation, scale, self.zero);
         let mut path = smoothed.path();
         path.states
             .iter_mut()

@@ -4,13 +4,14 @@
 use super::candidates::{Candidate, likelihood, listed};
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::likelihood::{Linear, Stretch};
+use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::repeating::Repeating;
 use super::residual_tests::Whiteness;
-use super::scales::{Autoregression, Noise, Scales};
+use super::scales::{Noise, Scales};
+use super::state_space::Stretch;
 
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]
@@ -101,8 +102,7 @@ impl Problem<'_> {
         if is_noise && (suspected || Whiteness::of(innovations).is_violated()) {
             // Two parameters more (Schwarz 1978).
             let cost = (self.record.times.len() as f64).ln();
-            let guesses = Autoregression::guesses(found.scales.spacing);
-            let correlated = self.tried(kinematic, &guesses);
+            let correlated = self.tried(kinematic, &found.scales.decays());
             let is_likelier = likelihood(&correlated) > likelihood(&white) + cost;
             let other = is_likelier.then(|| self.first_converged(&correlated, kinematic));
             let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;

@@ -6,9 +6,8 @@ use super::harmonics::Increments;
 use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, diagonal};
-use super::prior::Prior;
-use super::prior::State;
-use super::scales::Autoregression;
+use super::prior::{Prior, State};
+use super::scales::WHITE_FRACTION;
 
 /// Evaluates an expression with the number of states as a constant.
 macro_rules! with_dimension {
@@ -41,19 +40,26 @@ pub(super) struct Observed {
     pub variance: f64,
 }
 
+/// Steps and samples of a stretch of nodes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stretch {
+    pub steps: Vec<Linearised>,
+    /// Increments of the harmonics of the periodic part in each step.
+    pub increments: Increments,
+    pub observed: Vec<Observed>,
+}
+
 /// Linear model of the deviations from a nominal path; N is 2 + order, one more with g, one more with correlated noise.
 #[derive(Clone, Debug)]
 pub(super) struct Deviations<'a> {
-    pub steps: &'a [Linearised],
-    /// Increments of the harmonics of the periodic part in each step.
-    pub increments: &'a Increments,
-    pub observed: &'a [Observed],
+    pub stretch: &'a Stretch,
     pub prior: Prior,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
     /// Spectral density of the white noise that g integrates, over σ².
     pub speed_noise: f64,
-    pub correlated: Option<Autoregression>,
+    /// Decay rate of the correlation of the sample noise, 1/s; none for white noise.
+    pub correlated: Option<f64>,
     /// Standard deviations of the state before the first sample, in σ.
     pub spread: State,
 }
@@ -67,7 +73,7 @@ impl Deviations<'_> {
     /// Returns the step from a node to the next.
     #[inline(always)]
     pub fn step<const N: usize>(&self, node: usize) -> Step<N> {
-        let step = &self.steps[node];
+        let step = &self.stretch.steps[node];
         let dimension = self.prior.states();
         let mut transition = diagonal([1.0; N]);
         let mut offset = [0.0; N];
@@ -87,9 +93,9 @@ impl Deviations<'_> {
             transition[2][2 + self.prior.order] = step.h * step.tilt;
         }
         let mut noise = self.process_noise(node);
-        if let Some(Autoregression { decay, white }) = self.correlated {
+        if let Some(decay) = self.correlated {
             transition[N - 1][N - 1] = (-decay * step.h).exp();
-            noise[N - 1][N - 1] = (1.0 - white) * -(-2.0 * decay * step.h).exp_m1();
+            noise[N - 1][N - 1] = (1.0 - WHITE_FRACTION) * -(-2.0 * decay * step.h).exp_m1();
         }
         Step {
             transition,
@@ -101,16 +107,16 @@ impl Deviations<'_> {
     /// Returns the sample of a node; none without a measurement.
     #[inline(always)]
     pub fn sample<const N: usize>(&self, node: usize) -> Option<Sample<N>> {
-        let observed = &self.observed[node];
+        let observed = &self.stretch.observed[node];
         if observed.variance == f64::INFINITY {
             return None;
         }
         let mut row = [0.0; N];
         row[0] = observed.slope;
         let mut variance = observed.variance;
-        if let Some(correlated) = self.correlated {
+        if self.correlated.is_some() {
             row[N - 1] = 1.0;
-            variance *= correlated.white;
+            variance *= WHITE_FRACTION;
         }
         Some(Sample {
             value: observed.residual,
@@ -125,8 +131,8 @@ impl Deviations<'_> {
         for k in 0..self.prior.states() {
             variances[k] = self.spread[k] * self.spread[k];
         }
-        if let Some(correlated) = self.correlated {
-            variances[N - 1] = 1.0 - correlated.white;
+        if self.correlated.is_some() {
+            variances[N - 1] = 1.0 - WHITE_FRACTION;
         }
         Gaussian {
             mean: [0.0; N],
@@ -137,7 +143,7 @@ impl Deviations<'_> {
     /// Returns the covariance ∫ ψ ψᵀ ds of the process noise in a step, from the responses ψ of the state to white noise.
     #[inline(always)]
     pub fn process_noise<const N: usize>(&self, node: usize) -> Matrix<N> {
-        let step = &self.steps[node];
+        let step = &self.stretch.steps[node];
         let mut covariance = [[0.0; N]; N];
         let noise = &mut covariance;
         let (h, b, tilt) = (step.h, step.lever, step.tilt);

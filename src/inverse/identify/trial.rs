@@ -2,13 +2,13 @@
 
 use super::super::grid::Path;
 use super::super::kalman::{self, Companion, Innovation, Sample};
-use super::super::likelihood::{Linear, Stretch};
+use super::super::likelihood::Linear;
 use super::super::maximum::ENOUGH_RISE;
 use super::super::prior::{Prior, Unknown};
 use super::super::problem::Problem;
 use super::super::residual_tests::Whiteness;
-use super::super::scales::{Autoregression, Intensities, Noise, Scales};
-use super::super::state_space::with_dimension;
+use super::super::scales::{Noise, Scales};
+use super::super::state_space::{Stretch, with_dimension};
 use super::optimum::Optimum;
 use super::values::FreeValue;
 use crate::error::Error;
@@ -29,8 +29,8 @@ pub(super) struct Trials<'a> {
     pub scales: Scales,
     /// Standard deviation of a sample about the motion without mechanics, rad or m; infinite for codes (known noise).
     pub noise: f64,
-    /// First-order autoregression of the sample noise, if the record has one.
-    pub correlated: Option<Autoregression>,
+    /// Decay rate of the correlation of the sample noise, 1/s; none for white noise.
+    pub correlated: Option<f64>,
 }
 
 /// Prediction errors, rad or m, with their variances in units of σ².
@@ -71,19 +71,13 @@ impl<'a> Trials<'a> {
     pub fn with<T>(&self, values: &[f64], f: impl FnOnce(&Problem<'_>) -> T) -> Result<T, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
-        let record = &self.problem.record;
         let of_sensor = self.all.iter().zip(values);
         let zero: f64 = of_sensor
             .filter(|(free, _)| free.is_sensor_zero)
             .map(|(_, value)| *value)
             .sum();
-        Ok(f(&Problem {
-            record: record.moved(equation.linkage(), record.sensor.scale, -zero),
-            grid: self.problem.grid.clone(),
-            equation: &equation,
-            intensities: Intensities::default(),
-            stop: None,
-        }))
+        let scale = self.problem.record.sensor.scale;
+        Ok(f(&self.problem.moved(&equation, scale, -zero)))
     }
 
     /// Returns the linear model about a path for these values.
@@ -137,17 +131,18 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Returns the autoregression of the sample noise beside these values; none if their residuals are white, or if it
+    /// Returns the decay rate of the correlation of the sample noise beside these values, 1/s; none if their residuals are white, or if it
     /// is not likelier than its two parameters cost (Schwarz 1978) beside a missing torque with white noise.
-    pub fn correlation(&self, at: &Optimum) -> Result<Option<Autoregression>, Error> {
+    pub fn correlation(&self, at: &Optimum) -> Result<Option<f64>, Error> {
         let is_white = !Whiteness::of(at.innovations.iter().copied()).is_violated();
         if is_white || self.noise.is_infinite() || self.problem.record.is_computed() {
             return Ok(None);
         }
         let model = self.model(&at.values, &at.path, at.noise.sigma)?;
         let white = self.likeliest(&model);
-        let guesses = Autoregression::guesses(self.scales.spacing);
-        let other = self.linear(&model).correlated(&white, &guesses);
+        let other = self
+            .linear(&model)
+            .correlated(&white, &self.scales.decays());
         let cost = (at.innovations.len() as f64).ln();
         Ok(other
             .correlated
