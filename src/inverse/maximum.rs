@@ -18,19 +18,18 @@ pub(super) fn climb(
     let mut points = vec![(guess, first)];
     for direction in [1.0, -1.0] {
         let mut step = FIRST;
-        let mut here = guess;
+        let (mut here, mut before) = (guess, first.likelihood);
         loop {
             let next = (here + direction * step).clamp(lowest, highest);
             if next == here {
                 break;
             }
             let found = at(next);
-            let before = value(&points, here);
             points.push((next, found));
             if found.likelihood <= before {
                 break;
             }
-            here = next;
+            (here, before) = (next, found.likelihood);
             step *= 1.6;
         }
         if here != guess {
@@ -58,11 +57,6 @@ pub(super) fn climb(
         .into_iter()
         .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
     best.map_or(first, |(_, noise)| noise)
-}
-
-fn value(points: &[(f64, Noise)], place: f64) -> f64 {
-    let found = points.iter().find(|(at, _)| *at == place);
-    found.map_or(f64::NEG_INFINITY, |(_, noise)| noise.likelihood)
 }
 
 /// Rise of ln of the likelihood below which another evaluation does not pay.

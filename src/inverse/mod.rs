@@ -218,7 +218,6 @@ fn recovered(
         measurement.times(),
     );
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
-    refusals::reachable(measurement, &found)?;
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
     let locked = refusals::finite(&backwards, measurement, &found.rows)?;
     let mut warnings = measurement.notes().to_vec();

@@ -2,7 +2,6 @@
 
 use super::inverse_dynamics::InverseDynamics;
 use super::row::InverseRow;
-use super::rows::Rows;
 use crate::error::Error;
 use crate::plan::{Method, Plan};
 use crate::scene::{Measurement, MotionKind, Scene};
@@ -20,21 +19,6 @@ pub(super) fn plan(scene: &Scene) -> Result<Plan, Error> {
     let mut plan = Plan::new(&prescribed, Method::Auto)?;
     plan.reason = "the crank motion is measured: nothing to integrate, the equation is read backwards along the estimated theta(t)".into();
     Ok(plan)
-}
-
-/// Refuses a fit with crank angles that the mechanism cannot take.
-pub(super) fn reachable(measurement: &Measurement, found: &Rows) -> Result<(), Error> {
-    let Some(sample) = found.unreachable else {
-        return Ok(());
-    };
-    Err(Error::refused(
-        format!(
-            "the fitted crank angle at {}, {} rad, is one at which the rod does not reach the guide",
-            measurement.place(sample),
-            found.rows[sample].theta
-        ),
-        "try another --fit or --degree, or check the lengths of the scene",
-    ))
 }
 
 /// Refuses loads without a finite value along the motion, and a guide that locks at every sample; returns a warning if

@@ -15,8 +15,6 @@ pub(super) struct Rows {
     pub rows: Vec<InverseRow>,
     pub bands: Vec<DeadCentreBand>,
     pub rule: BandRule,
-    /// First sample whose crank angle the mechanism cannot take.
-    pub unreachable: Option<usize>,
 }
 
 /// Returns crank torques and standard errors, N m; those of a rocker over |x'| in crank lengths where it exceeds 1, for
@@ -56,7 +54,6 @@ impl Rows {
             rows,
             bands: Vec::new(),
             rule,
-            unreachable: leverages.iter().position(|one| !one.arm.is_finite()),
         };
         found.leave_out_doubtful(&leverages, factor);
         found
