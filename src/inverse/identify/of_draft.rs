@@ -18,31 +18,6 @@ pub enum FreeKey {
 
 const SENSOR_ZERO: &str = "sensor.zero";
 
-/// Keys examined by score tests: of the scene, and of each table in its lists of torques and forces.
-const TESTED: [&str; 12] = [
-    "geometry.crank",
-    "geometry.rod",
-    "geometry.offset",
-    "crank.mass",
-    "crank.cg",
-    "crank.inertia",
-    "rod.mass",
-    "rod.cg",
-    "rod.inertia",
-    "slider.mass",
-    "gravity.acceleration",
-    "gravity.direction",
-];
-const TESTED_OF_LOADS: [&str; 7] = [
-    "value",
-    "coefficient",
-    "stall",
-    "no_load_speed",
-    "stiffness",
-    "rest",
-    "bore",
-];
-
 impl FromStr for FreeKey {
     type Err = <NumberKey as FromStr>::Err;
 
@@ -97,16 +72,13 @@ pub fn identify_keys(
     measurement: &Measurement,
     stop: Option<&Stop>,
 ) -> Result<Identification, Error> {
-    let scene = draft.scene()?;
-    let crank = scene.geometry.crank;
-    let loads = [
-        ("torque", scene.torques.len()),
-        ("force", scene.forces.len()),
-    ];
+    let crank = draft.scene()?.geometry.crank;
     let value = |key: &FreeKey| key.value(draft, crank, measurement.measured());
     let mut all = free.iter().map(value).collect::<Result<Vec<_>, Error>>()?;
     let mut keys = free.to_vec();
-    for key in tested(loads) {
+    // Candidates of the score tests; keys that the equation does not have leave the prediction errors as they are.
+    let others = draft.number_keys().map(FreeKey::Key);
+    for key in std::iter::once(FreeKey::SensorZero).chain(others) {
         if let Ok(value) = value(&key)
             && all.iter().all(|other| other.key != value.key)
         {
@@ -135,18 +107,4 @@ pub fn identify_keys(
         _ if is_stopped() => Err(Error::Interrupted),
         found => found.map_err(|error| error.with_notes(measurement.notes())),
     }
-}
-
-/// Lists the keys for score tests of a scene with these numbers of torques and forces.
-fn tested(loads: [(&str, usize); 2]) -> Vec<FreeKey> {
-    let mut list = vec![FreeKey::SensorZero];
-    list.extend(TESTED.iter().filter_map(|key| key.parse::<FreeKey>().ok()));
-    for (load, count) in loads {
-        for number in 1..=count {
-            let keys = TESTED_OF_LOADS.iter();
-            let keys = keys.filter_map(|key| format!("{load}[{number}].{key}").parse().ok());
-            list.extend(keys.map(FreeKey::Key));
-        }
-    }
-    list
 }

@@ -235,7 +235,18 @@ impl Draft {
         list.collect()
     }
 
+    /// Returns the keys of the file that have a number.
+    pub fn number_keys(&self) -> impl Iterator<Item = NumberKey> {
+        self.numbers().into_iter().map(|(path, _)| NumberKey(path))
+    }
+
     fn uncertain_keys(&self) -> Vec<(KeyPath, Uncertain)> {
+        let mut found = self.numbers();
+        found.retain(|(_, number)| number.error > 0.0);
+        found
+    }
+
+    fn numbers(&self) -> Vec<(KeyPath, Uncertain)> {
         let mut found = Vec::new();
         for section in SECTIONS {
             for (index, values) in self.contents.of_section(section).enumerate() {
@@ -245,8 +256,7 @@ impl Draft {
                         index,
                         key,
                     };
-                    let number = values.uncertain(key)?;
-                    (number.error > 0.0).then_some((path, number))
+                    Some((path, values.uncertain(key)?))
                 }));
             }
         }
