@@ -5,7 +5,6 @@
 
 use super::estimate::Estimate;
 use super::interval::{Cavity, Site};
-use super::prior::Prior;
 use super::problem::Problem;
 use super::quantised::{Codes, Interval};
 use super::residual_tests::DEVIATIONS;
@@ -173,12 +172,8 @@ impl Problem<'_> {
     }
 
     /// Returns the smoothed motion with the prior that makes the codes likeliest, among the likeliest priors of the
-    /// sites, and the priors compared.
-    pub fn likeliest_of_codes(
-        &mut self,
-        codes: Codes,
-        kinematic: &Smoothed,
-    ) -> (Smoothed, Vec<(Prior, f64)>) {
+    /// sites.
+    pub fn likeliest_of_codes(&mut self, codes: Codes, kinematic: &Smoothed) -> Smoothed {
         let first = self.sites();
         let mut found = Vec::new();
         for candidate in self.tried(kinematic, &[]) {
@@ -206,17 +201,19 @@ impl Problem<'_> {
         }
         let likelihood = |one: &OfCodes| one.smoothed.noise.likelihood;
         found.sort_by(|a, b| likelihood(b).total_cmp(&likelihood(a)));
-        let listed = found
-            .iter()
-            .map(|one| (one.smoothed.prior, likelihood(one)));
-        let listed = listed.collect();
+        let compared = found.iter();
+        let compared = compared.map(|one| (one.smoothed.prior, likelihood(one)));
+        let compared = compared.collect();
         let best = found.into_iter().next();
         let (smoothed, sites) = best.map_or_else(
             || (kinematic.clone(), first),
             |one| (one.smoothed, one.sites),
         );
         (self.record.values, self.record.weights) = sites;
-        (smoothed, listed)
+        Smoothed {
+            compared,
+            ..smoothed
+        }
     }
 
     /// True if a motion lies within the steps of all samples as evenly as chance has it: mean square 1/12 of a step, of

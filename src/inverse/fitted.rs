@@ -3,7 +3,6 @@
 use super::branch_tracking::CrankAngles;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
-use super::prior::Prior;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
@@ -130,14 +129,14 @@ impl Fitted {
         stop: Option<&Stop>,
     ) -> Fitted {
         let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
-        let (smoothed, candidates) = problem.likeliest_with_intensities(&kinematic, suspected);
+        let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
         // Frees the memory of a long record.
         drop(kinematic);
         Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
-            ..Fitted::of_smoother(measurement, angles, &problem, &smoothed, &candidates)
+            ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
         }
     }
 
@@ -146,7 +145,6 @@ impl Fitted {
         angles: &CrankAngles<'_>,
         problem: &Problem<'_>,
         smoothed: &Smoothed,
-        candidates: &[(Prior, f64)],
     ) -> Fitted {
         let samples = samples::record(measurement, angles);
         let record = &problem.record;
@@ -170,12 +168,11 @@ impl Fitted {
             factor: span.factor,
         });
         fitted.coded = record.codes.map(|codes| codes.step);
-        let list = candidates
-            .iter()
-            .map(|(prior, likelihood)| CandidateSummary {
-                prior: prior.name(),
-                log_likelihood: *likelihood,
-            });
+        let compared = smoothed.compared.iter();
+        let compared = compared.map(|(prior, likelihood)| CandidateSummary {
+            prior: prior.name(),
+            log_likelihood: *likelihood,
+        });
         fitted.free = (counted - parameters).max(1.0);
         // Prediction errors of codes are not normal.
         fitted.patterned =
@@ -191,7 +188,7 @@ impl Fitted {
             kind: "smoother",
             reason: "its prior is the likeliest".to_owned(),
             prior: prior.name(),
-            candidates: list.collect(),
+            candidates: compared.collect(),
             degree: 2 * (prior.order + 2) - 1,
             time_origin_s: record.origin,
             sigma,

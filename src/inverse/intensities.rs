@@ -10,7 +10,7 @@ use super::fixed_interval::{self, Visit};
 use super::kalman::{Companion, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
-use super::prior::{Prior, SMOOTH};
+use super::prior::SMOOTH;
 use super::problem::Problem;
 use super::scales::{Intensities, Span};
 use super::smoother::Smoothed;
@@ -133,28 +133,28 @@ impl Problem<'_> {
         intensities
     }
 
-    /// Returns the likeliest smoothed motion and the priors compared, of noise that is `suspected` to be correlated or not;
-    /// stretches are added while the likelihood gains.
+    /// Returns the likeliest smoothed motion, of noise that is `suspected` to be correlated or not; stretches are added while
+    /// the likelihood gains.
     pub fn likeliest_with_intensities(
         &mut self,
         kinematic: &Smoothed,
         suspected: bool,
-    ) -> (Smoothed, Vec<(Prior, f64)>) {
+    ) -> Smoothed {
         let mut best = self.likeliest_of_all(kinematic, suspected);
         // Periodic priors, smooth torques, noise below that of instruments and long records represented by stretches have no
         // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
-        while best.0.prior.cycle == 0
-            && best.0.prior != SMOOTH
-            && best.0.noise.sigma > self.record.instrument_noise()
+        while best.prior.cycle == 0
+            && best.prior != SMOOTH
+            && best.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
         {
             let sites = self.sites();
             let before = std::mem::take(&mut self.intensities);
-            self.intensities = self.intensities_of(&best.0);
+            self.intensities = self.intensities_of(&best);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
                 let next = self.likeliest_of_all(kinematic, suspected);
-                let rise = next.0.noise.likelihood - best.0.noise.likelihood - more * self.cost();
+                let rise = next.noise.likelihood - best.noise.likelihood - more * self.cost();
                 if rise > ENOUGH_RISE {
                     best = next;
                     continue;
@@ -167,11 +167,7 @@ impl Problem<'_> {
         best
     }
 
-    fn likeliest_of_all(
-        &mut self,
-        kinematic: &Smoothed,
-        suspected: bool,
-    ) -> (Smoothed, Vec<(Prior, f64)>) {
+    fn likeliest_of_all(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
         match self.record.codes {
             Some(codes) => self.likeliest_of_codes(codes, kinematic),
             None => self.likeliest(kinematic, suspected),
@@ -233,17 +229,5 @@ mod tests {
             let off = (found[k].slope - slope).abs();
             assert!(off < 1e-5 * slope.abs().max(0.01), "{k}: {slope}");
         }
-    }
-
-    #[test]
-    fn the_furthest_steps_are_those_of_another_intensity() {
-        let score = |k: usize| Score {
-            slope: if (40..44).contains(&k) { 3.0 } else { -0.1 },
-            information: 0.5,
-        };
-        let list: Vec<Score> = (0..100).map(score).collect();
-        let (steps, is_higher, rise) = furthest(&list);
-        assert!(steps == (40..44) && is_higher);
-        assert!((rise - 36.0).abs() < 1e-9);
     }
 }

@@ -24,6 +24,8 @@ pub(super) struct Smoothed {
     pub repeating: Option<Repeating>,
     /// Whether the iterations came to rest.
     pub converged: bool,
+    /// The priors among which its prior was chosen, with the ln of their likelihoods, the likeliest first.
+    pub compared: Vec<(Prior, f64)>,
 }
 
 impl Smoothed {
@@ -84,19 +86,16 @@ impl Problem<'_> {
         whole
     }
 
-    /// The smoothed motion with the likeliest prior, and all that were tried with the ln of their likelihoods, the likeliest
-    /// first. Noise of the samples is correlated where that is suspected or the prediction errors say so, and the
-    /// likelihood agrees.
-    pub fn likeliest(
-        &mut self,
-        kinematic: &Smoothed,
-        suspected: bool,
-    ) -> (Smoothed, Vec<(Prior, f64)>) {
+    /// The smoothed motion with the likeliest prior. Noise of the samples is correlated where that is suspected or the
+    /// prediction errors say so, and the likelihood agrees.
+    pub fn likeliest(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
         let white = self.tried(kinematic, &[]);
         let Some(mut found) = self.first_converged(&white, kinematic) else {
-            return (kinematic.clone(), listed(&white));
+            return Smoothed {
+                compared: listed(&white),
+                ..kinematic.clone()
+            };
         };
-        let mut tried = listed(&white);
         let innovations = found.estimates.iter().map(|e| e.innovation);
         let is_noise = self.record.codes.is_none() && !self.record.is_computed();
         if is_noise && (suspected || Whiteness::of(innovations).is_violated()) {
@@ -107,11 +106,11 @@ impl Problem<'_> {
             let other = is_likelier.then(|| self.first_converged(&correlated, kinematic));
             let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
             if let Some(other) = other.flatten().filter(|other| gain(other) > cost) {
-                (found, tried) = (other, listed(&correlated));
+                found = other;
             }
         }
         let path = self.whole_path(&found, kinematic);
-        (self.completed(found, path, true), tried)
+        self.completed(found, path, true)
     }
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
@@ -136,7 +135,10 @@ impl Problem<'_> {
                 best = Some(found);
             }
         }
-        best
+        best.map(|best| Smoothed {
+            compared: listed(tried),
+            ..best
+        })
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
@@ -154,6 +156,7 @@ impl Problem<'_> {
             estimates: Vec::new(),
             repeating: None,
             converged: false,
+            compared: Vec::new(),
         };
         let mut is_at_rest = false;
         let mut correction = Correction::default();
