@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY};
 use super::measurement_model::{Scale, Sensor};
-use super::mirror_image::{Imaged, fork};
+use super::mirror_image::fork;
 use super::problem::Problem;
 use super::samples::{problem, record};
 use super::{alignment, first_path, limit, unwrap};
@@ -64,23 +64,17 @@ pub(super) fn crank_angles<'a>(
             let problem = problem(record, &angles.theta[window.clone()], equation, stop);
             Reading::new(measurement, &problem, motion, angles, &window)
         };
-        let Imaged {
-            angles,
-            image,
-            leaves,
-        } = one;
-        let taken = read(angles);
-        let other = match leaves {
-            None => read(image),
+        let taken = read(one.angles);
+        let other = match one.leaves {
+            None => read(one.image),
             // The likelihood of an incomplete image is unknown: the motion's own stands for it.
             Some(_) => Reading {
                 likelihood: taken.likelihood,
                 sense: -taken.sense,
-                off: off(&image, motion),
-                angles: image,
+                angles: one.image,
             },
         };
-        Pair::new(taken, other, leaves, motion, sensor.measured.name())
+        Pair::new(taken, other, one.leaves, motion, sensor.measured.name())
     });
     best(pairs, measurement, motion)
 }
@@ -134,20 +128,12 @@ fn best<'a>(
     Ok(CrankAngles { warnings, ..angles })
 }
 
-/// Returns the distance of the scene's angle from the initial angle of a motion, rad, from 0 to pi.
-fn off(angles: &CrankAngles<'_>, motion: &Motion) -> f64 {
-    let off = angles.theta[0] - motion.angle;
-    (off - (off / TAU).round() * TAU).abs()
-}
-
 /// Motion that the samples may stand for.
 #[derive(Debug)]
 struct Reading<'a> {
     angles: CrankAngles<'a>,
     /// ln of the marginal likelihood of a window of samples by the likeliest prior, less the cost of zero and gain.
     likelihood: f64,
-    /// Distance of the scene's angle from the initial angle, rad.
-    off: f64,
     /// Sense of rotation (±1) where the speed first exceeds half of the scene's; if it never does, over the first
     /// quarter of a turn.
     sense: f64,
@@ -177,7 +163,6 @@ impl<'a> Reading<'a> {
             .find(|speed| speed.abs() > 0.5 * motion.speed.abs());
         Reading {
             likelihood,
-            off: off(&angles, motion),
             sense: stated
                 .or(way.map(|way| way - begin))
                 .map_or(0.0, f64::signum),
@@ -186,9 +171,16 @@ impl<'a> Reading<'a> {
     }
 
     /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys), beside that of a sample.
-    fn of_angle(&self) -> f64 {
-        let CrankAngles { sensor, sigma, .. } = &self.angles;
-        -(self.off + sigma / sensor.size()).ln()
+    fn of_angle(&self, motion: &Motion) -> f64 {
+        let CrankAngles {
+            sensor,
+            sigma,
+            theta,
+            ..
+        } = &self.angles;
+        let off = theta[0] - motion.angle;
+        let off = (off - (off / TAU).round() * TAU).abs();
+        -(off + sigma / sensor.size()).ln()
     }
 
     /// Returns ln of the probability of the sense of the scene's speed.
@@ -231,7 +223,10 @@ impl<'a> Pair<'a> {
             };
         }
         let speaking = [
-            (reading.of_angle() - image.of_angle(), "the scene's angle"),
+            (
+                reading.of_angle(motion) - image.of_angle(motion),
+                "the scene's angle",
+            ),
             (
                 reading.of_speed(motion) - image.of_speed(motion),
                 "the sense of the scene's speed",
