@@ -131,8 +131,8 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Returns the decay rate of the correlation of the sample noise beside these values, 1/s; none if their residuals are white, or if it
-    /// is not likelier than its two parameters cost (Schwarz 1978) beside a missing torque with white noise.
+    /// Returns the decay rate of the correlation of the sample noise beside these values, 1/s; none if their residuals are
+    /// white, or if it is not likelier than its two parameters cost (Schwarz 1978) beside a missing torque with white noise.
     pub fn correlation(&self, at: &Optimum) -> Result<Option<f64>, Error> {
         let is_white = !Whiteness::of(at.innovations.iter().copied()).is_violated();
         if is_white || self.noise.is_infinite() || self.problem.record.is_computed() {
