@@ -1,13 +1,14 @@
 //! Gauss-Newton iterations for free values (prediction errors), path (smoother) and noise (marginal likelihood).
 
 use super::super::grid::Path;
+use super::super::prior::TORQUE;
 use super::super::problem::Problem;
 use super::super::scales::{Noise, Scales};
 use super::super::smoother::{Correction, Smoothed};
 use super::information::Information;
 use super::misfit::Misfit;
 use super::optimum::{Found, Optimum};
-use super::trial::{Innovations, MISSING, Trials};
+use super::trial::{Innovations, Trials};
 use super::values::FreeValue;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -54,7 +55,7 @@ impl<'a> Search<'a> {
         let states = smooth.estimates.iter();
         let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
         let path = Path::whole(states.collect());
-        let motion = problem.motion(MISSING);
+        let motion = problem.motion(TORQUE);
         let scales = Scales {
             identified: Some(count),
             ..problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion)
@@ -264,7 +265,7 @@ impl<'a> Search<'a> {
     fn smooth(&mut self, values: &[f64], noise: &Noise) -> Result<(f64, Vec<f64>), Error> {
         let Search { trials, path } = self;
         let estimates = trials.with(values, |problem| {
-            problem.smoothed(&problem.motion(MISSING), path, trials.scales, noise)
+            problem.smoothed(&problem.motion(TORQUE), path, trials.scales, noise)
         })?;
         let innovations = estimates.iter().map(|e| e.innovation);
         let told = innovations.filter(|value| value.is_finite()).collect();

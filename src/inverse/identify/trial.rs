@@ -4,7 +4,7 @@ use super::super::grid::Path;
 use super::super::kalman::{self, Companion, Innovation, Sample};
 use super::super::likelihood::Linear;
 use super::super::maximum::ENOUGH_RISE;
-use super::super::prior::{Prior, Unknown};
+use super::super::prior::TORQUE;
 use super::super::problem::Problem;
 use super::super::residual_tests::Whiteness;
 use super::super::scales::{Noise, Scales};
@@ -14,9 +14,6 @@ use super::values::FreeValue;
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::Scene;
-
-/// Prior of the torque that the scene misses: a Wiener process.
-pub(super) const MISSING: Prior = Prior::new(Unknown::Torque, 1);
 
 /// Scene as a function of its free values, and the record.
 pub(super) struct Trials<'a> {
@@ -83,7 +80,7 @@ impl<'a> Trials<'a> {
     /// Returns the linear model about a path for these values.
     pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
         self.with(values, |problem| {
-            let motion = problem.motion(MISSING);
+            let motion = problem.motion(TORQUE);
             problem.stretch(&motion, path, 0..problem.grid.len(), sigma)
         })
     }
@@ -91,7 +88,7 @@ impl<'a> Trials<'a> {
     fn linear<'b>(&self, model: &'b Stretch) -> Linear<'b> {
         Linear {
             stretches: std::slice::from_ref(model),
-            prior: MISSING,
+            prior: TORQUE,
             scales: self.scales,
         }
     }
