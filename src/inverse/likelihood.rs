@@ -64,7 +64,7 @@ impl Linear<'_> {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             with_dimension!(model.dimension(), N => {
-                let mut regressed = Regressed::<N>::new(&model, &mut regression);
+                let mut regressed = Regressed::<N>::new(&model, &mut regression, None);
                 kalman::run::<N>(&model, None, &mut regressed);
                 regressed.evidence
             })

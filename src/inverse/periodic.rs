@@ -89,69 +89,51 @@ fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-/// Companion of the filter that fills the normal equations, beside the likelihood terms without what repeats.
+/// Companion of filter and smoother that fills the normal equations, beside the likelihood terms without what repeats.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
     to: &'a mut Regression,
     pub evidence: Evidence,
-}
-
-impl<'a, const N: usize> Regressed<'a, N> {
-    pub fn new(model: &Deviations<'a>, to: &'a mut Regression) -> Self {
-        Regressed {
-            columns: Columns::new(model),
-            to,
-            evidence: Evidence::default(),
-        }
-    }
-}
-
-impl<const N: usize> Companion<N> for Regressed<'_, N> {
-    fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.columns.step(node, step);
-    }
-
-    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.evidence.updated(node, sample, found);
-        self.columns.update(sample, found);
-        let per = 1.0 / found.variance.sqrt();
-        self.to.take(&self.columns.errors, found.error, per);
-    }
-}
-
-/// Derivatives of the smoothed states by the coefficients.
-pub(super) struct Sensitivities<'a, const N: usize> {
-    regressed: Regressed<'a, N>,
-    pub found: Derivatives,
-    /// Samples that are not on the way back yet.
-    left: usize,
+    /// The smoother's derivatives, if there is one.
+    found: Option<&'a mut Derivatives>,
 }
 
 /// Derivatives of smoothed states and prediction errors by the coefficients.
-#[derive(Default)]
 pub(super) struct Derivatives {
     /// The rows of each node, one after the other.
     list: Vec<f64>,
     /// Those of the prediction errors over their standard deviations, one row for each sample.
     errors: Vec<f64>,
+    /// Samples that are not on the way back yet.
+    left: usize,
 }
 
-impl<'a, const N: usize> Sensitivities<'a, N> {
-    pub fn new(model: &Deviations<'a>, to: &'a mut Regression) -> Self {
-        let regressed = Regressed::new(model, to);
-        let rows = model.stretch.observed.len();
-        Sensitivities {
-            found: Derivatives {
-                list: Vec::with_capacity(rows * regressed.columns.of.len()),
-                errors: Vec::with_capacity(rows * regressed.columns.errors.len()),
-            },
-            regressed,
-            left: 0,
+impl<'a, const N: usize> Regressed<'a, N> {
+    pub fn new(
+        model: &Deviations<'a>,
+        to: &'a mut Regression,
+        found: Option<&'a mut Derivatives>,
+    ) -> Self {
+        Regressed {
+            columns: Columns::new(model),
+            to,
+            evidence: Evidence::default(),
+            found,
         }
     }
 }
 
 impl Derivatives {
+    /// Room for the derivatives along a model with this number of states.
+    pub fn new(model: &Deviations<'_>, states: usize) -> Derivatives {
+        let rows = model.stretch.observed.len() * model.stretch.increments.count;
+        Derivatives {
+            list: Vec::with_capacity(rows * states),
+            errors: Vec::with_capacity(rows),
+            left: 0,
+        }
+    }
+
     /// Adds what coefficients do to the smoothed states and prediction errors, with a factor A of their covariance Aᵀ A.
     pub fn add<const N: usize>(
         self,
@@ -160,7 +142,7 @@ impl Derivatives {
         path: &mut [Gaussian<N>],
         innovations: &mut [Option<f64>],
     ) {
-        let Derivatives { list, errors } = self;
+        let Derivatives { list, errors, .. } = self;
         let count = coefficients.len();
         let size = N * count;
         let known = innovations.iter_mut().flatten();
@@ -186,28 +168,38 @@ impl Derivatives {
     }
 }
 
-impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
+impl<const N: usize> Companion<N> for Regressed<'_, N> {
     fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.regressed.stepped(node, step);
+        self.columns.step(node, step);
     }
 
     fn predicted(&mut self, _: usize, _: &Gaussian<N>) {
-        self.found.list.extend(&self.regressed.columns.of);
+        if let Some(derivatives) = &mut self.found {
+            derivatives.list.extend(&self.columns.of);
+        }
     }
 
     fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.regressed.updated(node, sample, found);
-        self.left += 1;
-        let per = 1.0 / found.variance.sqrt();
-        let rows = self.regressed.columns.errors.iter();
-        self.found.errors.extend(rows.map(|value| value * per));
+        self.evidence.updated(node, sample, found);
+        self.columns.update(sample, found);
+        let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
+        self.to.take(errors, found.error, per);
+        if let Some(derivatives) = &mut self.found {
+            derivatives.left += 1;
+            derivatives
+                .errors
+                .extend(errors.iter().map(|value| value * per));
+        }
     }
 
     /// The rows follow the recursion of the smoother's correction.
     fn returned(&mut self, node: usize, visit: &Visit<N>) {
-        let columns = &mut self.regressed.columns;
+        let columns = &mut self.columns;
+        let Some(derivatives) = &mut self.found else {
+            return;
+        };
         let (count, size) = (columns.errors.len(), columns.of.len());
-        if (node + 1) * size == self.found.list.len() {
+        if (node + 1) * size == derivatives.list.len() {
             columns.of.fill(0.0);
         }
         if let Some((sample, found)) = &visit.sample {
@@ -215,14 +207,14 @@ impl<const N: usize> Companion<N> for Sensitivities<'_, N> {
             for (row, gain) in columns.of.chunks_exact(count).zip(&found.gain) {
                 add(&mut columns.errors, -gain, row);
             }
-            self.left -= 1;
-            let errors = &self.found.errors[self.left * count..][..count];
+            derivatives.left -= 1;
+            let errors = &derivatives.errors[derivatives.left * count..][..count];
             add(&mut columns.errors, 1.0 / found.variance.sqrt(), errors);
             for (row, share) in columns.of.chunks_exact_mut(count).zip(&sample.row) {
                 add(row, *share, &columns.errors);
             }
         }
-        let smoothed = &mut self.found.list[node * size..][..size];
+        let smoothed = &mut derivatives.list[node * size..][..size];
         let shares = &visit.predicted.covariance;
         for (to, shares) in smoothed.chunks_exact_mut(count).zip(shares) {
             for (row, share) in columns.of.chunks_exact(count).zip(shares) {

@@ -5,7 +5,7 @@ use super::grid::Path;
 use super::likelihood::Linear;
 use super::linearised::Motion;
 use super::matrix::Matrix;
-use super::periodic::Sensitivities;
+use super::periodic::{Derivatives, Regressed};
 use super::problem::Problem;
 use super::regression::Regression;
 use super::repeating::Repeating;
@@ -25,9 +25,10 @@ impl Problem<'_> {
         let stretches = path.ranges.iter().map(|range| {
             let stretch = self.stretch(motion, path, range.clone(), noise.sigma);
             let model = linear.deviations(&stretch, noise);
-            let mut sensitivities = Sensitivities::new(&model, &mut to);
-            let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut sensitivities);
-            (deviations, innovations, sensitivities.found)
+            let mut derivatives = Derivatives::new(&model, N);
+            let mut regressed = Regressed::<N>::new(&model, &mut to, Some(&mut derivatives));
+            let (deviations, innovations) = fixed_interval::smooth(&model, &mut regressed);
+            (deviations, innovations, derivatives)
         });
         let stretches: Vec<_> = stretches.collect();
         to.multiply();
