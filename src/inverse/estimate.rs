@@ -41,7 +41,7 @@ impl Problem<'_> {
     pub fn motion_at(&self, smoothed: &Smoothed, times: &[f64]) -> Vec<MotionEstimate> {
         let left = self.left_out(smoothed);
         parallel::list(times.len(), |i| {
-            let (step, _) = self.grid.around(times[i]);
+            let step = self.grid.before(times[i]);
             // A node has the errors of the steps on both sides.
             let beside = left.iter().skip(step.saturating_sub(1)).take(3);
             let mut motion = self.at(smoothed, times[i]).estimated();

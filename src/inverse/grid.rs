@@ -101,7 +101,7 @@ impl Piece<'_> {
     /// Crank angle at a time, rad.
     pub fn angle(&self, grid: &Grid, t: f64) -> f64 {
         let last = self.first + self.states.len() - 1;
-        let a = grid.around(t).0.clamp(self.first, last - 1);
+        let a = grid.before(t).clamp(self.first, last - 1);
         let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
         let times = [grid.times[a], grid.times[a + 1]];
         cubic(times, [state(a), state(a + 1)], t)[0]
@@ -179,8 +179,8 @@ impl Grid {
         grid
     }
 
-    /// The nodes on both sides of a time, or the two at the end beyond which it is.
-    pub fn around(&self, t: f64) -> (usize, usize) {
+    /// The node before a time that has a node after it, or the one of the end beyond which the time is.
+    pub fn before(&self, t: f64) -> usize {
         let (times, last) = (&self.times, self.times.len() - 1);
         // Nodes are nearly evenly spaced: the search widens about the node at the same part of the record.
         let part = (t - times[0]) / (times[last] - times[0]);
@@ -195,8 +195,7 @@ impl Grid {
             width *= 2;
         }
         let before = low + times[low..high].partition_point(|time| *time <= t);
-        let before = before.clamp(1, last) - 1;
-        (before, before + 1)
+        before.clamp(1, last) - 1
     }
 
     pub fn len(&self) -> usize {

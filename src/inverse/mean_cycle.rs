@@ -116,7 +116,7 @@ impl Inverse {
                 _ => (found.crank_torque?, found.crank_torque_se?),
             };
             let shared = match self.cycle {
-                0 => self.shared.of_row(row)[which],
+                0 => self.shared.with(row, [0.0; 2])[which],
                 _ => error,
             };
             Some([value, error, shared])

@@ -43,10 +43,10 @@ impl<'a> Problem<'a> {
     /// is the equation's.
     pub fn at(&self, smoothed: &Smoothed, t: f64) -> Estimate {
         let estimates = &smoothed.estimates;
-        let (a, b) = self.grid.around(t);
-        let times = [self.grid.times[a], self.grid.times[b]];
+        let a = self.grid.before(t);
+        let times = [self.grid.times[a], self.grid.times[a + 1]];
         let part = (t - times[0]) / (times[1] - times[0]);
-        let (a, b) = (&estimates[a], &estimates[b]);
+        let (a, b) = (&estimates[a], &estimates[a + 1]);
         if part == 0.0 || part == 1.0 {
             return if part == 0.0 { *a } else { *b };
         }

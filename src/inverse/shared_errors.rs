@@ -140,11 +140,6 @@ impl SharedErrors {
         }
     }
 
-    /// Returns the standard errors of the force, N, and of the torque, N m, of a row.
-    pub fn of_row(&self, row: usize) -> [f64; 2] {
-        self.with(row, [0.0; 2])
-    }
-
     /// Returns the standard errors of the force, N, and of the torque, N m, of a row, with those of its noise.
     pub fn with(&self, row: usize, noise: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
