@@ -2,82 +2,50 @@
 
 use super::symbol::Dimension;
 
-/// Physical quantity of a value in a scene file, which determines the units it may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// SI unit m.
-    Length,
-    /// SI unit kg.
-    Mass,
-    /// SI unit kg m².
-    Inertia,
-    /// SI unit rad.
-    Angle,
-    /// SI unit rad/s.
-    AngularSpeed,
-    /// SI unit m/s².
-    Acceleration,
-    /// SI unit s.
-    Time,
-    /// SI unit N.
-    Force,
-    /// SI unit N m.
-    Torque,
-    /// SI unit N m s/rad.
-    RotaryDamping,
-    /// SI unit N s/m.
-    LinearDamping,
-    /// SI unit N/m.
-    Stiffness,
-    /// SI unit Pa.
-    Pressure,
-    /// SI unit kg/m³.
-    Density,
-    /// SI unit m/s.
-    Velocity,
-    /// SI unit J.
-    Energy,
-    /// SI unit W.
-    Power,
-    /// Number without dimension.
-    Number,
-}
-
 /// Name of a quantity, its dimension, its SI unit in scene files, and usual spellings.
 struct Properties(&'static str, Dimension, &'static str, &'static str);
 
-macro_rules! properties {
-    ($of:expr; $($quantity:ident: $name:literal, $dimension:expr, $si:literal, $examples:literal;)*) => {
-        match $of {
-            $(Quantity::$quantity => Properties($name, $dimension, $si, $examples),)*
+/// Declares all quantities with their properties.
+macro_rules! quantities {
+    ($($quantity:ident: $name:literal, $dimension:expr, $si:literal, $examples:literal;)*) => {
+        /// Physical quantity of a value in a scene file, which determines the units it may have.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Quantity {
+            $(#[doc = concat!("Written like ", $examples, ".")] $quantity,)*
+        }
+
+        impl Quantity {
+            fn properties(self) -> Properties {
+                match self {
+                    $(Quantity::$quantity => Properties($name, $dimension, $si, $examples),)*
+                }
+            }
         }
     };
 }
 
-impl Quantity {
-    fn properties(self) -> Properties {
-        properties! { self;
-            Length: "a length", [1, 0, 0, 0], "m", "\"47 mm\", \"0.047 m\", \"2 in\"";
-            Mass: "a mass", [0, 1, 0, 0], "kg", "\"0.86 kg\", \"860 g\", \"1.9 lb\"";
-            Inertia: "a moment of inertia", [2, 1, 0, 0], "kg m^2", "\"5807.55 kg mm^2\", \"0.0058 kg m^2\"";
-            Angle: "an angle", [0, 0, 0, 1], "rad", "\"40 deg\", \"0.7 rad\", \"2 rev\"";
-            AngularSpeed: "an angular speed", [0, 0, -1, 1], "rad/s", "\"200 rpm\", \"100 rad/s\", \"30 deg/s\"";
-            Acceleration: "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.80665 m/s^2\"";
-            Time: "a time", [0, 0, 1, 0], "s", "\"1 s\", \"5 ms\", \"2 min\"";
-            Force: "a force", [1, 1, -2, 0], "N", "\"-200 N\", \"5 kN\", \"10 lbf\"";
-            Torque: "a torque", [2, 1, -2, 0], "N m", "\"2 N m\", \"250 N mm\", \"1 lbf ft\"";
-            RotaryDamping: "a torque per angular speed", [2, 1, -1, -1], "N m s/rad", "\"0.02 N m s/rad\"";
-            LinearDamping: "a force per velocity", [0, 1, -1, 0], "N s/m", "\"15 N s/m\"";
-            Stiffness: "a stiffness", [0, 1, -2, 0], "N/m", "\"2 kN/m\", \"3 N/mm\"";
-            Pressure: "a pressure", [-1, 1, -2, 0], "Pa", "\"10 bar\", \"101325 Pa\"";
-            Density: "a density", [-3, 1, 0, 0], "kg/m^3", "\"7800 kg/m^3\", \"7.8 g/cm^3\"";
-            Velocity: "a velocity", [1, 0, -1, 0], "m/s", "\"2 m/s\"";
-            Energy: "an energy", [2, 1, -2, 0], "J", "\"50 J\", \"2 kJ\"";
-            Power: "a power", [2, 1, -3, 0], "W", "\"500 W\", \"2 kW\"";
-            Number: "a number", [0, 0, 0, 0], "", "0.1, 1e-10";
-        }
-    }
+quantities! {
+    Length: "a length", [1, 0, 0, 0], "m", "\"47 mm\", \"0.047 m\", \"2 in\"";
+    Mass: "a mass", [0, 1, 0, 0], "kg", "\"0.86 kg\", \"860 g\", \"1.9 lb\"";
+    Inertia: "a moment of inertia", [2, 1, 0, 0], "kg m^2", "\"5807.55 kg mm^2\", \"0.0058 kg m^2\"";
+    Angle: "an angle", [0, 0, 0, 1], "rad", "\"40 deg\", \"0.7 rad\", \"2 rev\"";
+    AngularSpeed: "an angular speed", [0, 0, -1, 1], "rad/s", "\"200 rpm\", \"100 rad/s\", \"30 deg/s\"";
+    Acceleration: "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.80665 m/s^2\"";
+    Time: "a time", [0, 0, 1, 0], "s", "\"1 s\", \"5 ms\", \"2 min\"";
+    Force: "a force", [1, 1, -2, 0], "N", "\"-200 N\", \"5 kN\", \"10 lbf\"";
+    Torque: "a torque", [2, 1, -2, 0], "N m", "\"2 N m\", \"250 N mm\", \"1 lbf ft\"";
+    RotaryDamping: "a torque per angular speed", [2, 1, -1, -1], "N m s/rad", "\"0.02 N m s/rad\"";
+    LinearDamping: "a force per velocity", [0, 1, -1, 0], "N s/m", "\"15 N s/m\"";
+    Stiffness: "a stiffness", [0, 1, -2, 0], "N/m", "\"2 kN/m\", \"3 N/mm\"";
+    Pressure: "a pressure", [-1, 1, -2, 0], "Pa", "\"10 bar\", \"101325 Pa\"";
+    Density: "a density", [-3, 1, 0, 0], "kg/m^3", "\"7800 kg/m^3\", \"7.8 g/cm^3\"";
+    Velocity: "a velocity", [1, 0, -1, 0], "m/s", "\"2 m/s\"";
+    Energy: "an energy", [2, 1, -2, 0], "J", "\"50 J\", \"2 kJ\"";
+    Power: "a power", [2, 1, -3, 0], "W", "\"500 W\", \"2 kW\"";
+    Number: "a number", [0, 0, 0, 0], "", "0.1, 1e-10";
+}
 
+impl Quantity {
     /// Returns the exponents of metre, kilogram, second and radian.
     pub(super) fn dimension(self) -> Dimension {
         self.properties().1
