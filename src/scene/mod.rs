@@ -30,7 +30,7 @@ pub use expression::{Expression, ExpressionError};
 #[cfg(feature = "cli")]
 pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schema};
 #[cfg(feature = "cli")]
-pub(crate) use file::{DUARTE, nearest};
+pub(crate) use file::{DUARTE, did_you_mean};
 pub use load::Load;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use model::{LoadKey, LoadOf, MovedScene, Scene};

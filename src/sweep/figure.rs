@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::Design;
 use crate::kinematics::{Kinematics, Located};
-use crate::scene::nearest;
+use crate::scene::did_you_mean;
 use crate::scene::unit::Quantity;
 use FigureValue::{Empty, Number, Word};
 
@@ -212,14 +212,9 @@ impl FromStr for Figure {
         let text = text.trim();
         let named = |figure: &&Figure| figure.name == text || figure.to_string() == text;
         Figure::ALL.iter().find(named).copied().ok_or_else(|| {
-            let names = || Figure::ALL.iter().map(|figure| figure.name);
-            match nearest(text, names()) {
-                Some(near) => format!("`{text}` is no key figure; did you mean `{near}`?"),
-                None => {
-                    let known: Vec<&str> = names().collect();
-                    format!("`{text}` is no key figure; there are {}", known.join(", "))
-                }
-            }
+            let known = Figure::ALL.iter().map(|figure| figure.name);
+            let help = did_you_mean(text, "a design", known);
+            format!("`{text}` is no key figure; {help}")
         })
     }
 }

@@ -25,7 +25,7 @@ use crate::error::Error;
 pub(crate) use draft::DUARTE;
 pub use draft::{Assigned, Draft};
 pub use key_path::NumberKey;
-pub(crate) use key_path::nearest;
+pub(crate) use key_path::did_you_mean;
 pub use render::printable;
 pub use schema::schema;
 pub use varied::{Varied, VariedValue};
