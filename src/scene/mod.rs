@@ -8,6 +8,7 @@ mod check;
 mod clearance;
 mod corners;
 mod csv;
+mod digits;
 mod expression;
 #[cfg(feature = "cli")]
 mod file;

@@ -40,15 +40,12 @@ pub(super) fn with_unit(value: f64, unit: &str) -> String {
 
 /// Formats two values that differ with enough digits to show it.
 pub(super) fn apart(a: f64, b: f64) -> (String, String) {
-    (6..=17)
-        .map(|digits| {
-            (
-                rounded(a, digits, WITHOUT_EXPONENT),
-                rounded(b, digits, WITHOUT_EXPONENT),
-            )
-        })
-        .find(|(a, b)| a != b)
-        .unwrap_or_else(|| (show(a), show(b)))
+    let both = |digits| {
+        let [a, b] = [a, b].map(|value| rounded(value, digits, WITHOUT_EXPONENT));
+        (a, b)
+    };
+    let differ = (6..=17).map(both).find(|(a, b)| a != b);
+    differ.unwrap_or_else(|| both(12))
 }
 
 /// Formats a computed value with six significant digits.

@@ -3,6 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
+use super::digits::Digits;
+
 /// Longest cycle, turns, because a cycle is tabulated as a whole; a multiple of all numbers up to six.
 const LONGEST_CYCLE: u32 = 120;
 
@@ -85,7 +87,8 @@ impl Period {
     /// Returns the period of an angle (rad) as written, rounded or cut off at its last digit, like a turn on a
     /// calculator, 6.283185307 rad.
     pub(super) fn as_written(angle: f64) -> Result<Period, WhyNot> {
-        Period::near(angle / TAU, last_unit(angle) / angle)
+        let digits = Digits::of(&format!("{angle:e}"));
+        Period::near(angle / TAU, digits.last_unit() / angle)
     }
 
     /// Returns the least common multiple of two periods.
@@ -173,15 +176,6 @@ impl fmt::Display for WhyNot {
             }
         }
     }
-}
-
-/// Returns a unit of the last digit in the shortest decimal form of a number.
-fn last_unit(value: f64) -> f64 {
-    let text = format!("{value:e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
-    let exponent = exponent.parse::<i32>().unwrap_or_default();
-    10f64.powi(exponent - decimals as i32)
 }
 
 /// Returns the fraction of the least denominator between two positive numbers, by their continued fractions; none if

@@ -1,7 +1,6 @@
 //! Measured motion: time with crank angle, crank-pin angle or slider position, sample by sample, checked.
 
 mod columns;
-mod digits;
 mod heading;
 mod listed;
 mod measured;

@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use super::columns::{Columns, MOST_COLUMNS};
-use super::digits::Digits;
 use super::heading::Heading;
 use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
@@ -11,6 +10,7 @@ use crate::numeric::parallel;
 use crate::scene::csv::Column;
 use crate::scene::csv::cell::{self, NotANumber};
 use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
+use crate::scene::digits::Digits;
 use crate::scene::number::counted;
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};

@@ -30,6 +30,11 @@ impl Digits {
         }
     }
 
+    /// Returns a unit of the last decimal.
+    pub fn last_unit(self) -> f64 {
+        10f64.powi(-self.decimals)
+    }
+
     /// Returns the larger decimals and digits of two.
     pub fn or(self, other: Digits) -> Digits {
         Digits {
@@ -40,7 +45,7 @@ impl Digits {
 
     /// Returns the root mean square of the rounding steps of the values: the coarser of last decimal and last digit.
     pub fn step(self, values: &[f64]) -> f64 {
-        let finest = 10f64.powi(-self.decimals);
+        let finest = self.last_unit();
         let square = |value: &f64| {
             let size = value.abs().log10().floor() as i32;
             let excess = (size + 1 - self.significant)
