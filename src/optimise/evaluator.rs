@@ -20,6 +20,8 @@ pub(super) struct Evaluator<'a> {
     goal_scale: f64,
     /// Scale of each limited figure: its interquartile range in the sample.
     scales: Vec<f64>,
+    /// Worst scaled goal in the sample, which replaces a missing one.
+    worst: f64,
 }
 
 /// A design with its goal and its violation of the limits.
@@ -59,6 +61,7 @@ impl<'a> Evaluator<'a> {
             computed: AtomicU64::new(0),
             goal_scale: 1.0,
             scales: vec![1.0; problem.constraints.len()],
+            worst: f64::NEG_INFINITY,
         }
     }
 
@@ -111,14 +114,17 @@ impl<'a> Evaluator<'a> {
         let constraints = 0..self.problem.constraints.len();
         self.scales = constraints.map(|i| of(&|one| one.margins[i])).collect();
         self.goal_scale = of(&|one| one.objective.unwrap_or_default());
+        let scaled = sample.iter().map(|one| self.scaled_objective(one));
+        self.worst = scaled.fold(f64::NEG_INFINITY, f64::max);
         let sample = sample.into_iter();
         let ranked = sample.map(|one| self.ranked(one.at, one.objective, one.margins));
         ranked.collect()
     }
 
-    /// Returns the scaled goal, `worst` for a design without goal.
-    pub fn scaled_objective(&self, one: &Evaluation, worst: f64) -> f64 {
-        one.objective.map_or(worst, |value| value / self.goal_scale)
+    /// Returns the scaled goal, the worst one of the sample for a design without goal.
+    pub fn scaled_objective(&self, one: &Evaluation) -> f64 {
+        let scaled = one.objective.map(|value| value / self.goal_scale);
+        scaled.unwrap_or(self.worst)
     }
 
     /// Returns the scaled margin to a limit, positive if met; -1, a violation by one scale, without figures.

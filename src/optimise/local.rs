@@ -17,20 +17,14 @@ pub(super) struct LocalOptimum {
     pub designs: u64,
 }
 
-/// Last design of a search, cached because COBYLA asks for goal and limits one by one, and the best design.
+/// Last design of a search, cached because COBYLA asks for goal and limits one by one, and what is found so far.
 struct Incumbent {
     last: Evaluation,
-    best: Evaluation,
-    designs: u64,
+    found: LocalOptimum,
 }
 
-/// Runs COBYLA from a design, initial trust radius `step` in parts of the ranges; `worst` replaces a missing goal.
-pub(super) fn search(
-    evaluator: &Evaluator,
-    from: Evaluation,
-    step: f64,
-    worst: f64,
-) -> LocalOptimum {
+/// Runs COBYLA from a design, initial trust radius `step` in parts of the ranges.
+pub(super) fn search(evaluator: &Evaluator, from: Evaluation, step: f64) -> LocalOptimum {
     let start = from.at.clone();
     let keys = start.len();
     // COBYLA needs a few dozen designs per key where no valley is curved.
@@ -41,21 +35,24 @@ pub(super) fn search(
     let safety_margin = 10.0 * last_step;
     let seen = RefCell::new(Incumbent {
         last: from.clone(),
-        best: from,
-        designs: 0,
+        found: LocalOptimum {
+            from: start.clone(),
+            end: from,
+            designs: 0,
+        },
     });
     let look = |at: &[f64]| {
-        let mut seen = seen.borrow_mut();
-        if seen.last.at != at {
-            seen.last = evaluator.evaluate(at.to_vec());
-            seen.designs += 1;
-            if seen.last.order(&seen.best).is_lt() {
-                seen.best = seen.last.clone();
+        let Incumbent { last, found } = &mut *seen.borrow_mut();
+        if last.at != at {
+            *last = evaluator.evaluate(at.to_vec());
+            found.designs += 1;
+            if last.order(&found.end).is_lt() {
+                found.end = last.clone();
             }
         }
-        seen.last.clone()
+        last.clone()
     };
-    let goal = |at: &[f64], _: &mut ()| evaluator.scaled_objective(&look(at), worst);
+    let goal = |at: &[f64], _: &mut ()| evaluator.scaled_objective(&look(at));
     let limit = |constraint| {
         let look = &look;
         move |at: &[f64], _: &mut ()| evaluator.scaled_margin(&look(at), constraint) - safety_margin
@@ -78,10 +75,5 @@ pub(super) fn search(
         RhoBeg::All(step),
         Some(tolerances),
     );
-    let Incumbent { best, designs, .. } = seen.into_inner();
-    LocalOptimum {
-        from: start,
-        end: best,
-        designs,
-    }
+    seen.into_inner().found
 }

@@ -39,14 +39,11 @@ pub(super) fn run(
     evaluator.stop.reach(0.2);
     let mut sorted = evaluator.calibrate(explored);
     sorted.sort_by(Evaluation::order);
-    let computed = sorted.iter().filter(|one| one.objective.is_some());
-    let scaled = computed.map(|one| evaluator.scaled_objective(one, 0.0));
-    let worst = scaled.fold(f64::NEG_INFINITY, f64::max);
     let evaluator = &*evaluator;
     // Trust radius in parts of the ranges.
     let first_step = 0.1;
     let starts = parallel::map(starts(&sorted).into_iter(), |from| {
-        search(evaluator, from, first_step, worst)
+        search(evaluator, from, first_step)
     });
     evaluator.stop.reach(0.7);
     // Of equal designs the end of the first search.
@@ -54,7 +51,7 @@ pub(super) fn run(
     let mut best = ends.fold(sorted.swap_remove(0), |best, end| {
         if end.order(&best).is_le() { end } else { best }
     });
-    let proof = final_sweeps(evaluator, sample.seed, &mut best, worst);
+    let proof = final_sweeps(evaluator, sample.seed, &mut best);
     let resolution = evaluator.resolution(&best);
     Ok(SearchResult {
         best,
@@ -109,12 +106,7 @@ fn starts(sorted: &[Evaluation]) -> Vec<Evaluation> {
 }
 
 /// Sweeps boxes round the best design, widest first; restarts the search from any better design.
-fn final_sweeps(
-    evaluator: &Evaluator,
-    seed: u64,
-    best: &mut Evaluation,
-    worst: f64,
-) -> FinalSweeps {
+fn final_sweeps(evaluator: &Evaluator, seed: u64, best: &mut Evaluation) -> FinalSweeps {
     let keys = best.at.len() as u64;
     let mut sweeps = FinalSweeps {
         half_widths: HALF_WIDTHS.to_vec(),
@@ -144,7 +136,7 @@ fn final_sweeps(
             }
             let better = found.into_iter().min_by(Evaluation::order);
             if let Some(better) = better.filter(|one| evaluator.improves(one, best, resolution)) {
-                *best = search(evaluator, better, width, worst).end;
+                *best = search(evaluator, better, width).end;
                 sweeps.improvements += 1;
                 let done = f64::from(sweeps.improvements) / f64::from(most_improvements);
                 evaluator.stop.reach(0.7 + 0.3 * done);
