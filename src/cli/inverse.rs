@@ -6,11 +6,11 @@ use clap::Args;
 
 use super::outputs::Outputs;
 use super::reading::ReadingArguments;
-use super::streams::{check_inputs, create, origin};
+use super::streams::{check_inputs, create, draft, origin};
 use crate::error::Error;
 use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
 use crate::report::{self, InverseReport};
-use crate::scene::{Draft, Measurement, Reading};
+use crate::scene::{Measurement, Reading};
 use crate::simulate::Stop;
 
 /// Arguments of `inverse`.
@@ -110,7 +110,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     check_inputs(file, data)?;
     // Data first: without data, a data file may stand in the place of the scene.
     let measurement = measurement(arguments)?;
-    let draft = file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))?;
+    let draft = draft(file)?;
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
     let options = InverseOptions {

@@ -70,7 +70,7 @@ impl Streams {
     /// # Errors
     /// [`Error::Read`]; [`Error::Refused`] if a result would overwrite a table of the scene.
     pub fn draft(&self, file: Option<&PathBuf>) -> Result<Draft, Error> {
-        let draft = file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))?;
+        let draft = draft(file)?;
         if let Ok(scene) = draft.scene() {
             self.spare_tables(&scene)?;
         }
@@ -201,12 +201,14 @@ pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
     create(path)
 }
 
+/// Loads the text of a scene: a file, or the built-in engine.
+pub(super) fn draft(file: Option<&PathBuf>) -> Result<Draft, Error> {
+    file.map_or_else(|| Ok(Draft::duarte()), |file| Draft::load(file))
+}
+
 /// Loads the scene of a command: a file, or the built-in engine.
 pub(super) fn scene(file: Option<&PathBuf>) -> Result<Scene, Error> {
-    match file {
-        Some(file) => Scene::load(file),
-        None => Ok(Scene::duarte()),
-    }
+    Ok(draft(file)?.scene()?)
 }
 
 /// Returns the origin of a result: text of the scene, if readable a second time, and command.
