@@ -4,7 +4,6 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::keys::SECTIONS;
 use super::loads::check_keys;
-use super::part::Part;
 use super::read::{Contents, Values};
 use super::{bodies, loads};
 use crate::scene::check::Check;
@@ -17,8 +16,7 @@ use crate::scene::{
 /// problem; the caller returns no scene with problems.
 pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     let tables = contents.tables.iter();
-    let unknown = tables.clone().filter(|values| values.part.get().is_none());
-    unknown.for_each(|values| required(check, values));
+    tables.clone().for_each(|values| required(check, values));
     let mut names = tables.map(|values| values.section.name);
     if !names.any(|name| name == "geometry") && check.has_no_problem(&["geometry"]) {
         let help = "add [geometry] with crank = \"47 mm\" and rod = \"155.83 mm\"";
@@ -29,41 +27,46 @@ pub(super) fn scene(check: &mut Check, contents: Contents) -> Scene {
     // The geometry comes first; the order of the sections is that of the problems.
     for section in SECTIONS {
         for values in contents.of_section(section) {
-            let known = values.part.get().cloned();
-            let mut part = known.unwrap_or_else(|| part(check, values, scene.geometry));
-            if let Part::Force(Load::Gas { towards_crank, .. }) = &mut part {
-                *towards_crank = -scene.geometry.branch.sign();
-            }
-            part.enter(&mut scene);
+            enter(check, values, &mut scene);
         }
     }
     scene.title = contents.title;
     scene
 }
 
-/// Builds the part of a table of a scene with this geometry so far.
-fn part(check: &mut Check, values: &Values, so_far: Geometry) -> Part {
-    // A load that could not be read keeps its place, because problems of the others count the loads.
-    let load = |check: &mut Check| loads::load(check, values).unwrap_or(Load::Constant(0.0));
-    let part = match values.section.name {
-        "geometry" => Part::Geometry(geometry(values, so_far)),
-        "crank" => Part::Crank(bodies::crank(check, values)),
-        "rod" => Part::Rod(bodies::rod(check, values, so_far.rod)),
-        "slider" => Part::Slider(bodies::slider(check, values)),
-        "gravity" => Part::Gravity(gravity(values)),
-        "torque" => Part::Torque(load(check)),
-        "force" => Part::Force(load(check)),
-        "friction" => Part::Friction(friction(values)),
-        "clearance" => Part::Clearance(clearance(values)),
-        "motion" => Part::Motion(motion(check, values)),
-        _ => Part::Run(run(check, values)),
-    };
-    // Without `cg` a rod takes it from the rod length of another table, which may change: the part is not kept.
-    let is_alone = !matches!(part, Part::Rod(_)) || values.has("cg");
-    if is_alone && check.problems.is_empty() {
-        values.part.get_or_init(|| part.clone());
+/// Enters the part of a table into the scene so far.
+fn enter(check: &mut Check, values: &Values, scene: &mut Scene) {
+    let Geometry { rod, branch, .. } = scene.geometry;
+    match values.section.name {
+        "geometry" => scene.geometry = geometry(values, scene.geometry),
+        "crank" => scene.crank = Some(bodies::crank(check, values)),
+        "rod" => scene.rod = Some(bodies::rod(check, values, rod)),
+        "slider" => scene.slider = Some(bodies::slider(check, values)),
+        "gravity" => scene.gravity = gravity(values),
+        "torque" => scene.torques.push(load(check, values, branch)),
+        "force" => scene.forces.push(load(check, values, branch)),
+        "friction" => scene.friction = friction(values),
+        "clearance" => scene.clearance = clearance(values),
+        "motion" => scene.motion = motion(check, values),
+        _ => scene.run = run(check, values),
     }
-    part
+}
+
+/// Returns the load of a table, which is read once for all scenes that leave the table as it is.
+fn load(check: &mut Check, values: &Values, branch: Branch) -> Load {
+    let read = values.load.get().cloned().or_else(|| {
+        let read = loads::load(check, values)?;
+        if check.problems.is_empty() {
+            values.load.get_or_init(|| read.clone());
+        }
+        Some(read)
+    });
+    // A load that could not be read keeps its place, because problems of the others count the loads.
+    let mut load = read.unwrap_or(Load::Constant(0.0));
+    if let Load::Gas { towards_crank, .. } = &mut load {
+        *towards_crank = -branch.sign();
+    }
+    load
 }
 
 /// Adds a problem for each key that every table of the section needs and this one lacks.

@@ -10,7 +10,6 @@ mod even_spacing;
 mod key_path;
 mod keys;
 mod loads;
-mod part;
 mod read;
 mod render;
 mod schema;

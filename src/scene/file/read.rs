@@ -1,6 +1,5 @@
 //! Reads scene files: takes TOML, returns the values of each table, and the problems with their places.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -9,44 +8,46 @@ use toml::de::{DeTable, DeValue};
 use super::VariedValue;
 use super::key_path::{KeyPath, did_you_mean};
 use super::keys::{self, Key, Kind, Section};
-use super::part::Part;
 use super::value::{self, Value};
 use crate::scene::check::Check;
 use crate::scene::problem::Spans;
 use crate::scene::unit::Uncertain;
-use crate::scene::{Every, Problem};
+use crate::scene::{Every, Load, Problem};
 
 /// Values of one table that could be read, by key.
 #[derive(Clone, Debug)]
 pub(super) struct Values {
     pub section: &'static Section,
-    /// Part of the scene made by the table, set once it is known to have no problem and to need no other table.
-    pub part: OnceLock<Part>,
+    /// Load of the table, set once it is known to have no problem.
+    pub load: OnceLock<Load>,
     path: String,
-    entries: BTreeMap<&'static str, Value>,
+    entries: Vec<(&'static str, Value)>,
 }
 
 impl Values {
     pub fn new(section: &'static Section, path: String) -> Values {
         Values {
             section,
-            part: OnceLock::new(),
+            load: OnceLock::new(),
             path,
-            entries: BTreeMap::new(),
+            entries: Vec::new(),
         }
     }
 
     /// Sets the value of a key; none, for a value that could not be read, removes it.
     pub fn set(&mut self, key: &'static Key, value: Option<Value>) {
-        self.part = OnceLock::new();
-        match value {
-            Some(value) => self.entries.insert(key.name, value),
-            None => self.entries.remove(key.name),
-        };
+        self.load = OnceLock::new();
+        self.entries.retain(|(name, _)| *name != key.name);
+        self.entries.extend(value.map(|value| (key.name, value)));
+    }
+
+    fn get(&self, key: &str) -> Option<&Value> {
+        let entry = self.entries.iter().find(|(name, _)| *name == key);
+        entry.map(|(_, value)| value)
     }
 
     pub fn number(&self, key: &str) -> Option<f64> {
-        match self.entries.get(key) {
+        match self.get(key) {
             Some(Value::Number(number)) => Some(number.value),
             _ => None,
         }
@@ -54,12 +55,12 @@ impl Values {
 
     /// Returns the quantity of a key with its standard error, also where a formula may stand.
     pub fn uncertain(&self, key: &Key) -> Option<Uncertain> {
-        self.entries.get(key.name)?.number(key.kind)
+        self.get(key.name)?.number(key.kind)
     }
 
     /// Returns a text or the word of a choice.
     pub fn text(&self, key: &str) -> Option<&str> {
-        match self.entries.get(key) {
+        match self.get(key) {
             Some(Value::Text(text)) => Some(text),
             Some(Value::Choice(word)) => Some(word),
             _ => None,
@@ -73,25 +74,25 @@ impl Values {
 
     /// Returns a number without quotes, where a quantity or a formula may stand.
     pub fn bare(&self, key: &str) -> Option<&str> {
-        match self.entries.get(key) {
+        match self.get(key) {
             Some(Value::Bare(digits)) => Some(digits),
             _ => None,
         }
     }
 
     pub fn every(&self, key: &str) -> Option<Every> {
-        match self.entries.get(key) {
+        match self.get(key) {
             Some(Value::Every(every)) => Some(*every),
             _ => None,
         }
     }
 
     pub fn has(&self, key: &str) -> bool {
-        self.entries.contains_key(key)
+        self.get(key).is_some()
     }
 
     pub fn names(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.entries.keys().copied()
+        self.entries.iter().map(|(name, _)| *name)
     }
 
     /// Returns the name of a key in problems, as `torque[1].value`.
