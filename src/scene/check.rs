@@ -32,6 +32,12 @@ impl Check<'_> {
         !self.problems.iter().any(is_one)
     }
 
+    /// Whether neither a table nor any of its keys has a problem.
+    pub fn has_no_problem_in(&self, table: &str) -> bool {
+        let is_of_table = |problem: &Problem| problem.field.split('.').next() == Some(table);
+        !self.problems.iter().any(is_of_table)
+    }
+
     pub fn finite(&mut self, field: impl Display, value: f64) -> bool {
         if !value.is_finite() {
             let what = format!("{value} is not a finite number");

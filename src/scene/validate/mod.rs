@@ -104,22 +104,8 @@ fn square(cg: [f64; 2]) -> f64 {
 
 /// Checks the moment of inertia of a body about a point against the `least` that its centre of gravity allows, kg m².
 fn inertia(check: &mut Check, body: &str, about: &str, inertia: f64, least: f64) {
-    const KEYS: [&str; 8] = [
-        "mass",
-        "cg",
-        "cg_lateral",
-        "inertia",
-        "density",
-        "length",
-        "width",
-        "depth",
-    ];
     let relative_rounding = 1e-9;
-    if inertia >= least * (1.0 - relative_rounding) {
-        return;
-    }
-    let fields = KEYS.map(|key| format!("{body}.{key}"));
-    if check.has_no_problem(&fields) {
+    if inertia < least * (1.0 - relative_rounding) && check.has_no_problem_in(body) {
         let (inertia, least) = apart(inertia, least);
         let what = format!(
             "{inertia} kg m2 about {about} is less than mass times distance of the centre of gravity squared, {least} kg m2"
