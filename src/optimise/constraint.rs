@@ -47,14 +47,9 @@ impl FromStr for Constraint {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Constraint, String> {
-        let signs = [
-            ("≥", Sense::AtLeast),
-            (">=", Sense::AtLeast),
-            ("≤", Sense::AtMost),
-            ("<=", Sense::AtMost),
-        ];
-        let parts = signs.into_iter().find_map(|(sign, sense)| {
-            let (name, limit) = text.split_once(sign)?;
+        let plain = text.replace('≥', ">=").replace('≤', "<=");
+        let parts = Sense::ALL.into_iter().find_map(|sense| {
+            let (name, limit) = plain.split_once(sense.name())?;
             Some((name, sense, limit))
         });
         let (name, sense, limit) = parts.ok_or_else(|| {
