@@ -35,24 +35,14 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Drawing style of a series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
-    /// Solid line.
-    Line,
-    /// Dashed line.
-    Dashed,
-    /// Single points.
-    Points,
-}
-
-impl Drawing {
-    pub(super) fn new(name: &str, title: &str, plots: Vec<Plot>) -> Drawing {
-        Drawing {
-            paper: "",
-            name: name.to_owned(),
-            title: title.to_owned(),
-            plots,
-        }
+named! {
+    /// Drawing style of a series.
+    pub enum Style {
+        /// Solid line.
+        Line = "line",
+        /// Dashed line.
+        Dashed = "dashed",
+        /// Single points.
+        Points = "points",
     }
 }

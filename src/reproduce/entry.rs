@@ -71,8 +71,16 @@ impl Printed {
         Printed::Number(words.to_owned(), 0.5 * (least + most), 0.5 * (most - least))
     }
 
+    /// Returns the number as printed, or the value of the formula.
+    pub fn text(&self) -> String {
+        match self {
+            Printed::Number(text, ..) => text.clone(),
+            Printed::Formula(value) => format!("{value}"),
+        }
+    }
+
     /// Returns the verdict from the computed and the conditional value; `cut`: the conditional number may be truncated.
-    fn verdict(&self, ours: Option<f64>, conditional: Option<f64>, cut: bool) -> Verdict {
+    pub fn verdict(&self, ours: Option<f64>, conditional: Option<f64>, cut: bool) -> Verdict {
         let (holds, holds_if) = match *self {
             Printed::Number(_, value, tolerance) => {
                 let near = |candidate: f64| (candidate - value).abs() <= tolerance;
@@ -99,34 +107,6 @@ impl Printed {
             (true, _) => Verdict::Reproduces,
             (_, true) => Verdict::OnlyIf,
             _ => Verdict::Cannot,
-        }
-    }
-}
-
-impl Entry {
-    /// Returns an entry without texts: printed, computed and conditional value with their verdict.
-    pub(super) fn judged(
-        printed: Printed,
-        ours: Option<f64>,
-        conditional: Option<f64>,
-        cut: bool,
-    ) -> Entry {
-        let verdict = printed.verdict(ours, conditional, cut);
-        Entry {
-            paper: "",
-            place: String::new(),
-            what: String::new(),
-            unit: String::new(),
-            printed: match printed {
-                Printed::Number(text, ..) => text,
-                Printed::Formula(value) => format!("{value}"),
-            },
-            ours,
-            // An unneeded condition is dropped.
-            conditional: conditional.filter(|_| verdict != Verdict::Reproduces),
-            condition: String::new(),
-            verdict,
-            expected: Verdict::Reproduces,
         }
     }
 }

@@ -1,12 +1,14 @@
 //! Reads the claims of a paper from three built-in CSV files, and evaluates the formulas: expressions as in loads, with
-//! two more kinds of names, symbols of the paper and quantities of the mechanism.
+//! two more kinds of names, symbols of the paper and quantities of the mechanism. `slope_SYMBOL` is the derivative of a
+//! symbol by the crank angle, `largest_SYMBOL` its largest size in a turn.
 
 use std::collections::BTreeMap;
 
 use super::drawing::{Drawing, Plot, Series, Style};
 use super::entry::{Entry, Printed, Verdict};
+use super::paper::Paper;
 use crate::error::Error;
-use crate::numeric::difference;
+use crate::numeric::{angle, difference, maximum};
 use crate::scene::{Expression, Instant};
 
 /// Function from the name of a quantity and the crank angle (rad) to its value; none for unknown names.
@@ -18,7 +20,8 @@ pub(super) struct Files {
     pub symbols: &'static str,
     /// Claims: place,what,unit,at,printed,range,ours,verdict,condition,conditional
     pub claims: &'static str,
-    /// Figures: figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula; theta as formula of the abscissa t
+    /// Figures: figure,title,x_axis,y_axis,from,to,steps,theta,style,label,formula; theta as formula of the abscissa t;
+    /// in place of a formula `PLACE: WHAT` for the printed numbers of the claims that begin so, over their `at`
     pub figures: &'static str,
 }
 
@@ -36,6 +39,7 @@ pub(super) use files;
 
 /// Paper whose formulas can be evaluated.
 pub(super) struct PaperFormulas {
+    paper: Paper,
     symbols: BTreeMap<String, Expression>,
     claims: Vec<[String; 10]>,
     figures: Vec<[String; 11]>,
@@ -68,8 +72,9 @@ impl PaperFormulas {
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
-    pub fn new(files: Files) -> Result<PaperFormulas, Error> {
+    pub fn new(paper: Paper, files: Files) -> Result<PaperFormulas, Error> {
         let mut formulas = PaperFormulas {
+            paper,
             symbols: BTreeMap::new(),
             claims: records(files.claims)?,
             figures: records(files.figures)?,
@@ -96,7 +101,17 @@ impl PaperFormulas {
             let step = 1e-3;
             Some(difference::slope(at, theta, step))
         };
-        let number = |name: &str| slope(name).or_else(|| (self.quantities)(name, theta));
+        let largest = |name: &str| {
+            let of = symbol(name.strip_prefix("largest_")?)?;
+            let size = |theta| of.value(&now(0.0, theta)).abs();
+            let grid: Vec<f64> = angle::turn(1f64.to_radians()).collect();
+            let peaks = maximum::peaks(size, &grid).into_iter();
+            Some(peaks.map(|(_, peak)| peak).fold(size(0.0), f64::max))
+        };
+        let number = |name: &str| {
+            let ours = || (self.quantities)(name, theta);
+            slope(name).or_else(|| largest(name)).or_else(ours)
+        };
         let named = |name: &str| symbol(name).or_else(|| number(name).map(Expression::constant));
         Expression::parse_with(formula, &named).map_err(|error| wrong(formula, &error.what))
     }
@@ -170,17 +185,24 @@ impl PaperFormulas {
             "cannot" => (Verdict::Cannot, false),
             other => return Err(wrong(other, "a verdict")),
         };
-        let entry = Entry::judged(printed, optional(ours)?, optional(conditional)?, cut);
+        let (ours, conditional) = (optional(ours)?, optional(conditional)?);
+        let verdict = printed.verdict(ours, conditional, cut);
+        // An unneeded condition is dropped.
+        let needs_condition = verdict != Verdict::Reproduces;
         Ok(Entry {
+            paper: self.paper.name(),
             place: place.clone(),
             what: what.clone(),
             unit: unit.clone(),
-            condition: match entry.verdict {
-                Verdict::Reproduces => String::new(),
-                _ => condition.clone(),
+            printed: printed.text(),
+            ours,
+            conditional: conditional.filter(|_| needs_condition),
+            condition: match needs_condition {
+                true => condition.clone(),
+                false => String::new(),
             },
+            verdict,
             expected,
-            ..entry
         })
     }
 
@@ -195,7 +217,7 @@ impl PaperFormulas {
             .collect()
     }
 
-    /// Returns every figure whose curves are formulas.
+    /// Returns every figure.
     ///
     /// # Errors
     /// [`Error::Refused`] for data that cannot be read.
@@ -217,29 +239,43 @@ impl PaperFormulas {
         });
         let plots = plots.collect::<Result<_, Error>>()?;
         let [name, title, ..] = &curves[0];
-        Ok(Drawing::new(name, title, plots))
+        let number = name.replace("figure-0", "figure ").replace('-', " ");
+        Ok(Drawing {
+            paper: self.paper.name(),
+            name: name.clone(),
+            title: format!("{}, {number}: {title}", self.paper.authors()),
+            plots,
+        })
     }
 
     fn series(&self, curve: &[String; 11]) -> Result<Series, Error> {
         let [.., from, to, steps, theta, style, label, formula] = curve;
-        let [from, to, steps] = self.numbers([from, to, steps])?;
+        let points = match formula.split_once(": ") {
+            Some((place, what)) => self.column(place, what)?,
+            None => self.points(formula, [from, to, steps], theta)?,
+        };
+        Ok(Series {
+            label: label.clone(),
+            style: Style::named(style).ok_or_else(|| wrong(style, "a style"))?,
+            points,
+        })
+    }
+
+    /// Returns the values of a formula at `steps` + 1 abscissas.
+    fn points(
+        &self,
+        formula: &str,
+        range: [&str; 3],
+        theta: &str,
+    ) -> Result<Vec<(f64, f64)>, Error> {
+        let [from, to, steps] = self.numbers(range)?;
         let theta = self.read(theta, 0.0)?;
         let point = |i: u32| {
             let t = from + (to - from) * f64::from(i) / steps;
             let at = now(t, theta.value(&now(t, t)));
             Ok((t, self.value_at(formula, &at)?))
         };
-        Ok(Series {
-            label: label.clone(),
-            style: match style.as_str() {
-                "line" => Style::Line,
-                "dashed" => Style::Dashed,
-                _ => Style::Points,
-            },
-            points: (0..=steps as u32)
-                .map(point)
-                .collect::<Result<_, Error>>()?,
-        })
+        (0..=steps as u32).map(point).collect()
     }
 }
 

@@ -4,6 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use super::formulas::{PaperFormulas, files};
+use super::gupta_clearance::LooseTurns;
+use super::paper::Paper;
 use super::quantities::{self, MechanismQuantities};
 use crate::error::Error;
 use crate::mechanism::{Linkage, Shape};
@@ -100,7 +102,7 @@ fn plate(name: &str) -> Option<f64> {
 }
 
 pub(super) fn formulas() -> Result<PaperFormulas, Error> {
-    let symbols = PaperFormulas::new(files!("gupta"))?;
+    let symbols = PaperFormulas::new(Paper::Gupta, files!("gupta"))?;
     let [r, l, e, speed] = symbols.numbers(["r2", "r3", "e", "w"])?;
     let scene = |crank: f64, rod: f64| Scene::new(crank, rod).offset(e);
     let mechanisms = vec![
@@ -110,10 +112,12 @@ pub(super) fn formulas() -> Result<PaperFormulas, Error> {
     ];
     let linkage = Linkage::new(&scene(r, l).geometry);
     let script = Script { linkage, speed };
-    let worst = script.worst();
+    let (worst, loose) = (script.worst(), LooseTurns::new()?);
     let other = move |name: &str, theta: f64| match name {
         "worst" => Some(worst),
-        _ => script.value(name, theta).or_else(|| plate(name)),
+        _ => (script.value(name, theta))
+            .or_else(|| plate(name))
+            .or_else(|| loose.value(name, theta)),
     };
     Ok(symbols.with(quantities::of(mechanisms, other)))
 }
