@@ -160,7 +160,7 @@ pub fn inverse<'py>(
         };
         let found = inverse_of_uncertain(&asked.scene(call), &uncertain, samples, &options)
             .map_err(|error| error.with_notes(samples.notes()))?;
-        let rows = report::inverse_table(&found, None);
+        let rows = report::inverse_table(&found);
         let residuals = report::residual_table(&found);
         let summary = report::json(&found.summary)?;
         Ok((found, rows, residuals, summary))

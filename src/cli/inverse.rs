@@ -136,10 +136,10 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let of_printed = printed.as_ref().and_then(AsPrinted::warning);
     result.summary.warnings.extend(of_printed);
     if let Some(output) = residuals {
-        report::residuals(&result, output)?;
+        report::residual_table(&result).csv(output)?;
     }
     if let Some(output) = mean {
-        report::mean_cycle(&result, output)?;
+        report::mean_cycle_table(&result).csv(output)?;
     }
     let report = InverseReport {
         result: &result,

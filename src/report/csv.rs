@@ -110,19 +110,21 @@ pub(super) fn text(header: &str, rows: impl IntoIterator<Item = Vec<CsvCell>>) -
     String::from_utf8(text).unwrap_or_default()
 }
 
-/// Writes header and rows, formatted on all cores, and completes the output.
-pub(super) fn write_all<Row: Sync>(
+/// Writes header and columns of numbers, formatted on all cores, and completes the output.
+pub(super) fn write_columns(
     mut output: Output,
     header: &str,
-    rows: &[Row],
-    line: impl Fn(&Row, &mut Vec<u8>) + Sync,
+    columns: &[&[f64]],
 ) -> Result<(), Error> {
     output.write(format!("{header}\n").as_bytes())?;
-    let text_of = |rows: &[Row]| {
+    let text_of = |rows: &[usize]| {
         let mut text = Vec::new();
-        rows.iter().for_each(|row| line(row, &mut text));
+        for row in rows {
+            line(columns.iter().map(|values| values[*row]), &mut text);
+        }
         text
     };
+    let rows: Vec<usize> = (0..columns.first().map_or(0, |values| values.len())).collect();
     let rows_of_task = 1 << 12;
     for rows in rows.chunks(rows_of_task * rayon::current_num_threads()) {
         let texts: Vec<Vec<u8>> = rows.par_chunks(rows_of_task).map(text_of).collect();

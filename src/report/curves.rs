@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use super::default_view::DefaultView;
 use super::figure::{Axis, Figure, Shape, Sheet};
-use super::quantity::{Curve, base, curves, split};
+use super::key_values::rounded;
+use super::quantity::{Curve, Quantity, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
 
@@ -39,8 +40,12 @@ impl View {
         self.show.is_empty() && self.over.is_none()
     }
 
-    /// Returns the chosen columns as SVG, columns of one group and unit in one panel.
-    pub(super) fn svg(&self, table: &Table, default: DefaultView<'_>) -> Result<String, Error> {
+    /// Returns the chosen columns as figures, columns of one group and unit in one panel.
+    pub(super) fn figures(
+        &self,
+        table: &Table,
+        default: &DefaultView<'_>,
+    ) -> Result<Vec<Figure>, Error> {
         let names: Vec<&str> = table.names().collect();
         let own = if default.over.is_empty() {
             "theta"
@@ -67,8 +72,13 @@ impl View {
                 None => panels.push(vec![curve]),
             }
         }
-        let drawn = |curves: &Vec<Curve>| panel(table, &over, curves, &default);
-        let mut figures: Vec<Figure> = panels.iter().map(drawn).collect();
+        let drawn = |curves: &Vec<Curve>| panel(table, &over, curves, default);
+        Ok(panels.iter().map(drawn).collect())
+    }
+
+    /// Returns the chosen columns as SVG.
+    pub(super) fn svg(&self, table: &Table, default: DefaultView<'_>) -> Result<String, Error> {
+        let mut figures = self.figures(table, &default)?;
         let columns = if figures.len() > 3 {
             default.columns
         } else {
@@ -108,60 +118,81 @@ fn labelled(words: &str, unit: &str) -> String {
     }
 }
 
-/// Draws columns of one quantity, with their bands, over the column `over`.
-fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_>) -> Figure {
-    let axis = |label: String, unit: &str| match unit {
+/// Returns the axis of a quantity, with its unit.
+pub(super) fn axis(words: &str, unit: &str) -> Axis {
+    let label = labelled(words, unit);
+    match unit {
         "°" => Axis::degrees(label),
         _ => Axis::linear(label),
-    };
+    }
+}
+
+/// Draws columns of one quantity, with their bands, over the column `over`.
+fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_>) -> Figure {
     let x: Vec<f64> = over.values(table).collect();
     let first = &curves[0].quantity;
     let is_alone = curves.len() == 1;
     let words = if is_alone { &first.label } else { &first.group };
-    let mut label = labelled(words, &first.unit);
+    let mut up = axis(words, &first.unit).or(labelled("", &first.unit).trim());
     let values = || curves.iter().flat_map(|curve| curve.values(table));
     let cut = default.has_poles.then(|| bulk(values())).flatten();
-    if cut.is_some() {
-        label.push_str(", peaks cut off");
-    }
-    let mut up = axis(label, &first.unit).or(labelled("", &first.unit).trim());
     if let Some((low, high)) = cut {
+        up.label.push_str(", peaks cut off");
         up = up.range(low, high);
     }
-    let across = axis(
-        labelled(&over.quantity.label, &over.quantity.unit),
-        &over.quantity.unit,
-    );
+    let across = axis(&over.quantity.label, &over.quantity.unit);
     let mut figure = Figure::new("", across, up);
     for curve in curves {
-        let band = band(table, curve, default.band);
-        let tells = !is_alone || band.is_some();
-        let label = if tells { &curve.quantity.label } else { "" };
-        if let Some(band) = band {
-            let points = x.iter().zip(band).map(|(x, [low, high])| (*x, low, high));
-            figure = figure.band(label, points.collect());
+        let mut label = match is_alone {
+            true => String::new(),
+            false => curve.quantity.label.clone(),
+        };
+        if let Some((told, edges)) = band(table, curve, default.band) {
+            figure = figure.band(&told, outlined_band(&x, &edges));
+            label = told;
         }
         let y: Vec<f64> = curve.values(table).collect();
-        figure = figure.line(label, broken_at_poles(outlined(&x, &y), cut));
+        figure = figure.line(&label, broken_at_poles(outlined(&x, &y), cut));
     }
     figure
 }
 
-/// Returns lower and upper edge at each row: columns `min` and `max`, or +-`factor` standard errors (column `se`).
-fn band(table: &Table, curve: &Curve, factor: f64) -> Option<Vec<[f64; 2]>> {
+/// Returns the label of a curve with a band, and lower and upper edge at each row: columns `min` and `max`, or
+/// +-`factor` standard errors (column `se`). The label tells the median half-width of an error, often too narrow to see.
+fn band(table: &Table, curve: &Curve, factor: f64) -> Option<(String, Vec<[f64; 2]>)> {
     let (name, unit) = split(&curve.name);
     let beside = |word: &str| table.numbers(&format!("{name}_{word}{unit}"));
+    let Quantity { label, unit, .. } = &curve.quantity;
     let scale = curve.quantity.factor;
     if let Some((low, high)) = beside("min").zip(beside("max")) {
         let edges = low.iter().zip(high).map(|(a, b)| [a * scale, b * scale]);
-        return Some(edges.collect());
+        return Some((label.clone(), edges.collect()));
     }
-    let values = curve.values(table).zip(beside("se")?);
-    let edges = values.map(|(value, error)| {
-        let half = factor * error * scale;
-        [value - half, value + half]
+    let halves: Vec<f64> = beside("se")?.iter().map(|se| factor * se * scale).collect();
+    let edges = curve.values(table).zip(&halves);
+    let edges = edges.map(|(value, half)| [value - half, value + half]);
+    let mut sorted: Vec<f64> = halves.iter().copied().filter(|h| h.is_finite()).collect();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let label = match sorted.get(sorted.len() / 2) {
+        Some(half) => format!(
+            "{label}, band +- {} {unit} at the median",
+            rounded(*half, 2)
+        ),
+        None => label.clone(),
+    };
+    Some((label, edges.collect()))
+}
+
+/// Thins a band to about [`CURVE_POINTS`] points (x, low, high): keeps the extremes of each piece.
+fn outlined_band(x: &[f64], edges: &[[f64; 2]]) -> Vec<(f64, f64, f64)> {
+    let piece = x.len().div_ceil(CURVE_POINTS).max(1);
+    let pieces = x.chunks(piece).zip(edges.chunks(piece));
+    let points = pieces.map(|(x, edges)| {
+        let low = edges.iter().map(|edge| edge[0]).fold(f64::NAN, f64::min);
+        let high = edges.iter().map(|edge| edge[1]).fold(f64::NAN, f64::max);
+        (x[0], low, high)
     });
-    Some(edges.collect())
+    points.collect()
 }
 
 /// Crank angle between points of a drawn curve, rad: half a degree, about a pixel of a turn.

@@ -39,7 +39,7 @@ pub use diagrams::Diagram;
 pub use explain::explanation;
 pub use figure::{Axis, Figure, Shape, Sheet};
 pub use identify::{identification, identification_csv};
-pub use inverse::{InverseReport, inverse_table, mean_cycle, residual_table, residuals};
+pub use inverse::{InverseReport, inverse_table, mean_cycle_table, residual_table};
 pub use key_values::Facts;
 pub use motion::{PlotRows, RunReport};
 pub use one_turn::{TurnReport, sized};

@@ -55,7 +55,7 @@ const UNITS: [(&str, &str, f64); 22] = [
 ];
 
 /// Known columns: base name, label and panel.
-const KNOWN: [(&str, &str, &str); 16] = [
+const KNOWN: [(&str, &str, &str); 19] = [
     ("t", "time t", ""),
     ("theta", "crank angle θ", "crank angle"),
     ("omega", "crank speed ω", "crank speed"),
@@ -68,8 +68,11 @@ const KNOWN: [(&str, &str, &str); 16] = [
     ("phi", "rod angle φ", "rod angle"),
     ("dphi", "φ′", "derivatives of the rod angle"),
     ("d2phi", "φ″", "derivatives of the rod angle"),
+    ("gamma", "crank-pin angle γ", "crank-pin angle"),
     ("transmission", "transmission angle", "transmission angle"),
     ("side_thrust", "side thrust", "side thrust"),
+    ("spin_only_force", "energies of the paper", "forces"),
+    ("duarte_9_force", "(9) as printed", "forces"),
     ("self_locking", "self-locking", ""),
     ("near_dead_centre", "near a dead centre", ""),
 ];

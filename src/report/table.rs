@@ -101,16 +101,23 @@ impl Table {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
-    /// Writes the columns of numbers as CSV, without the last `plot_only_columns` columns.
-    pub(super) fn csv(&self, output: Output) -> Result<(), Error> {
-        let columns = &self.columns[..self.columns.len() - self.plot_only_columns];
-        let header: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-        let columns = columns.iter().filter_map(|column| column.cells.numbers());
-        let columns: Vec<&[f64]> = columns.collect();
-        let rows: Vec<usize> = (0..columns.first().map_or(0, |values| values.len())).collect();
-        csv::write_all(output, &header.join(","), &rows, |row, text| {
-            csv::line(columns.iter().map(|values| values[*row]), text);
-        })
+    /// Drops the columns that only pictures and pages use.
+    pub(super) fn without_plot_columns(mut self) -> Table {
+        let kept = self.columns.len() - self.plot_only_columns;
+        self.columns.truncate(kept);
+        self
+    }
+
+    /// Writes the columns of numbers as CSV, without those that only pictures and pages use.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn csv(self, output: Output) -> Result<(), Error> {
+        let table = self.without_plot_columns();
+        let header: Vec<&str> = table.names().collect();
+        let columns = table.columns.iter();
+        let columns: Vec<&[f64]> = columns.filter_map(|one| one.cells.numbers()).collect();
+        csv::write_columns(output, &header.join(","), &columns)
     }
 
     /// Returns the columns, encoded for the page.

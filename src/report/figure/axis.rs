@@ -1,7 +1,7 @@
 //! Axis of a figure: label, range, mapping of values to positions, and ticks.
 
 use super::clip::{POSITION_ROUNDING, inside};
-use super::layout::LAYOUT;
+use super::layout;
 use super::words::{fitted, width};
 
 /// Tick distances of angles: parts and multiples of a turn, degrees.
@@ -78,6 +78,11 @@ impl Axis {
         self
     }
 
+    /// Whether the range is set.
+    pub(in crate::report) fn has_range(&self) -> bool {
+        self.range.is_some()
+    }
+
     /// Sets the range, widened by the usual free space of an axis.
     pub fn around(self, low: f64, high: f64) -> Axis {
         let free = free_space(low, high);
@@ -86,7 +91,7 @@ impl Axis {
 
     /// Returns the label that fits into a length, pixels.
     pub(super) fn label_within(&self, length: f64) -> String {
-        match width(&self.label, LAYOUT.text) <= length || self.short.is_empty() {
+        match width(&self.label, layout::TEXT) <= length || self.short.is_empty() {
             true => fitted(&self.label, length),
             false => fitted(&self.short, length),
         }

@@ -59,9 +59,9 @@ struct Series {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    title: String,
+    pub(super) title: String,
     pub(super) x: Axis,
-    y: Axis,
+    pub(super) y: Axis,
     /// Whether both axes have equal pixels per unit.
     is_equal: bool,
     series: Vec<Series>,

@@ -4,4 +4,4 @@ mod plot;
 mod rows;
 mod text;
 
-pub use rows::{InverseReport, inverse_table, mean_cycle, residual_table, residuals};
+pub use rows::{InverseReport, inverse_table, mean_cycle_table, residual_table};

@@ -2,8 +2,7 @@
 
 use super::{plot, text};
 use crate::error::Error;
-use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow, Residual};
-use crate::report::csv::{line, write_all};
+use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow};
 use crate::report::curves::View;
 use crate::report::rows::{MOST_PLOT_ROWS, REACTIONS, reactions};
 use crate::report::{DefaultView, Facts, Output, Report, Table};
@@ -34,126 +33,111 @@ impl Report for InverseReport<'_> {
         text::text(self.result, self.printed)
     }
 
-    /// Returns thinned rows, with measured values and residuals.
+    /// Returns thinned rows.
     fn table(&self) -> Table {
-        let result = self.result;
-        let data = &result.summary.data;
-        let (name, unit) = (data.column, data.unit);
-        let stride = result.rows.len().div_ceil(MOST_PLOT_ROWS).max(1);
-        let rows = result.rows.iter().zip(&result.residuals).step_by(stride);
-        let rows = rows.map(|(row, sample)| {
-            let measured = [sample.measured, sample.residual];
-            values(row).into_iter().chain(measured)
-        });
-        let header = format!("{COLUMNS},{name}_measured_{unit},residual_{unit}");
-        let mut table = Table::filled(&header, rows);
-        table.stride = stride as u64;
-        table
+        let stride = self.result.rows.len().div_ceil(MOST_PLOT_ROWS).max(1);
+        rows(self.result, self.printed, stride)
     }
 
+    /// Returns the plot of force and torque; the force has a pole at each dead centre between the rows.
     fn default_view(&self) -> DefaultView<'_> {
+        let outward = |row: &InverseRow| self.result.lever_arm(row) > 0.0;
+        let mut pairs = self.result.rows.windows(2);
         DefaultView {
             title: &self.result.summary.scene,
-            show: &["slider_force", "crank_torque"],
+            show: &[
+                "slider_force",
+                "spin_only_force",
+                "duarte_9_force",
+                "crank_torque",
+            ],
             over: "t",
             band: self.result.summary.band_factor,
-            has_poles: true,
+            has_poles: pairs.any(|pair| outward(&pair[0]) != outward(&pair[1])),
             scene: Some(self.scene),
             ..DefaultView::default()
         }
     }
 
-    /// Writes all rows, with joint forces if asked for, and with the printed forces if given.
+    /// Writes all rows.
     fn csv(&self, output: Output) -> Result<(), Error> {
-        let (result, printed) = (self.result, self.printed);
-        let header = header(result, printed);
-        write_all(output, &header, &result.rows, |row, text| {
-            line(cells(result, printed, row), text);
-        })
+        rows(self.result, self.printed, 1).csv(output)
     }
 
     /// Returns the chosen columns as SVG; by default data, fit, residuals, force and torque, with the printed forces.
     fn figure(&self, view: &View) -> Result<String, Error> {
-        if view.is_default() {
-            return plot::figure(self.result, self.printed, view.size);
+        match view.is_default() {
+            true => plot::figure(self, view),
+            false => view.svg(&self.table(), self.default_view()),
         }
-        view.svg(&self.table(), self.default_view())
     }
 }
 
-/// Returns all rows as a table.
-pub fn inverse_table(result: &Inverse, printed: Option<&AsPrinted>) -> Table {
-    let rows = result.rows.iter().map(|row| cells(result, printed, row));
-    Table::filled(&header(result, printed), rows)
-}
-
-fn header(result: &Inverse, printed: Option<&AsPrinted>) -> String {
+/// Returns every `stride`-th row, with measured values and residuals for pictures and pages.
+fn rows(result: &Inverse, printed: Option<&AsPrinted>, stride: usize) -> Table {
+    let data = &result.summary.data;
+    let measured = format!(
+        "{}_measured_{unit},residual_{unit}",
+        data.column,
+        unit = data.unit
+    );
     let mut columns = vec![COLUMNS];
     columns.extend(result.with_reactions().then_some(REACTIONS));
     columns.extend(printed.map(|_| PRINTED));
-    columns.join(",")
-}
-
-fn cells(result: &Inverse, printed: Option<&AsPrinted>, row: &InverseRow) -> Vec<f64> {
-    let mut values = values(row).to_vec();
-    if result.with_reactions() {
-        match result.reactions(row) {
-            Some(forces) => values.extend(reactions(&forces)),
-            None => values.extend([f64::NAN; 10]),
+    columns.push(&measured);
+    let rows = result.rows.iter().zip(&result.residuals).step_by(stride);
+    let rows = rows.map(|(row, sample)| {
+        let mut cells = values(row).to_vec();
+        if result.with_reactions() {
+            match result.reactions(row) {
+                Some(forces) => cells.extend(reactions(&forces)),
+                None => cells.extend([f64::NAN; 10]),
+            }
         }
-    }
-    if let Some(printed) = printed {
-        values.extend(printed.forces(row).unwrap_or([f64::NAN; 2]));
-    }
-    values
+        cells.extend(
+            printed
+                .iter()
+                .flat_map(|of| of.forces(row).unwrap_or([f64::NAN; 2])),
+        );
+        cells.extend([sample.measured, sample.residual]);
+        cells
+    });
+    let mut table = Table::filled(&columns.join(","), rows);
+    table.stride = stride as u64;
+    table.plot_only_columns = 2;
+    table
 }
-
-/// Writes measured values, fitted values and residuals as CSV.
-pub fn residuals(result: &Inverse, output: Output) -> Result<(), Error> {
-    let header = residual_header(result);
-    write_all(output, &header, &result.residuals, |row, text| {
-        line(residual_cells(row), text);
-    })
+/// Returns all rows as a table.
+pub fn inverse_table(result: &Inverse) -> Table {
+    rows(result, None, 1).without_plot_columns()
 }
 
 const MEANS: &str = "theta_rad,cycles,slider_force_n,slider_force_se_n,slider_force_scatter_n,crank_torque_nm,crank_torque_se_nm,crank_torque_scatter_nm";
 
-/// Writes the mean over the cycles, by crank angle, as CSV.
-///
-/// # Errors
-/// [`Error::Write`].
-pub fn mean_cycle(result: &Inverse, output: Output) -> Result<(), Error> {
-    write_all(output, MEANS, &result.mean_cycle(), |row, text| {
-        let cells = |mean: Option<CycleMean>| {
-            let cells = |m: CycleMean| [m.value, m.standard_error, m.scatter.unwrap_or(f64::NAN)];
-            mean.map_or([f64::NAN; 3], cells)
-        };
+/// Returns the mean over the cycles, by crank angle, as a table.
+pub fn mean_cycle_table(result: &Inverse) -> Table {
+    let cells = |mean: Option<CycleMean>| {
+        let cells = |m: CycleMean| [m.value, m.standard_error, m.scatter.unwrap_or(f64::NAN)];
+        mean.map_or([f64::NAN; 3], cells)
+    };
+    let rows = result.mean_cycle().into_iter().map(|row| {
         let cycles = row.crank_torque.map_or(0.0, |mean| mean.cycles as f64);
         let values = [row.theta, cycles].into_iter();
         let values = values.chain(cells(row.slider_force));
-        line(values.chain(cells(row.crank_torque)), text);
-    })
+        values.chain(cells(row.crank_torque))
+    });
+    Table::filled(MEANS, rows)
 }
 
 /// Returns measured values, fitted values and residuals as a table.
 pub fn residual_table(result: &Inverse) -> Table {
-    let rows = result.residuals.iter().map(residual_cells);
-    Table::filled(&residual_header(result), rows)
-}
-
-fn residual_header(result: &Inverse) -> String {
-    let data = &result.summary.data;
-    let (name, unit) = (data.column, data.unit);
-    format!("t_s,{name}_{unit},fitted_{name}_{unit},residual_{unit}")
-}
-
-fn residual_cells(row: &Residual) -> [f64; 4] {
-    [
-        row.t,
-        row.measured,
-        row.measured - row.residual,
-        row.residual,
-    ]
+    let (name, unit) = (result.summary.data.column, result.summary.data.unit);
+    let rows = result.residuals.iter().map(|row| {
+        let fitted = row.measured - row.residual;
+        [row.t, row.measured, fitted, row.residual]
+    });
+    let header = format!("t_s,{name}_{unit},fitted_{name}_{unit},residual_{unit}");
+    Table::filled(&header, rows)
 }
 
 fn values(row: &InverseRow) -> [f64; 9] {
