@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 
 use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::Value;
 
 use super::Output;
 use crate::error::Error;
@@ -108,6 +110,18 @@ pub(super) fn text(header: &str, rows: impl IntoIterator<Item = Vec<CsvCell>>) -
     let mut text = format!("{header}\n").into_bytes();
     rows.into_iter().for_each(|row| cells(&row, &mut text));
     String::from_utf8(text).unwrap_or_default()
+}
+
+/// Returns the fields of an item with these names as cells; truth as 1, a missing value as an empty cell.
+pub(super) fn fields(names: &str, item: &impl Serialize) -> Vec<CsvCell> {
+    let item = serde_json::to_value(item).unwrap_or_default();
+    let cell = |name: &str| match &item[name] {
+        Value::Number(number) => number.as_f64().into(),
+        Value::Bool(is) => f64::from(u8::from(*is)).into(),
+        Value::String(text) => text.as_str().into(),
+        _ => CsvCell::EMPTY,
+    };
+    names.split(',').map(cell).collect()
 }
 
 /// Writes header and columns of numbers, formatted on all cores, and completes the output.

@@ -1,7 +1,7 @@
 //! Reports of a parameter identification: text and CSV.
 
 use super::Output;
-use super::csv::{self, CsvCell};
+use super::csv;
 use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
@@ -37,10 +37,6 @@ pub fn identification(result: &Identification) -> String {
 /// Writes one CSV row per identified value.
 pub fn identification_csv(result: &Identification, output: Output) -> Result<(), Error> {
     let header = "key,unit,start,value,standard_error,half_band";
-    let rows = result.values.iter().map(|one| {
-        let numbers = [one.start, one.value, one.standard_error, one.half_band].map(CsvCell::from);
-        let words = [&*one.key, &*one.unit.to_string()].map(CsvCell::from);
-        words.into_iter().chain(numbers).collect()
-    });
+    let rows = result.values.iter().map(|one| csv::fields(header, one));
     output.text(&csv::text(header, rows))
 }

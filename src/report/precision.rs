@@ -19,20 +19,11 @@ pub fn precision_csv(scenes: &[Precision]) -> String {
 }
 
 fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<CsvCell>> {
-    let count = |value: Option<u64>| CsvCell::from(value.map(|value| value as f64));
-    scenes.iter().flat_map(move |scene| {
-        scene.rows.iter().map(move |row| {
-            vec![
-                CsvCell::from(&*printable(&scene.scene)),
-                CsvCell::from(&*row.method),
-                row.tolerance.into(),
-                row.error_theta_rad.into(),
-                row.error_omega_rad_per_s.into(),
-                row.estimate_theta_rad.into(),
-                row.wall_s.into(),
-                count(row.evaluations),
-                count(row.steps),
-            ]
+    scenes.iter().flat_map(|scene| {
+        scene.rows.iter().map(|row| {
+            let mut cells = csv::fields(COLUMNS, row);
+            cells[0] = CsvCell::from(&*printable(&scene.scene));
+            cells
         })
     })
 }

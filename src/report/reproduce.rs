@@ -95,21 +95,8 @@ pub fn reproduction(result: &Reproduction) -> String {
 /// Returns all entries as CSV.
 pub fn reproduction_csv(result: &Reproduction) -> String {
     let header = "paper,place,what,unit,printed,ours,conditional,condition,verdict,expected";
-    let row = |entry: &Entry| {
-        vec![
-            entry.paper.into(),
-            entry.place.as_str().into(),
-            entry.what.as_str().into(),
-            entry.unit.as_str().into(),
-            entry.printed.as_str().into(),
-            entry.ours.into(),
-            entry.conditional.into(),
-            entry.condition.as_str().into(),
-            entry.verdict.name().into(),
-            entry.expected.name().into(),
-        ]
-    };
-    csv::text(header, result.entries.iter().map(row))
+    let rows = result.entries.iter();
+    csv::text(header, rows.map(|entry| csv::fields(header, entry)))
 }
 
 /// Returns the data of a figure as CSV, one row per point.
