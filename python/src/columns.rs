@@ -12,7 +12,7 @@ pub fn arrays(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
     let arrays = PyDict::new(py);
     for (name, cells) in table.into_columns() {
         match cells {
-            Cells::Numbers(values, _) => arrays.set_item(name, PyArray1::from_vec(py, values))?,
+            Cells::Numbers(values) => arrays.set_item(name, PyArray1::from_vec(py, values))?,
             Cells::Words(words) => {
                 let (list, places) = told_apart(&words);
                 arrays.set_item(name, (list, PyArray1::from_vec(py, places)))?;

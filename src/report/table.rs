@@ -1,7 +1,5 @@
 //! Column-wise table of the rows of a result, source of CSV files, pictures and pages.
 
-use std::borrow::Cow;
-
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use rayon::prelude::*;
@@ -31,8 +29,8 @@ struct Column {
 /// Content of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cells {
-    /// Numbers in SI units, or in the unit of the texts if given; NaN for a missing value.
-    Numbers(Vec<f64>, Option<String>),
+    /// Numbers in SI units; NaN for a missing value.
+    Numbers(Vec<f64>),
     /// Texts.
     Words(Vec<String>),
 }
@@ -42,7 +40,7 @@ impl Table {
     pub(super) fn new(header: &str) -> Table {
         let column = |name: &str| Column {
             name: name.to_owned(),
-            cells: Cells::Numbers(Vec::new(), None),
+            cells: Cells::Numbers(Vec::new()),
         };
         Table::of_columns(header.split(',').map(column).collect())
     }
@@ -68,7 +66,7 @@ impl Table {
     /// Appends a row of numbers; a number that is not finite counts as missing.
     pub(super) fn push(&mut self, row: impl IntoIterator<Item = f64>) {
         for (column, value) in self.columns.iter_mut().zip(row) {
-            if let Cells::Numbers(values, _) = &mut column.cells {
+            if let Cells::Numbers(values) = &mut column.cells {
                 values.push(value);
             }
         }
@@ -80,7 +78,7 @@ impl Table {
         columns.map(|column| (column.name, column.cells))
     }
 
-    /// Returns a table of rows of cells; a column holds numbers if all its cells are numbers in one unit, else texts.
+    /// Returns a table of rows of cells; a column holds numbers if all its cells are numbers or empty.
     pub(super) fn of_rows<N: AsRef<str> + Sync>(header: &[N], rows: &[Vec<CsvCell>]) -> Table {
         static NONE: CsvCell = CsvCell::EMPTY;
         let column = |(i, name): (usize, &N)| Column {
@@ -90,7 +88,7 @@ impl Table {
         Table::of_columns(header.par_iter().enumerate().map(column).collect())
     }
 
-    /// Returns the numbers of a column, in SI units or the unit of its texts; none for texts or an unknown column.
+    /// Returns the numbers of a column, in SI units; none for texts or an unknown column.
     pub(super) fn numbers(&self, name: &str) -> Option<&[f64]> {
         let column = self.columns.iter().find(|column| column.name == name)?;
         column.cells.numbers()
@@ -129,56 +127,37 @@ impl Table {
 impl Cells {
     fn numbers(&self) -> Option<&[f64]> {
         match self {
-            Cells::Numbers(values, _) => Some(values),
+            Cells::Numbers(values) => Some(values),
             Cells::Words(_) => None,
         }
     }
 
     fn of<'a>(cells: impl Iterator<Item = &'a CsvCell> + Clone) -> Cells {
-        let known = |cell: &CsvCell| matches!(cell, CsvCell::Number(_)) || *cell == CsvCell::EMPTY;
-        if cells.clone().all(known) {
-            let numbers = cells.map(|cell| cell.number().unwrap_or(f64::NAN));
-            return Cells::Numbers(numbers.collect(), None);
+        let is_number = |cell: &CsvCell| !matches!(cell, CsvCell::Text(text) if !text.is_empty());
+        match cells.clone().all(is_number) {
+            true => Cells::Numbers(
+                cells
+                    .map(|cell| cell.number().unwrap_or(f64::NAN))
+                    .collect(),
+            ),
+            false => Cells::Words(cells.map(|cell| cell.text().into_owned()).collect()),
         }
-        let texts: Vec<Cow<'_, str>> = cells.map(CsvCell::text).collect();
-        let given = || texts.iter().filter(|text| !text.is_empty());
-        let mut units = given().map(|text| number_and_unit(text).map(|(_, unit)| unit));
-        let unit = units.next().flatten();
-        if unit.is_none() || !units.all(|other| other == unit) {
-            return Cells::Words(texts.into_iter().map(Cow::into_owned).collect());
-        }
-        let number = |text: &Cow<str>| number_and_unit(text).map_or(f64::NAN, |(number, _)| number);
-        let unit = unit.filter(|unit| !unit.is_empty()).map(str::to_owned);
-        Cells::Numbers(texts.iter().map(number).collect(), unit)
     }
-}
-
-/// Splits a cell into a number and its unit, which may be empty.
-fn number_and_unit(cell: &str) -> Option<(f64, &str)> {
-    let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.eE".contains(c)));
-    let (number, unit) = cell.split_at(end.unwrap_or(cell.len()));
-    Some((number.parse().ok()?, unit.trim()))
 }
 
 impl Column {
     fn shown(&self) -> Shown<'_> {
-        let mut quantity = Quantity::of(&self.name);
         let (data, words) = match &self.cells {
-            Cells::Numbers(values, given) => {
-                if let Some(given) = given {
-                    quantity.unit.to_mut().clone_from(given);
-                }
+            Cells::Numbers(values) => {
                 let bytes = values.iter().flat_map(|value| value.to_le_bytes());
-                (
-                    Some(BASE64_STANDARD.encode(bytes.collect::<Vec<u8>>())),
-                    None,
-                )
+                let bytes: Vec<u8> = bytes.collect();
+                (Some(BASE64_STANDARD.encode(bytes)), None)
             }
             Cells::Words(words) => (None, Some(&words[..])),
         };
         Shown {
             name: &self.name,
-            quantity,
+            quantity: Quantity::of(&self.name),
             data,
             words,
         }
