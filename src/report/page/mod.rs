@@ -39,22 +39,13 @@ pub struct Origin {
 struct Data<'a> {
     columns: Vec<Shown<'a>>,
     drawing: Option<Dimensions>,
-    events: Vec<Mark>,
+    events: &'a [Event],
     /// Half-width of a band, in standard errors.
     band: f64,
     /// Whether curves have poles at dead centres.
     poles: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     scatter: &'a Option<Scatter>,
-}
-
-/// Event for the scripts: t in s, theta in rad, omega in rad/s.
-#[derive(Serialize)]
-struct Mark {
-    kind: &'static str,
-    t: f64,
-    theta: f64,
-    omega: Option<f64>,
 }
 
 /// Returns the cells of an event in the list.
@@ -98,16 +89,10 @@ pub(super) fn html(
             notes.push(format!("The first {listed} of {total} events are listed."));
         }
     }
-    let mark = |event: &Event| Mark {
-        kind: event.kind,
-        t: event.t_s,
-        theta: event.theta_rad,
-        omega: Some(event.omega_rad_per_s).filter(|omega| omega.is_finite()),
-    };
     let data = Data {
         columns: table.shown(),
         drawing: default.scene.map(Dimensions::of),
-        events: events.iter().map(mark).collect(),
+        events,
         band: default.band,
         poles: default.has_poles,
         scatter: &default.scatter,

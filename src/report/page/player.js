@@ -33,7 +33,7 @@ function player() {
     playing = performance.now();
     requestAnimationFrame(frame);
   };
-  const marks = page.events.map((event) => (clock.name === "t_s" ? event.t : event.theta));
+  const marks = page.events.map((event) => (clock.name === "t_s" ? event.t_s : event.theta_rad));
   const step = (sense) => {
     const gap = 1e-9 * (until - from);
     const beyond = marks.map((at, i) => [at, i]).filter(([at]) => sense * (at - cursor.at) > gap);
