@@ -115,8 +115,12 @@ impl MethodRun {
 
     /// Returns the row, measured against the first reference of another identity.
     pub(super) fn row(&self, references: &[(Option<Identity>, Reference)]) -> PrecisionRow {
-        let mut row = PrecisionRow::empty(self.method, self.scene.run.tolerance);
-        row.runs = self.wall_times_s.len();
+        let mut row = PrecisionRow {
+            method: self.method.to_string(),
+            tolerance: self.scene.run.tolerance,
+            runs: self.wall_times_s.len(),
+            ..PrecisionRow::default()
+        };
         let summary = match &self.result {
             Ok(summary) => summary,
             Err(why) => {

@@ -76,18 +76,8 @@ pub struct PrecisionRow {
     pub failure: Option<String>,
 }
 
-impl PrecisionRow {
-    fn empty(method: Method, tolerance: f64) -> PrecisionRow {
-        PrecisionRow {
-            method: method.to_string(),
-            tolerance,
-            ..PrecisionRow::default()
-        }
-    }
-}
-
 /// Comparison of the methods for one scene.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Precision {
     /// Title of the scene.
     pub scene: String,
@@ -114,16 +104,17 @@ impl Precision {
 
     /// Returns the comparison of a scene that cannot be computed: one row with the reason.
     pub fn refused(scene: &Scene, why: &Error) -> Precision {
-        let mut row = PrecisionRow::empty(Method::Auto, scene.run.tolerance);
-        row.failure = Some(first_line(why));
+        let row = PrecisionRow {
+            method: Method::Auto.to_string(),
+            tolerance: scene.run.tolerance,
+            failure: Some(first_line(why)),
+            ..PrecisionRow::default()
+        };
         Precision {
             scene: scene.title.clone().unwrap_or_default(),
-            t_s: 0.0,
             reference: "none".to_owned(),
-            reference_error_theta_rad: None,
-            reference_error_omega_rad_per_s: None,
-            left_out: Vec::new(),
             rows: vec![row],
+            ..Precision::default()
         }
     }
 }
