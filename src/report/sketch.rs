@@ -7,6 +7,7 @@ use super::dimensions::Dimensions;
 use super::figure::escaped;
 use super::picture::{failed, pixels};
 use crate::error::Error;
+use crate::kinematics::of_checked;
 use crate::scene::Scene;
 use ::gif::{Encoder, Frame, Repeat};
 
@@ -15,6 +16,8 @@ use ::gif::{Encoder, Frame, Repeat};
 pub struct Sketch {
     dimensions: Dimensions,
     title: String,
+    /// Slider positions at the dead centres, m.
+    dead_centres: Vec<f64>,
 }
 
 /// Pose of the mechanism.
@@ -82,9 +85,11 @@ impl Window {
 impl Sketch {
     /// Returns the sketch of the mechanism of a scene.
     pub fn of(scene: &Scene) -> Sketch {
+        let centres = of_checked(scene).dead_centres.into_iter();
         Sketch {
             dimensions: Dimensions::of(scene),
             title: scene.title.clone().unwrap_or_default(),
+            dead_centres: centres.map(|centre| centre.x_m).collect(),
         }
     }
 
@@ -94,20 +99,13 @@ impl Sketch {
         (0.12 * crank).max(0.03 * (crank + rod))
     }
 
-    /// Returns the slider positions at the existing dead centres, m.
-    fn dead_centres(&self) -> impl Iterator<Item = f64> {
-        let of = &self.dimensions;
-        let (offset, branch) = (of.offset, of.branch);
-        let lengths = [of.rod + of.crank, of.rod - of.crank].into_iter();
-        let exist = lengths.filter(move |length| *length > 0.0 && *length >= offset.abs());
-        exist.map(move |length| branch * (length * length - offset * offset).sqrt())
-    }
-
     /// Returns the rectangle that holds the mechanism in all poses.
     fn window(&self, poses: impl Iterator<Item = Pose>) -> Window {
         let Dimensions { crank, offset, .. } = self.dimensions;
         let room = 3.0 * self.size();
-        let places = poses.map(|pose| pose.x).chain(self.dead_centres());
+        let places = poses
+            .map(|pose| pose.x)
+            .chain(self.dead_centres.iter().copied());
         let (left, right) = places.fold((-crank, crank), |(left, right), x| {
             (left.min(x), right.max(x))
         });
@@ -137,7 +135,8 @@ impl Sketch {
         };
         let guide = Element::Line([window.left, -offset], [window.right, -offset]);
         let mut elements = vec![(GROUND, guide), (GROUND, Element::Circle(pivot, crank))];
-        elements.extend(self.dead_centres().flat_map(|x| square(x, GROUND)));
+        let centres = self.dead_centres.iter();
+        elements.extend(centres.flat_map(|x| square(*x, GROUND)));
         elements.push((ROD, Element::Line(pin, wrist)));
         elements.push((CRANK, Element::Line(pivot, pin)));
         elements.extend(square(pose.x, SLIDER));
