@@ -5,12 +5,13 @@ use super::joint_force_maxima::{self, MOST_FORCE_ROWS};
 use super::options::Options;
 use super::row::{NoRows, RowSink};
 use super::run_setup::RunSetup;
+use super::schedule::{self, Schedule};
 use super::simulation::Simulation;
 use super::warning::Warning;
 use super::{clearance, closed_form, forward};
 use crate::error::Error;
 use crate::plan::Engine;
-use crate::scene::Scene;
+use crate::scene::{Extent, MotionKind, Scene};
 
 /// Simulates a scene and keeps its dense trajectory.
 ///
@@ -64,6 +65,21 @@ fn run(
     if searches_forces {
         task.steps_kept = steps_kept.max(MOST_FORCE_ROWS);
     }
+    if let Some(step) = row_step_of_open_run(&task)
+        && rows.wants_rows()
+    {
+        let end_only = Options {
+            estimate: false,
+            reactions: false,
+            events_kept: 0,
+            ..options.clone()
+        };
+        let end = simulate_rows(scene, &end_only, &mut NoRows)?
+            .summary
+            .last
+            .t_s;
+        schedule::check_row_count(end / step, end)?;
+    }
     let mut run = match task.plan.engine {
         Engine::ClosedForm => closed_form::run(&task, rows),
         Engine::Contact => clearance::run(&task, rows),
@@ -79,4 +95,17 @@ fn run(
         run.summary.peaks = peaks;
     }
     Ok(run)
+}
+
+/// Returns the time between rows, s, of a run of turns whose duration, and with it their number, only its end tells.
+fn row_step_of_open_run(task: &RunSetup<'_>) -> Option<f64> {
+    let is_free = task.scene.motion.kind == MotionKind::Free;
+    match (task.schedule(), task.extent) {
+        (Schedule::Times { step, .. }, Extent::Revolutions(_))
+            if is_free && task.plan.engine != Engine::Contact =>
+        {
+            Some(step)
+        }
+        _ => None,
+    }
 }
