@@ -1,49 +1,93 @@
-//! Evenly spaced values of a key.
+//! Evenly spaced values of a key, computed on demand.
 
-use super::VariedValue;
 use super::keys::Key;
-use crate::scene::unit;
+use super::{VariedValue, value};
+use crate::scene::unit::{self, Factor};
 
-/// Returns evenly spaced values for first value, last value and count as written, in the unit of the last one; even in
-/// the values or in their logarithm.
-pub(super) fn even_spacing(
-    key: &Key,
-    [from, to]: [&str; 2],
-    count: &str,
+/// Evenly spaced values from first to last, in the unit in which these are written.
+#[derive(Clone, Debug)]
+pub(super) struct EvenSpacing {
+    ends: [f64; 2],
+    unit: String,
+    count: usize,
     logarithmic: bool,
-) -> Result<Vec<VariedValue>, String> {
-    let most = 1_000_000;
-    let counted = count.parse().ok();
-    let counted = counted.filter(|count| (1..=most).contains(count));
-    let count: usize =
-        counted.ok_or_else(|| format!("`{count}` is not a number of values from 1 to {most}"))?;
-    let ((first, first_unit), (last, unit)) = (split(from)?, split(to)?);
-    if !first_unit.is_empty() && first_unit != unit {
-        return Err(format!(
-            "`{from}` and `{to}` have different units; write both in one"
-        ));
+    /// Factor of the unit to SI, if the key takes a quantity.
+    factor: Option<Factor>,
+}
+
+impl EvenSpacing {
+    /// Creates a spacing from first value, last value and count as written, even in the values or in their logarithm.
+    pub fn new(
+        key: &Key,
+        [from, to]: [&str; 2],
+        count: &str,
+        logarithmic: bool,
+    ) -> Result<EvenSpacing, String> {
+        let most = 1_000_000;
+        let counted = count.parse().ok();
+        let counted = counted.filter(|count| (1..=most).contains(count));
+        let count = counted
+            .ok_or_else(|| format!("`{count}` is not a number of values from 1 to {most}"))?;
+        let ((first, unit), (last, last_unit)) = (split(from)?, split(to)?);
+        if !unit.is_empty() && unit != last_unit {
+            return Err(format!(
+                "`{from}` and `{to}` have different units; write both in one"
+            ));
+        }
+        if count == 1 && first != last {
+            return Err(format!("one value cannot be both `{from}` and `{to}`"));
+        }
+        if logarithmic && first * last <= 0.0 {
+            return Err(format!(
+                "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
+            ));
+        }
+        let spacing = EvenSpacing {
+            ends: [first, last],
+            unit: last_unit.to_owned(),
+            count,
+            logarithmic,
+            factor: key
+                .kind
+                .quantity()
+                .and_then(|quantity| unit::exact_factor(last_unit, quantity)),
+        };
+        // Values are monotonic: a fault of any of them is a fault of one of these.
+        for index in [0, 1, count.saturating_sub(2), count - 1] {
+            let text = spacing.value(index.min(count - 1)).text;
+            value::read_text(key, &text).map_err(|error| error.to_string())?;
+        }
+        Ok(spacing)
     }
-    if count == 1 && first != last {
-        return Err(format!("one value cannot be both `{from}` and `{to}`"));
+
+    /// Returns the number of values, at least one.
+    pub fn len(&self) -> usize {
+        self.count
     }
-    if logarithmic && first * last <= 0.0 {
-        return Err(format!(
-            "`{from}` to `{to}` has no even spread in the logarithm; both must have one sign"
-        ));
-    }
-    let end = count - 1;
-    let value = |index| {
+
+    /// Returns a value as written in a scene file, and in SI units and radians if it is a quantity.
+    ///
+    /// # Panics
+    /// If `index` is not below the number of values.
+    pub fn value(&self, index: usize) -> VariedValue {
+        let ([first, last], end) = (self.ends, self.count - 1);
+        assert!(index <= end, "value {index} of {}", self.count);
         let part = |whole: f64| whole * index as f64 / end as f64;
         let value = match index {
             0 => first,
             _ if index == end => last,
-            _ if logarithmic => first * (last / first).powf(part(1.0)),
+            _ if self.logarithmic => first * (last / first).powf(part(1.0)),
             // Division comes last, to keep decimal steps decimal.
             _ => first + part(last - first),
         };
-        VariedValue::read(key, format!("{value} {unit}").trim_end().to_owned())
-    };
-    (0..count).map(value).collect()
+        let mut text = value.to_string();
+        let number = self.factor.and_then(|factor| factor.apply(&text));
+        if !self.unit.is_empty() {
+            text.push(' ');
+            text.push_str(&self.unit);
+        }
+        VariedValue { text, number }
+    }
 }
 
 /// Splits a text into a finite number and its unit.

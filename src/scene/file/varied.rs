@@ -1,11 +1,11 @@
-//! Values of a key that a sweep varies: a list or a distribution.
+//! Values of a key that a sweep varies: a list, an even spread or a distribution.
 
 use std::fmt;
 use std::str::FromStr;
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::even_spacing::even_spacing;
+use super::even_spacing::EvenSpacing;
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
 use super::value;
@@ -53,6 +53,7 @@ pub struct VariedValue {
 #[derive(Clone, Debug)]
 enum Variation {
     Listed(Vec<VariedValue>),
+    Even(EvenSpacing),
     /// Uniform distribution between two numbers, SI.
     Uniform([f64; 2]),
     /// Normal distribution with mean and standard deviation, SI.
@@ -65,6 +66,7 @@ impl Varied {
     pub fn len(&self) -> usize {
         match &self.values {
             Variation::Listed(list) => list.len(),
+            Variation::Even(spacing) => spacing.len(),
             Variation::Uniform(_) | Variation::Normal(_) => 1,
         }
     }
@@ -113,6 +115,7 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Variation::Listed(list) => list[index].clone(),
+            Variation::Even(spacing) => spacing.value(index),
             Variation::Uniform(_) | Variation::Normal(_) => self.quantile(0.5),
         }
     }
@@ -120,7 +123,9 @@ impl Varied {
     /// Returns the `p` quantile of a distribution, 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
-            Variation::Listed(list) => return list[(p * list.len() as f64) as usize].clone(),
+            Variation::Listed(_) | Variation::Even(_) => {
+                return self.value((p * self.len() as f64) as usize);
+            }
             Variation::Uniform([low, high]) => low + p * (high - low),
             Variation::Normal(normal) => normal.inverse_cdf(p),
         };
@@ -129,8 +134,7 @@ impl Varied {
 }
 
 impl VariedValue {
-    /// Reads a value as written in a scene file.
-    pub(super) fn read(key: &Key, text: String) -> Result<VariedValue, String> {
+    fn read(key: &Key, text: String) -> Result<VariedValue, String> {
         let number = number(key, &text)?.map(|number| number.value);
         Ok(VariedValue { text, number })
     }
@@ -163,6 +167,7 @@ impl FromStr for Varied {
         let values = read(path.key, values)?;
         let has_numbers = match &values {
             Variation::Listed(list) => list.iter().all(|value| value.number.is_some()),
+            Variation::Even(spacing) => spacing.value(0).number.is_some(),
             Variation::Uniform(_) | Variation::Normal(_) => true,
         };
         Ok(Varied {
@@ -198,10 +203,10 @@ fn read(key: &Key, text: &str) -> Result<Variation, String> {
             };
         }
         ([from, to, count], _) => {
-            return even_spacing(key, [from, to], count, false).map(Variation::Listed);
+            return EvenSpacing::new(key, [from, to], count, false).map(Variation::Even);
         }
         ([from, to, count, "log"], _) => {
-            return even_spacing(key, [from, to], count, true).map(Variation::Listed);
+            return EvenSpacing::new(key, [from, to], count, true).map(Variation::Even);
         }
         _ => {
             return Err(format!(
