@@ -142,42 +142,29 @@ impl Rule {
         values
     }
 
-    /// Multiplies matrices by the even and the odd part of values at the points.
-    fn products(&self, matrices: &Matrices, values: &Values) -> [HalfVector; 2] {
-        match self.degree {
-            12 => matrices.products::<12, 8>(values),
-            16 => matrices.products::<16, 10>(values),
-            20 => matrices.products::<20, 12>(values),
-            24 => matrices.products::<24, 14>(values),
-            _ => matrices.products::<32, 18>(values),
-        }
-    }
-
     /// Returns the series through values at the points.
     pub fn series(&self, values: &Values) -> Series {
-        let [even, odd] = self.products(&self.series, values);
-        let half = self.degree / 2;
-        let mut coefficients = [0.0; MAX_DEGREE + 1];
-        for k in 0..half {
-            coefficients[2 * k] = even[k];
-            coefficients[2 * k + 1] = odd[k];
-        }
-        coefficients[self.degree] = even[half];
+        let matrices = &self.series;
+        let coefficients = match self.degree {
+            12 => matrices.coefficients::<12, 8>(values),
+            16 => matrices.coefficients::<16, 10>(values),
+            20 => matrices.coefficients::<20, 12>(values),
+            24 => matrices.coefficients::<24, 14>(values),
+            _ => matrices.coefficients::<32, 18>(values),
+        };
         Series::new(self.degree, coefficients)
     }
 
-    /// Returns integrals from −1 to each point of the series through values at the points: the even part has an odd
-    /// integral, and the reverse.
+    /// Returns integrals from −1 to each point of the series through values at the points.
     pub fn integrals(&self, values: &Values) -> Values {
-        let [odd, even] = self.products(&self.integrals, values);
-        let from_start = odd[0] - even[0];
-        let mut integrals = [0.0; MAX_DEGREE + 1];
-        for j in 0..=self.degree / 2 {
-            integrals[j] = from_start + even[j] - odd[j];
-            integrals[self.degree - j] = from_start + even[j] + odd[j];
+        let matrices = &self.integrals;
+        match self.degree {
+            12 => matrices.integrals::<12, 8>(values),
+            16 => matrices.integrals::<16, 10>(values),
+            20 => matrices.integrals::<20, 12>(values),
+            24 => matrices.integrals::<24, 14>(values),
+            _ => matrices.integrals::<32, 18>(values),
         }
-        integrals[0] = 0.0;
-        integrals
     }
 
     /// Returns the sum of the magnitudes of the last two coefficients of the series through values at the points.

@@ -28,10 +28,7 @@ impl Matrices {
     /// Multiplies by the even and the odd part of values at the points of a degree; `ROWS` is even and more than half
     /// the degree. Not inlined: where the results go on scattered, the sums would be kept one by one.
     #[inline(never)]
-    pub fn products<const DEGREE: usize, const ROWS: usize>(
-        &self,
-        values: &Values,
-    ) -> [HalfVector; 2] {
+    fn products<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> [HalfVector; 2] {
         let (mut of_even, mut of_odd) = ([0.0; ROWS], [0.0; ROWS]);
         for j in 0..DEGREE / 2 {
             let (minus, plus) = (values[j], values[DEGREE - j]);
@@ -49,5 +46,31 @@ impl Matrices {
         results[0][..ROWS].copy_from_slice(&of_even);
         results[1][..ROWS].copy_from_slice(&of_odd);
         results
+    }
+
+    /// Returns the coefficients, where the matrices give the even and the odd ones.
+    pub fn coefficients<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
+        let [even, odd] = self.products::<DEGREE, ROWS>(values);
+        let mut coefficients = [0.0; MAX_DEGREE + 1];
+        for k in 0..DEGREE / 2 {
+            coefficients[2 * k] = even[k];
+            coefficients[2 * k + 1] = odd[k];
+        }
+        coefficients[DEGREE] = even[DEGREE / 2];
+        coefficients
+    }
+
+    /// Returns the integrals from −1 to each point, where the matrices give the integrals from 0: the even part has an
+    /// odd integral, and the reverse.
+    pub fn integrals<const DEGREE: usize, const ROWS: usize>(&self, values: &Values) -> Values {
+        let [odd, even] = self.products::<DEGREE, ROWS>(values);
+        let from_start = odd[0] - even[0];
+        let mut integrals = [0.0; MAX_DEGREE + 1];
+        for j in 0..=DEGREE / 2 {
+            integrals[j] = from_start + even[j] - odd[j];
+            integrals[DEGREE - j] = from_start + even[j] + odd[j];
+        }
+        integrals[0] = 0.0;
+        integrals
     }
 }
