@@ -1,5 +1,6 @@
 //! Construction of a segment: panels in sequence until the motion turns back, repeats or is long enough.
 
+use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
 use super::panel::{Attempt, KnownEnergy, Panel};
@@ -59,15 +60,14 @@ struct Builder<'a> {
     largest: f64,
     /// Largest length of the next panel, rad.
     length: f64,
-    /// True if branch points limit the panels: once a longer panel has failed.
-    is_cut: bool,
     ahead: Option<TurningPoint>,
     turns: f64,
+    branch_points: OnceCell<Vec<[f64; 2]>>,
 }
 
 impl Segment {
-    /// Builds panels until the time `until` (s) is passed or `most_turns` turns with equal forces are complete; the
-    /// tails of their series are below `tolerance`.
+    /// Builds panels until the time `until` (s) is passed, or a turn is complete and more than `most_turns` turns with
+    /// equal forces are to be expected in all; the tails of their series are below `tolerance`.
     pub fn build(
         profile: &dyn Profile,
         begin: KineticState,
@@ -88,9 +88,9 @@ impl Segment {
             now: begin,
             largest: begin.kinetic,
             length: HALF_TURN,
-            is_cut: false,
             ahead: None,
             turns: 0.0,
+            branch_points: OnceCell::new(),
         };
         let mut attempts = 0;
         while builder.segment.after == After::Ends
@@ -145,21 +145,16 @@ impl Builder<'_> {
                 });
             }
             _ if short => return Err(NotApplicable::NotFinite),
-            _ => self.shorten(piece.span().abs()),
+            _ => self.length = 0.5 * piece.span().abs(),
         }
         Ok(())
     }
 
-    /// Shortens the next panel after an unresolved one of length `span` (rad): to the branch points' limit, or by half.
-    fn shorten(&mut self, span: f64) {
-        if std::mem::replace(&mut self.is_cut, true) || self.analytic() >= span {
-            self.length = 0.5 * span;
-        }
-    }
-
+    /// Returns the largest length of the next panel, rad, that the branch points allow.
     fn analytic(&self) -> f64 {
-        let branch_points = self.profile.branch_points();
-        longest_analytic(self.now.angle, self.now.direction, &branch_points)
+        let branch_points = || self.profile.branch_points();
+        let branch_points = self.branch_points.get_or_init(branch_points);
+        longest_analytic(self.now.angle, self.now.direction, branch_points)
     }
 
     fn piece(&self) -> Piece {
@@ -168,10 +163,7 @@ impl Builder<'_> {
             direction,
             ..
         } = self.now;
-        let length = match self.is_cut {
-            true => self.length.min(self.analytic()),
-            false => self.length,
-        };
+        let length = self.length.min(self.analytic());
         let mut to = next_end(self.profile.corners(), at, direction, length);
         to = self.profile.corner_between(at, to).unwrap_or(to);
         if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
@@ -281,7 +273,7 @@ impl Builder<'_> {
         self.turns += 1.0;
         if self.profile.repeats() {
             self.segment.after = After::Repeats;
-        } else if self.turns >= most_turns && self.segment.duration.0 <= until {
+        } else if self.turns * until > most_turns * self.segment.duration.0 {
             self.segment.after = After::GoesOn;
         } else {
             let gain = self.gain.unwrap_or_default();

@@ -4,7 +4,7 @@
 //! nW. A million turns take a few dozen cells of the energy.
 
 use super::build::KineticState;
-use super::euler_maclaurin::EulerMaclaurinCell;
+use super::euler_maclaurin::{EulerMaclaurinCell, Lowest};
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
 use super::profile::{NotApplicable, Profile};
@@ -52,7 +52,7 @@ impl EqualGains<'_> {
         let mut mark = self.mark(done, t);
         let mut last = None;
         while last.is_none() && !self.profile.is_spent() {
-            let Some(mut cell) = self.cell(mark) else {
+            let Some(mut cell) = self.cell(mark, until) else {
                 break;
             };
             marks.push(mark);
@@ -112,21 +112,31 @@ impl EqualGains<'_> {
         OneTurn::new(self.profile, begin)
     }
 
-    /// Computes the cell that begins with a turn; none if the crank is too near rest.
-    fn cell(&self, first: TurnStart) -> Option<EulerMaclaurinCell> {
+    /// Computes the cell that begins with a turn and goes no further than the time `until`, s; none if the crank is too
+    /// near rest.
+    fn cell(&self, first: TurnStart, until: f64) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = Some(here.least(first.kinetic)).filter(|least| *least > 0.0)?;
-        // Largest width over the least kinetic energy in the first turn: the nearest singularity of T is where that
-        // energy vanishes. Least width over the largest.
-        let (widest, narrowest) = (1.5, 1e-3);
+        // Turns to come at this speed; a constant torque makes the crank turn further by a quarter of their gain.
+        let turns = first.until(until) / here.duration(first.kinetic);
+        let further = (0.25 * turns * self.gain / first.kinetic).max(0.0);
+        let needed = (turns * (1.0 + further) + 1.0) * self.gain.abs();
+        // Largest width over the least kinetic energy in the first turn, and least width over the largest.
+        let (widest, narrowest) = (EulerMaclaurinCell::widest_share(), 1e-3);
+        // Of a crank that slows down, the width has the same ratio to the least energy at the other end of the cell.
+        let widest = match self.gain >= 0.0 {
+            true => widest * least,
+            false => widest / (1.0 + widest) * least,
+        };
         let cell = |share: f64| {
-            let (low, width, turn) = if self.gain >= 0.0 {
-                (first.kinetic, share * widest * least, here.clone())
-            } else {
-                // The width has the same ratio to the least energy at the other end of the cell.
-                let width = share * least * widest / (1.0 + widest);
-                let low = first.kinetic - width;
-                (low, width, self.one_turn(low)?)
+            let width = (share * widest).min(needed);
+            let (down, turn) = match self.gain >= 0.0 {
+                true => (0.0, here.clone()),
+                false => (width, self.one_turn(first.kinetic - width)?),
+            };
+            let low = Lowest {
+                kinetic: first.kinetic - down,
+                least: least - down,
             };
             EulerMaclaurinCell::new(first, low, width, self.gain, turn)
         };

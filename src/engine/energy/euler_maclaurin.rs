@@ -4,7 +4,7 @@
 
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
-use crate::numeric::chebyshev::{Rule, Series};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series};
 use crate::numeric::exact::{SUM_ROUNDING, two_sum};
 use crate::numeric::gauss;
 
@@ -33,6 +33,28 @@ pub(in crate::engine) struct EulerMaclaurinCell {
     pub turn: OneTurn,
 }
 
+/// Lower end of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lowest {
+    /// Kinetic energy at the start of the turn, J.
+    pub kinetic: f64,
+    /// Least kinetic energy in the turn, J: T is singular where it vanishes.
+    pub least: f64,
+}
+
+impl Lowest {
+    /// Returns the rule that resolves T to rounding on a cell of this width upwards, J: the coefficients of its series
+    /// decay like the powers of the sum of the half-axes of the ellipse through the singularity (Trefethen,
+    /// Approximation Theory and Approximation Practice, theorem 8.1).
+    fn rule(self, width: f64) -> &'static Rule {
+        let singularity = 1.0 + 2.0 * self.least / width;
+        let degree = (-f64::EPSILON.ln() / singularity.acosh()).round();
+        let resolves = |of_rule: &usize| *of_rule as f64 >= degree;
+        let degree = Rule::DEGREES.into_iter().find(resolves);
+        Rule::of(degree.unwrap_or(MAX_DEGREE))
+    }
+}
+
 /// Returns the end terms of the Euler-Maclaurin sum: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; constants cancel.
 fn correction(difference: &Series, h: f64) -> Series {
     let first = difference.derivative();
@@ -48,18 +70,22 @@ fn correction(difference: &Series, h: f64) -> Series {
 }
 
 impl EulerMaclaurinCell {
+    /// Returns the width of the widest cell over the least kinetic energy at its lower end.
+    pub fn widest_share() -> f64 {
+        2.0 / ((-f64::EPSILON.ln() / MAX_DEGREE as f64).cosh() - 1.0)
+    }
+
     /// Makes the cell of this width upwards from the energy `low`, J; none if its series does not resolve T to
     /// rounding, or it holds no turn.
-    pub fn new(
+    pub(super) fn new(
         first: TurnStart,
-        low: f64,
+        low: Lowest,
         width: f64,
         gain: f64,
         turn: OneTurn,
     ) -> Option<EulerMaclaurinCell> {
-        let degree = 24;
-        let (half, rule) = (0.5 * width, Rule::of(degree));
-        let middle = low + half;
+        let (half, rule) = (0.5 * width, low.rule(width));
+        let middle = low.kinetic + half;
         let middle_duration = turn.duration(middle);
         let differences = rule.values(|x| turn.duration(middle + half * x) - middle_duration);
         let difference = rule.series(&differences);
@@ -104,7 +130,8 @@ impl EulerMaclaurinCell {
             each.sum()
         } else {
             let (from, to) = (self.x(0.0), self.x(turns));
-            let mean: f64 = gauss::RULE_14
+            // Exact to degree 35.
+            let mean: f64 = gauss::RULE_18
                 .iter()
                 .map(|(u, weight)| weight * self.difference.value(from + u * (to - from)))
                 .sum();

@@ -64,9 +64,9 @@ impl Orbit {
             let begin = KineticState { direction, ..begin };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
-        // Turns that are computed one by one before the rest is summed.
-        let first_turns = 16.0;
-        let mut forward = segment(direction, until, first_turns)?;
+        // The sum over turns takes the time of about four turns.
+        let most_turns = 4.0;
+        let mut forward = segment(direction, until, most_turns)?;
         let mut later = None;
         if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
             let rest = EqualGains {
@@ -76,7 +76,7 @@ impl Orbit {
                 gain_error,
                 tolerance,
             };
-            later = rest.turns(first_turns, forward.duration, until)?;
+            later = rest.turns(forward.turns(), forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
                 forward = segment(direction, until, f64::INFINITY)?;
             }

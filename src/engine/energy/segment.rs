@@ -64,6 +64,12 @@ impl Segment {
         }
     }
 
+    /// Returns the number of turns begun.
+    pub fn turns(&self) -> f64 {
+        let whole = self.panels.last().map(|panel| panel.turns.abs() + 1.0);
+        whole.unwrap_or_default()
+    }
+
     /// Iterates over the pieces of the panels.
     pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
         self.panels.iter().map(|panel| panel.piece)

@@ -45,6 +45,16 @@ impl RecentTurn {
         let (_, segment) = recent.insert(known.unwrap_or_else(|| (*mark, Arc::new(new()))));
         Arc::clone(segment)
     }
+
+    /// Returns the cached turn if a time (s) is inside it, further from its ends than any rounding.
+    fn around(&self, t: f64) -> Option<(TurnStart, Arc<Segment>)> {
+        let recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        recent.clone().filter(|(mark, segment)| {
+            let length = segment.duration.0;
+            let margin = 1e-6 * length;
+            (margin..length - margin).contains(&mark.until(t))
+        })
+    }
 }
 
 impl Clone for RecentTurn {
@@ -142,10 +152,16 @@ impl Turns {
 
     /// Returns the angle counted from the first turn of the run, and the speed (rad/s) at a time, s.
     pub fn state(&self, t: f64, direction: f64) -> (Angle, f64) {
+        let in_turn = |mark: &TurnStart, segment: &Segment| {
+            let (angle, speed) = segment.state(mark.until(t));
+            let turns = angle.turns + direction * mark.turns;
+            (Angle::new(turns, angle.rest), speed)
+        };
+        if let Some((mark, segment)) = self.recent.around(t) {
+            return in_turn(&mark, &segment);
+        }
         let mark = self.find(Goal::Time(t));
-        let (angle, speed) = self.on_turn(&mark, |segment| segment.state(mark.until(t)));
-        let angle = Angle::new(angle.turns + direction * mark.turns, angle.rest);
-        (angle, speed)
+        self.on_turn(&mark, |segment| in_turn(&mark, segment))
     }
 
     /// Returns the time (s) at which the crank has turned by `radians` from the angle `rest` (rad), and its speed.
