@@ -1,5 +1,6 @@
 //! Extreme slider velocity and acceleration at constant crank speed, by roots of the next derivative, to rounding.
 
+use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::{Class, Linkage, Pose};
@@ -88,7 +89,9 @@ fn range(
         if before.signum() == after.signum() && before != 0.0 && after != 0.0 {
             continue;
         }
-        let Some(theta) = root::bracketed(&slope, grid[i - 1], grid[i]) else {
+        let known = |theta: f64| Ok::<f64, Infallible>(slope(theta));
+        let ends = [(grid[i - 1], before), (grid[i], after)];
+        let Ok(Some(theta)) = root::between(known, ends) else {
             continue;
         };
         let here = Extreme {
@@ -158,7 +161,9 @@ impl Linkage {
             let next = theta + step;
             (*theta < end).then_some(next.min(end))
         };
-        std::iter::successors(Some(SEAM), next).collect()
+        let mut grid = Vec::with_capacity((TAU / longest) as usize + 2);
+        grid.extend(std::iter::successors(Some(SEAM), next));
+        grid
     }
 
     /// Returns crank angles in rising order, rad, from at least one before `from` to at least one after `to`: those of

@@ -202,7 +202,7 @@ fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
 
 /// Returns cells as one line of CSV.
 fn line(cells: &[CsvCell]) -> Vec<u8> {
-    let mut text = Vec::new();
+    let mut text = Vec::with_capacity(16 * cells.len());
     csv::cells(cells, &mut text);
     text
 }
