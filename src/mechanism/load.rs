@@ -22,6 +22,8 @@ pub struct Loads {
     /// Dry loads, which oppose motion.
     pub(super) dry: NonlinearLoads,
     reads: Variables,
+    /// Variables that the timed and mixed loads depend on.
+    reads_of_states: Variables,
     on_slider: bool,
 }
 
@@ -65,6 +67,11 @@ impl Loads {
         self.reads
     }
 
+    /// Returns the variables that the nonlinear loads of speed or time depend on.
+    pub fn reads_of_states(&self) -> Variables {
+        self.reads_of_states
+    }
+
     /// Whether a force acts on the slider.
     pub fn on_slider(&self) -> bool {
         self.on_slider
@@ -92,10 +99,12 @@ impl Loads {
             &mut self.dry
         } else if reads.or(position) == position {
             &mut self.placed
-        } else if reads == Variables::T {
-            &mut self.timed
         } else {
-            &mut self.mixed
+            self.reads_of_states = self.reads_of_states.or(reads);
+            match reads == Variables::T {
+                true => &mut self.timed,
+                false => &mut self.mixed,
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::Table;
 use super::panel::PanelTable;
+use super::secant::StateVariable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -52,6 +53,9 @@ pub trait Dynamics {
 
     /// True if there are state loads that depend on time.
     fn reads_time(&self) -> bool;
+
+    /// Returns the number with which the state loads vary at a position; none if there are several.
+    fn state_variable(&self) -> Option<StateVariable>;
 
     /// Returns the generalized force of the state loads, N m, in each state.
     fn state_loads<const N: usize>(&self, at: &[State<'_, Self::Place>; N]) -> [f64; N];

@@ -15,8 +15,10 @@ pub(super) struct Forces {
     pub non_conservative: Values,
     /// Speeds, rad/s.
     pub speeds: Values,
+    /// Forces of the state loads.
+    pub of_state: Values,
     /// Times after the rounded time at the start of the panel, s.
-    times: Values,
+    pub times: Values,
 }
 
 impl Forces {
@@ -26,6 +28,7 @@ impl Forces {
             total: zero,
             non_conservative: zero,
             speeds: zero,
+            of_state: zero,
             times: zero,
         }
     }
@@ -57,8 +60,12 @@ impl Forces {
                     *time += start.t_low;
                 }
             }
-            let to = &mut self.non_conservative;
-            add_state_loads(dynamics, panel, start, [&self.speeds, &self.times], to);
+            self.of_state = [0.0; MAX_DEGREE + 1];
+            let at = [&self.speeds, &self.times];
+            add_state_loads(dynamics, panel, start, at, &mut self.of_state);
+            for j in 0..count {
+                self.non_conservative[j] += self.of_state[j];
+            }
         }
         let (force, non_conservative) =
             (&panel.table.force[..count], &self.non_conservative[..count]);
@@ -67,6 +74,14 @@ impl Forces {
             total[j] = force[j] + non_conservative[j];
         }
         is_finite(total).then_some(())
+    }
+
+    /// Adds non-conservative forces at the first `count` points.
+    pub fn add(&mut self, more: &Values, count: usize) {
+        for j in 0..count {
+            self.total[j] += more[j];
+            self.non_conservative[j] += more[j];
+        }
     }
 
     /// Computes the speeds at the points from the kinetic energy there, J.

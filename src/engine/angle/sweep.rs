@@ -2,8 +2,9 @@
 
 use super::Dynamics;
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
+use super::secant::Secant;
 use super::solution::PanelSolution;
-use crate::numeric::chebyshev::{Rule, Values, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
@@ -52,10 +53,20 @@ pub(super) fn sweep<D: Dynamics>(
     let plain = 0.03;
     let mut newton = false;
     let mut contraction = None;
-    let mut before = f64::INFINITY;
+    let [mut before, mut earlier] = [f64::INFINITY; 2];
+    let variable = dynamics.state_variable();
+    let mut secant: Option<Secant> = None;
     for _ in 0..most_sweeps {
         solution.evaluate(dynamics, panel, start)?;
         let mut change = solution.change(panel, start);
+        let now = variable.map(|variable| Secant::of(solution, variable));
+        let left_out = match (newton, &secant, &now) {
+            (false, Some(before), Some(now)) => {
+                solution.follow_state_loads(panel, [before, now], &mut change)
+            }
+            _ => 1.0,
+        };
+        secant = now;
         let contraction = *contraction.get_or_insert_with(|| solution.contraction(panel));
         let linear = contraction > plain || has_state_loads && panel.varies_with_speed();
         newton = newton || linear && !solution.linearise(panel, &mut change);
@@ -77,6 +88,10 @@ pub(super) fn sweep<D: Dynamics>(
         let factor = match measured {
             _ if !linear && !newton && !has_state_loads => contraction,
             _ if linear && !newton && !has_state_loads => largest,
+            // The error of secants is of the order of the product of the last two.
+            Some(_) if !linear && earlier.is_finite() && left_out < 1.0 => {
+                left_out.max(largest / earlier)
+            }
             Some(measured) => measured,
             None => panel.factor,
         };
@@ -101,7 +116,7 @@ pub(super) fn sweep<D: Dynamics>(
             panel.factor = measured;
             newton = measured > SLOW_FACTOR;
         }
-        before = largest;
+        (earlier, before) = (before, largest);
     }
     Err(Unsolved::TooLong)
 }
@@ -176,7 +191,7 @@ impl PanelSolution {
     /// Converts the change by a sweep, ρ, to the Newton correction for the tabulated forces (in function space,
     /// Kantorovich): δ = ρ + E ∫ r ρ/E with r = ∂F/∂K and the integrating factor E = exp ∫ r. False, without
     /// correction, where E is too steep for its series: that of exp(c x) decays only beyond degree c.
-    fn linearise<P: Copy>(&self, panel: &PanelTable<P>, change: &mut Values) -> bool {
+    fn linearise<P: Copy>(&mut self, panel: &PanelTable<P>, change: &mut Values) -> bool {
         let (count, half) = (panel.rule.degree() + 1, panel.half());
         let mut rates = self.forces.rates_of_table(panel);
         let mut factor = panel.rule.integrals(&rates);
@@ -188,9 +203,13 @@ impl PanelSolution {
             rates[j] *= change[j] / factor[j];
         }
         let more = panel.rule.integrals(&rates);
+        let rates = self.forces.rates_of_table(panel);
+        let mut of_table = [0.0; MAX_DEGREE + 1];
         for j in 0..count {
             change[j] += half * factor[j] * more[j];
+            of_table[j] = rates[j] * change[j];
         }
+        self.forces.add(&of_table, count);
         true
     }
 

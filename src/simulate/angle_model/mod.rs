@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use super::guide_friction::{GuideFriction, GuideLoadEffect, NEARBY_ANGLE, PanelPlace};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
-use crate::engine::angle::{Dynamics, Panels, State, Table};
+use crate::engine::angle::{Dynamics, Panels, State, StateVariable, Table};
 use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::{self, Angle};
@@ -221,6 +221,16 @@ impl Dynamics for AngleModel<'_> {
 
     fn reads_time(&self) -> bool {
         self.has_state_loads() && self.equation.loads().reads().has(Variable::T)
+    }
+
+    fn state_variable(&self) -> Option<StateVariable> {
+        let reads = self.equation.loads().reads_of_states();
+        let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
+        match (reads.has(Variable::T), of_speed) {
+            (true, false) => Some(StateVariable::Time),
+            (false, true) => Some(StateVariable::Energy),
+            _ => None,
+        }
     }
 
     fn state_loads<const N: usize>(&self, at: &[State<'_, PanelPlace>; N]) -> [f64; N] {

@@ -1,0 +1,107 @@
+//! Secant linearisation of state loads between sweeps. At a point of a panel they vary with one number alone, the time
+//! or the kinetic energy: its last two values give the derivative (inexact Newton method, Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982).
+
+use super::panel::PanelTable;
+use super::solution::PanelSolution;
+use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
+
+/// Number with which state loads vary at a point of a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateVariable {
+    /// Time.
+    Time,
+    /// Kinetic energy, for loads that depend on the speed.
+    Energy,
+}
+
+/// Forces of the state loads at the points in the last sweep.
+#[derive(Clone, Copy)]
+pub(super) struct Secant {
+    variable: StateVariable,
+    forces: Values,
+    at: Values,
+}
+
+impl Secant {
+    /// Takes the forces of the last evaluation.
+    pub fn of(solution: &PanelSolution, variable: StateVariable) -> Secant {
+        let at = match variable {
+            StateVariable::Time => solution.forces.times,
+            StateVariable::Energy => solution.kinetic,
+        };
+        let forces = solution.forces.of_state;
+        Secant {
+            variable,
+            forces,
+            at,
+        }
+    }
+
+    /// Returns the derivatives of the forces at the first `count` points, from these and later forces.
+    fn slopes(&self, later: &Secant, count: usize) -> Values {
+        let mut slopes = [0.0; MAX_DEGREE + 1];
+        for j in 0..count {
+            let apart = later.at[j] - self.at[j];
+            if apart != 0.0 {
+                slopes[j] = (later.forces[j] - self.forces[j]) / apart;
+            }
+        }
+        slopes
+    }
+}
+
+impl PanelSolution {
+    /// Converts the change of the kinetic energy by a sweep, J, to that of linearised state loads, and their forces with
+    /// it. `before` and `now` are those of the last two sweeps. Returns the error that it leaves, as a part of the change.
+    pub(super) fn follow_state_loads<P: Copy>(
+        &mut self,
+        panel: &PanelTable<P>,
+        [before, now]: [&Secant; 2],
+        change: &mut Values,
+    ) -> f64 {
+        let (count, half) = (panel.rule.degree() + 1, panel.half());
+        let slopes = before.slopes(now, count);
+        let sweep = *change;
+        let mut more = [0.0; MAX_DEGREE + 1];
+        let first = largest(&sweep[..count]);
+        let (mut last, mut ratio) = (first, 1.0);
+        // Forcing term.
+        let enough = 0.01;
+        for _ in 0..3 {
+            if last <= enough * first {
+                break;
+            }
+            let by = match now.variable {
+                StateVariable::Energy => *change,
+                StateVariable::Time => self.delay(panel, change),
+            };
+            for j in 0..count {
+                more[j] = slopes[j] * by[j];
+            }
+            let work = panel.rule.integrals(&more);
+            let mut moved = 0.0f64;
+            for j in 0..count {
+                let next = sweep[j] + half * work[j];
+                moved = moved.max((next - change[j]).abs());
+                change[j] = next;
+            }
+            (last, ratio) = (moved, moved / last);
+        }
+        self.forces.add(&more, count);
+        if first > 0.0 {
+            ratio * last / first
+        } else {
+            0.0
+        }
+    }
+
+    /// Returns the delay at the points, s, due to a change of the kinetic energy, J.
+    fn delay<P: Copy>(&self, panel: &PanelTable<P>, change: &Values) -> Values {
+        let (count, half) = (panel.rule.degree() + 1, panel.half());
+        let mut slopes = [0.0; MAX_DEGREE + 1];
+        for j in 0..count {
+            slopes[j] = -0.5 * half * change[j] / (self.forces.speeds[j] * self.kinetic[j]);
+        }
+        panel.rule.integrals(&slopes)
+    }
+}
