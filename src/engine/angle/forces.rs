@@ -189,6 +189,9 @@ fn tabulated<P: Copy>(panel: &PanelTable<P>, speeds: &Values, to: &mut Values) {
     }
 }
 
+/// Points at which state loads are evaluated together.
+const BATCH: usize = 2 * LANES;
+
 /// Adds the state loads at the points, at these speeds, rad/s, and times after the rounded start of the panel, s.
 fn add_state_loads<D: Dynamics>(
     dynamics: &D,
@@ -199,9 +202,9 @@ fn add_state_loads<D: Dynamics>(
 ) {
     let count = panel.rule.degree() + 1;
     let state = |j: usize| panel.state(start.turns, j, start.t + times[j], speeds[j]);
-    let whole = count - count % LANES;
-    for j in (0..whole).step_by(LANES) {
-        let forces = dynamics.state_loads(&from_fn::<_, LANES, _>(|i| state(j + i)));
+    let whole = count - count % BATCH;
+    for j in (0..whole).step_by(BATCH) {
+        let forces = dynamics.state_loads(&from_fn::<_, BATCH, _>(|i| state(j + i)));
         for (to, force) in to[j..].iter_mut().zip(forces) {
             *to += force;
         }

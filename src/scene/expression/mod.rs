@@ -23,6 +23,8 @@ const TOO_DEEP: &str = "the expression is nested too deeply; simplify it";
 pub struct Expression {
     text: String,
     ops: Vec<Op>,
+    /// Largest number of intermediate results.
+    depth: usize,
     reads: Variables,
     jumps: bool,
 }
@@ -97,6 +99,7 @@ impl Expression {
         Ok(Expression {
             text: text.to_owned(),
             ops,
+            depth: deepest,
             reads,
             jumps,
         })
@@ -108,6 +111,7 @@ impl Expression {
         Expression {
             text: value.to_string(),
             ops: vec![Op::Number(value)],
+            depth: 1,
             reads: Variables::NONE,
             jumps: false,
         }
@@ -144,7 +148,15 @@ impl Expression {
 
     /// Runs the stack machine over numbers, over enclosures, or over periods of subexpressions.
     fn evaluate<N: Operand>(&self, of: impl Fn(Variable) -> N) -> N {
-        let mut stack = [N::constant(0.0); STACK_DEPTH];
+        // Most formulas are shallow: their stack is small, as it is filled anew each time.
+        match self.depth {
+            ..=4 => self.run::<N, 4>(of),
+            _ => self.run::<N, STACK_DEPTH>(of),
+        }
+    }
+
+    fn run<N: Operand, const DEPTH: usize>(&self, of: impl Fn(Variable) -> N) -> N {
+        let mut stack = [N::constant(0.0); DEPTH];
         let mut top = 0;
         for op in &self.ops {
             match *op {
