@@ -4,7 +4,6 @@ use std::cell::RefCell;
 
 use super::Table;
 use super::panel::PanelTable;
-use super::secant::StateVariable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -18,6 +17,15 @@ pub struct State<'a, P> {
     pub angle: Angle,
     /// Speed, rad/s.
     pub speed: f64,
+}
+
+/// Number with which state loads vary at a point of a panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StateVariable {
+    /// Time.
+    Time,
+    /// Kinetic energy, for loads that depend on the speed.
+    Energy,
 }
 
 /// Equation of motion over the crank angle: tables of what depends on the position alone, and state loads, which are

@@ -33,10 +33,9 @@ mod table;
 mod undamped;
 
 pub use angle_run::{AngleRun, EarlyEnd, Goal, Resolution};
-pub use dynamics::{Dynamics, Panels, State};
+pub use dynamics::{Dynamics, Panels, State, StateVariable};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
 pub use guide::Guide;
 pub use run::run;
-pub use secant::StateVariable;
 pub use table::{Switch, Table};

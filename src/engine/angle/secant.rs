@@ -1,18 +1,10 @@
 //! Secant linearisation of state loads between sweeps. At a point of a panel they vary with one number alone, the time
 //! or the kinetic energy: its last two values give the derivative (inexact Newton method, Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982).
 
+use super::dynamics::StateVariable;
 use super::panel::PanelTable;
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
-
-/// Number with which state loads vary at a point of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StateVariable {
-    /// Time.
-    Time,
-    /// Kinetic energy, for loads that depend on the speed.
-    Energy,
-}
 
 /// Forces of the state loads at the points in the last sweep.
 #[derive(Clone, Copy)]

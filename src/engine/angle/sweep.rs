@@ -8,9 +8,6 @@ use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
 use nalgebra::{DMatrix, DVectorViewMut};
 
-/// Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns.
-const SWEEP_ERROR_SHARE: f64 = 1e-3;
-
 /// Reason why a panel is not solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unsolved {
@@ -35,12 +32,9 @@ pub(super) fn sweep<D: Dynamics>(
     }
     // Evaluations of state loads cost more than the sweeps that they spare.
     let has_state_loads = dynamics.has_state_loads();
-    let error_share = if has_state_loads {
-        SWEEP_ERROR_SHARE
-    } else {
-        // The tabulated forces are evaluated once more, which is another sweep for the energy gain.
-        10.0 * SWEEP_ERROR_SHARE
-    };
+    // Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns. Tabulated forces alone are
+    // evaluated once more, which is another sweep for the energy gain.
+    let error_share = if has_state_loads { 1e-3 } else { 1e-2 };
     // Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
     let energy_rounding = 2.0 * f64::EPSILON;
     let largest_error = (error_share * tail).max(energy_rounding);
