@@ -25,6 +25,15 @@ pub(super) struct EqualGains<'a> {
 }
 
 impl EqualGains<'_> {
+    /// Estimates the time until the crank has lost a kinetic energy (J), s, under a constant torque, from the duration of
+    /// a turn, s; infinite if it gains energy.
+    pub fn time_to_rest(&self, kinetic: f64, duration: f64) -> f64 {
+        match self.gain < 0.0 {
+            true => 2.0 * kinetic / -self.gain * duration,
+            false => f64::INFINITY,
+        }
+    }
+
     /// Returns the start of the turn after the first `turns`, at the time `t` (s, rounded value and remainder).
     fn mark(&self, turns: f64, t: (f64, f64)) -> TurnStart {
         TurnStart {
@@ -75,6 +84,7 @@ impl EqualGains<'_> {
         }
         let last = match last {
             Some(segment) => segment,
+            None if cells.is_empty() => return Ok(None),
             None => {
                 let begin = KineticState {
                     kinetic: mark.kinetic,
@@ -86,7 +96,7 @@ impl EqualGains<'_> {
                 let most_turns = 256.0;
                 let segment =
                     Segment::build(self.profile, begin, left, self.tolerance, most_turns)?;
-                if segment.after != After::Ends || cells.is_empty() {
+                if segment.after != After::Ends {
                     return Ok(None);
                 }
                 error += segment.error;
@@ -117,8 +127,12 @@ impl EqualGains<'_> {
     fn cell(&self, first: TurnStart, until: f64) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = Some(here.least(first.kinetic)).filter(|least| *least > 0.0)?;
+        let (left, duration) = (first.until(until), here.duration(first.kinetic));
+        if self.time_to_rest(least, duration) < left {
+            return None;
+        }
         // Turns to come at this speed; a constant torque makes the crank turn further by a quarter of their gain.
-        let turns = first.until(until) / here.duration(first.kinetic);
+        let turns = left / duration;
         let further = (0.25 * turns * self.gain / first.kinetic).max(0.0);
         let needed = (turns * (1.0 + further) + 1.0) * self.gain.abs();
         // Largest width over the least kinetic energy in the first turn, and least width over the largest.
@@ -129,7 +143,7 @@ impl EqualGains<'_> {
             false => widest / (1.0 + widest) * least,
         };
         let cell = |share: f64| {
-            let width = (share * widest).min(needed);
+            let width = (share * widest).min(needed.max(narrowest * widest));
             let (down, turn) = match self.gain >= 0.0 {
                 true => (0.0, here.clone()),
                 false => (width, self.one_turn(first.kinetic - width)?),

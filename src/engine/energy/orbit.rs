@@ -64,19 +64,23 @@ impl Orbit {
             let begin = KineticState { direction, ..begin };
             Segment::build(profile, begin, until, tolerance, most_turns)
         };
-        // The sum over turns takes the time of about four turns.
-        let most_turns = 4.0;
+        let gains = profile.work_of_turn().map(|(work, gain_error)| EqualGains {
+            profile,
+            begin,
+            gain: direction * work,
+            gain_error,
+            tolerance,
+        });
+        // The sum over turns takes the time of about four turns; it does not go on to rest.
+        let rests = |gains: &EqualGains| gains.time_to_rest(kinetic, TAU / speed.abs()) < until;
+        let most_turns = match gains.as_ref().is_some_and(rests) {
+            true => f64::INFINITY,
+            false => 4.0,
+        };
         let mut forward = segment(direction, until, most_turns)?;
         let mut later = None;
-        if let (After::GoesOn, Some((work, gain_error))) = (forward.after, profile.work_of_turn()) {
-            let rest = EqualGains {
-                profile,
-                begin,
-                gain: direction * work,
-                gain_error,
-                tolerance,
-            };
-            later = rest.turns(forward.turns(), forward.duration, until)?;
+        if let (After::GoesOn, Some(gains)) = (forward.after, gains) {
+            later = gains.turns(forward.turns(), forward.duration, until)?;
             if later.is_none() && !profile.is_spent() {
                 forward = segment(direction, until, f64::INFINITY)?;
             }
