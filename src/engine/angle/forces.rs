@@ -78,9 +78,9 @@ impl Forces {
 
     /// Adds non-conservative forces at the first `count` points.
     pub fn add(&mut self, more: &Values, count: usize) {
-        for j in 0..count {
-            self.total[j] += more[j];
-            self.non_conservative[j] += more[j];
+        for (j, more) in more[..count].iter().enumerate() {
+            self.total[j] += more;
+            self.non_conservative[j] += more;
         }
     }
 

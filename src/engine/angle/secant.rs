@@ -32,10 +32,10 @@ impl Secant {
     /// Returns the derivatives of the forces at the first `count` points, from these and later forces.
     fn slopes(&self, later: &Secant, count: usize) -> Values {
         let mut slopes = [0.0; MAX_DEGREE + 1];
-        for j in 0..count {
-            let apart = later.at[j] - self.at[j];
-            if apart != 0.0 {
-                slopes[j] = (later.forces[j] - self.forces[j]) / apart;
+        for (j, slope) in slopes[..count].iter_mut().enumerate() {
+            let secant = (later.forces[j] - self.forces[j]) / (later.at[j] - self.at[j]);
+            if secant.is_finite() {
+                *slope = secant;
             }
         }
         slopes
@@ -44,7 +44,8 @@ impl Secant {
 
 impl PanelSolution {
     /// Converts the change of the kinetic energy by a sweep, J, to that of linearised state loads, and their forces with
-    /// it. `before` and `now` are those of the last two sweeps. Returns the error that it leaves, as a part of the change.
+    /// it. `before` and `now` are those of the last two sweeps. Returns the error that it leaves, as a part of the
+    /// change: 1 for a plain sweep, where the iteration diverges.
     pub(super) fn follow_state_loads<P: Copy>(
         &mut self,
         panel: &PanelTable<P>,
@@ -79,12 +80,15 @@ impl PanelSolution {
             }
             (last, ratio) = (moved, moved / last);
         }
-        self.forces.add(&more, count);
-        if first > 0.0 {
-            ratio * last / first
-        } else {
-            0.0
+        if first == 0.0 {
+            return 0.0;
         }
+        if ratio >= 1.0 {
+            *change = sweep;
+            return 1.0;
+        }
+        self.forces.add(&more, count);
+        ratio * last / first
     }
 
     /// Returns the delay at the points, s, due to a change of the kinetic energy, J.
