@@ -1,5 +1,6 @@
 //! Secant linearisation of state loads between sweeps. At a point of a panel they vary with one number alone, the time
-//! or the kinetic energy: its last two values give the derivative (inexact Newton method, Dembo, Eisenstat and Steihaug, SIAM J. Numer. Anal. 19, 1982).
+//! or the kinetic energy: its last two values give the derivative. Inexact Newton method (Dembo, Eisenstat and Steihaug,
+//! SIAM J. Numer. Anal. 19, 1982).
 
 use super::dynamics::StateVariable;
 use super::panel::PanelTable;
