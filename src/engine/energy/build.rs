@@ -5,24 +5,11 @@ use std::f64::consts::TAU;
 
 use super::panel::{Attempt, KnownEnergy, Panel};
 use super::piece::{
-    HALF_TURN, Piece, SAME_ANGLE, Turning, longest_analytic, next_end, turn_remainder,
+    HALF_TURN, KineticState, Piece, SAME_ANGLE, Turning, longest_analytic, next_end, turn_remainder,
 };
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, MOST_PANELS, Segment};
 use super::turn_end::TurnEnd;
-
-/// State of a motion over the crank angle.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct KineticState {
-    /// Crank angle, rad.
-    pub angle: f64,
-    /// Direction of motion, +1 or −1.
-    pub direction: f64,
-    /// Kinetic energy, J; zero at a turning point.
-    pub kinetic: f64,
-    /// Error bound of the kinetic energy beyond its own rounding, J.
-    pub energy_error: f64,
-}
 
 /// Turning point ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +47,8 @@ struct Builder<'a> {
     largest: f64,
     /// Largest length of the next panel, rad.
     length: f64,
+    /// True if a panel longer than the branch points allow has failed.
+    is_cut: bool,
     ahead: Option<TurningPoint>,
     turns: f64,
     branch_points: OnceCell<Vec<[f64; 2]>>,
@@ -88,6 +77,7 @@ impl Segment {
             now: begin,
             largest: begin.kinetic,
             length: HALF_TURN,
+            is_cut: false,
             ahead: None,
             turns: 0.0,
             branch_points: OnceCell::new(),
@@ -145,9 +135,16 @@ impl Builder<'_> {
                 });
             }
             _ if short => return Err(NotApplicable::NotFinite),
-            _ => self.length = 0.5 * piece.span().abs(),
+            _ => self.shorten(piece.span().abs()),
         }
         Ok(())
+    }
+
+    /// Shortens the next panel after an unresolved one of length `span` (rad): to what the branch points allow, or by half.
+    fn shorten(&mut self, span: f64) {
+        if std::mem::replace(&mut self.is_cut, true) || self.analytic() >= span {
+            self.length = 0.5 * span;
+        }
     }
 
     /// Returns the largest length of the next panel, rad, that the branch points allow.
@@ -157,17 +154,30 @@ impl Builder<'_> {
         longest_analytic(self.now.angle, self.now.direction, branch_points)
     }
 
+    /// Returns the end of a panel, rad: after `length` (rad), or at a corner or the end of the turn before.
+    fn end(&self, length: f64) -> f64 {
+        let KineticState {
+            angle, direction, ..
+        } = self.now;
+        let end = next_end(self.profile.corners(), angle, direction, length);
+        let end = self.profile.corner_between(angle, end).unwrap_or(end);
+        match self.gain.is_some() && direction * (end - self.whole_turn) > -SAME_ANGLE {
+            true => self.whole_turn,
+            false => end,
+        }
+    }
+
     fn piece(&self) -> Piece {
         let KineticState {
             angle: at,
             direction,
             ..
         } = self.now;
-        let length = self.length.min(self.analytic());
-        let mut to = next_end(self.profile.corners(), at, direction, length);
-        to = self.profile.corner_between(at, to).unwrap_or(to);
-        if self.gain.is_some() && direction * (to - self.whole_turn) > -SAME_ANGLE {
-            to = self.whole_turn;
+        // The bound leaves constants out: where it is nearly as long, the whole length is tried.
+        let (allowed, nearly) = (self.analytic(), if self.is_cut { 1.0 } else { 0.85 });
+        let mut to = self.end(self.length);
+        if direction * (to - at) * nearly > allowed {
+            to = self.end(self.length.min(allowed));
         }
         let at_rest = self.now.kinetic == 0.0;
         let turns = self.ahead.map(|ahead| ahead.way);

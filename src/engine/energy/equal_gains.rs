@@ -3,10 +3,10 @@
 //! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
 //! nW. A million turns take a few dozen cells of the energy.
 
-use super::build::KineticState;
 use super::euler_maclaurin::{EulerMaclaurinCell, Lowest};
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
+use super::piece::KineticState;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::{Map, RecentTurn, Turns};

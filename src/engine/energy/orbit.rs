@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::build::KineticState;
 use super::equal_gains::EqualGains;
 use super::kinetic::at_start;
+use super::piece::KineticState;
 use super::profile::{NotApplicable, Profile};
 use super::segment::{After, Segment};
 use super::turns::Turns;

@@ -24,6 +24,19 @@ pub(super) fn longest_analytic(at: f64, direction: f64, branch_points: &[[f64; 2
     branch_points.iter().map(longest).fold(TAU, f64::min)
 }
 
+/// State of a motion over the crank angle.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::engine) struct KineticState {
+    /// Crank angle, rad.
+    pub angle: f64,
+    /// Direction of motion, +1 or −1.
+    pub direction: f64,
+    /// Kinetic energy, J; zero at a turning point.
+    pub kinetic: f64,
+    /// Error bound of the kinetic energy beyond its own rounding, J.
+    pub energy_error: f64,
+}
+
 /// End of a panel that is a turning point, where dt/dθ is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::engine) enum Turning {
