@@ -1,8 +1,7 @@
 //! One turn at any kinetic energy, from tabulated inertia and work.
 
 use super::panel::Panel;
-use super::piece::KineticState;
-use super::piece::{Piece, turn_remainder};
+use super::piece::{KineticState, Piece, turn_remainder};
 use super::profile::Profile;
 use super::segment::{After, Segment};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, SERIES_ROUNDING, Values};

@@ -71,7 +71,8 @@ impl Orbit {
             gain_error,
             tolerance,
         });
-        // The sum over turns takes the time of about four turns; it does not go on to rest.
+        // The sum over turns takes the time of about four turns, and does not go on to rest. The choice changes the cost,
+        // not the result beyond its stated error.
         let rests = |gains: &EqualGains| gains.time_to_rest(kinetic, TAU / speed.abs()) < until;
         let most_turns = match gains.as_ref().is_some_and(rests) {
             true => f64::INFINITY,
