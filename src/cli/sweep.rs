@@ -151,18 +151,16 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     };
     let mut writer = SweepWriter::new(out.map(PathBuf::as_path), &sweep, part, &asked)?;
     let begun = Instant::now();
-    let (missing, count) = (writer.missing(), sweep.len());
-    let mut next = missing.start;
+    let (mut done, count) = (writer.missing().start, sweep.len());
     watch::of_designs(count);
-    let computed = sweep.designs(missing, |designs| {
-        next += designs.len();
+    let computed = writer.compute(|next| {
+        done = next;
         stop.reach(next as f64 / count as f64);
-        writer.take(&designs)
     });
     if let (Err(Error::Interrupted), Some(file)) = (&computed, out) {
         return Err(Error::Incomplete(format!(
             "interrupted before design {}: the same command goes on from `{}.part`",
-            next + 1,
+            done + 1,
             file.display()
         )));
     }

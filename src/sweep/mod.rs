@@ -220,24 +220,39 @@ impl Sweep {
     pub fn designs(
         &self,
         range: Range<usize>,
-        mut take: impl FnMut(Vec<Design>) -> Result<(), Error>,
+        take: impl FnMut(Vec<Design>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.map_designs(range, |design| design, take)
+    }
+
+    /// Computes designs on all cores, keeps of each what `make` returns, and passes that to `take` in order, in batches.
+    ///
+    /// # Errors
+    /// Errors of `take`; [`Error::Interrupted`].
+    pub fn map_designs<R: Send>(
+        &self,
+        range: Range<usize>,
+        make: impl Fn(Design) -> R + Sync,
+        mut take: impl FnMut(Vec<R>) -> Result<(), Error>,
     ) -> Result<(), Error> {
         /// Target for the time of one batch, half to once this, which bounds the loss when the sweep is cut off.
         const BATCH_TIME: Duration = Duration::from_millis(500);
+        /// Largest number of designs of a batch: more gain nothing and do not stay in the cache.
+        const BATCH_SIZE: usize = 1 << 10;
         let (mut start, mut count) = (range.start, 16);
         while start < range.end {
             let end = range.end.min(start + count);
             let begun = Instant::now();
-            let designs = parallel::map(start..end, |index| self.design(index));
+            let made = parallel::map(start..end, |index| make(self.design(index)));
             if begun.elapsed() < BATCH_TIME / 2 {
-                count = (2 * count).min(1 << 14);
+                count = (2 * count).min(BATCH_SIZE);
             } else if begun.elapsed() > BATCH_TIME {
                 count = (count / 2).max(16);
             }
             if self.options.stop.as_ref().is_some_and(Stop::is_requested) {
                 return Err(Error::Interrupted);
             }
-            take(designs)?;
+            take(made)?;
             start = end;
         }
         Ok(())

@@ -9,8 +9,6 @@ mod tally;
 use std::ops::Range;
 use std::path::Path;
 
-use rayon::prelude::*;
-
 use super::csv::{self, CsvCell};
 use super::decimate::Decimated;
 use super::output::{Output, is_standard_output, is_stream};
@@ -130,16 +128,32 @@ impl<'a> SweepWriter<'a> {
         (self.range.start + self.kept).min(self.range.end)..self.range.end
     }
 
-    /// Writes rows; rows of a file have been passed to the system on return.
-    pub fn take(&mut self, designs: &[Design]) -> Result<(), Error> {
-        let written = !matches!(self.target, Target::Nothing);
-        let made = designs.par_iter().map(|design| {
-            let cells = cells_of(self.sweep, design);
-            let line = if written { line(&cells) } else { Vec::new() };
+    /// Computes the missing designs on all cores and writes their rows; `progress` is told how many designs of the sweep
+    /// are done. Rows of a file have been passed to the system before `progress` is called.
+    ///
+    /// # Errors
+    /// [`Error::Interrupted`]; [`Error::Write`].
+    pub fn compute(&mut self, mut progress: impl FnMut(usize)) -> Result<(), Error> {
+        let (sweep, missing) = (self.sweep, self.missing());
+        let is_written = !matches!(self.target, Target::Nothing);
+        let row = |design: Design| {
+            let cells = cells_of(sweep, &design);
+            let line = if is_written { line(&cells) } else { Vec::new() };
             (cells, line)
-        });
+        };
+        let mut done = missing.start;
+        sweep.map_designs(missing, row, |rows| {
+            done += rows.len();
+            self.take(rows)?;
+            progress(done);
+            Ok(())
+        })
+    }
+
+    /// Takes the cells and the line of each row.
+    fn take(&mut self, rows: Vec<(Vec<CsvCell>, Vec<u8>)>) -> Result<(), Error> {
         let mut text = Vec::new();
-        for (cells, line) in made.collect::<Vec<_>>() {
+        for (cells, line) in rows {
             text.extend(line);
             self.tally.take(&cells);
             if let Some(shown) = &mut self.shown {
