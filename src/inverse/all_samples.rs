@@ -5,7 +5,7 @@ use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linearised::Motion;
-use super::maximum::{better, vertex};
+use super::maximum::{ENOUGH_RISE, better, vertex};
 use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
 use super::state_space::with_dimension;
@@ -52,6 +52,10 @@ impl Problem<'_> {
                 let point = |noise: &Noise| (noise.corner.ln(), noise.likelihood);
                 let corner = vertex(point(a), point(b), point(c)).place.exp();
                 return Noise { corner, ..*b };
+            }
+            // At the edge of what was tried: further out the likelihood gains nothing.
+            if likeliest.likelihood < judged[1].likelihood.max(judged[3].likelihood) + ENOUGH_RISE {
+                return likeliest;
             }
         }
         likeliest

@@ -204,6 +204,6 @@ impl Problem<'_> {
                 steps,
             }
         };
-        pairs.map(with).collect()
+        parallel::map(pairs, with)
     }
 }

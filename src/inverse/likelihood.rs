@@ -7,6 +7,7 @@ use super::prior::{Prior, State};
 use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
 use super::state_space::{Deviations, Stretch, with_dimension};
+use crate::numeric::parallel;
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Copy, Debug)]
@@ -55,22 +56,26 @@ impl Linear<'_> {
             });
             evidence
         };
-        self.stretches.iter().map(of).sum()
+        parallel::map(self.stretches.iter(), of).into_iter().sum()
     }
 
     /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
     fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
-        let mut regression = Regression::new(self.prior);
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            with_dimension!(model.dimension(), N => {
+            let mut regression = Regression::new(self.prior);
+            let evidence = with_dimension!(model.dimension(), N => {
                 let mut regressed = Regressed::<N>::new(&model, &mut regression, None);
                 kalman::run::<N>(&model, None, &mut regressed);
                 regressed.evidence
-            })
+            });
+            regression.multiply();
+            (evidence, regression)
         };
-        let mut evidence: Evidence = self.stretches.iter().map(of).sum();
-        regression.multiply();
+        let (evidences, regressions): (Vec<_>, Vec<_>) =
+            parallel::map(self.stretches.iter(), of).into_iter().unzip();
+        let mut evidence: Evidence = evidences.into_iter().sum();
+        let regression = Regression::of_all(self.prior, regressions);
         let starts = self.prior.states() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;

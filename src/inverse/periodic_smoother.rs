@@ -1,5 +1,7 @@
 //! Smoothed motion about stretches of a path that share a torque that repeats.
 
+use std::ops::Range;
+
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::likelihood::Linear;
@@ -11,6 +13,7 @@ use super::regression::Regression;
 use super::repeating::Repeating;
 use super::scales::Noise;
 use super::{fixed_interval, kalman};
+use crate::numeric::parallel;
 
 impl Problem<'_> {
     /// Returns the smoothed motion about all stretches of a path, and leaves the torque that repeats in the path.
@@ -21,25 +24,27 @@ impl Problem<'_> {
         linear: &Linear<'_>,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        let mut to = Regression::new(motion.prior);
-        let stretches = path.ranges.iter().map(|range| {
+        let of = |range: &Range<usize>| {
             let stretch = self.stretch(motion, path, range.clone(), noise.sigma);
             let model = linear.deviations(&stretch, noise);
+            let mut to = Regression::new(motion.prior);
             let mut derivatives = Derivatives::new(&model, N);
             let mut regressed = Regressed::<N>::new(&model, &mut to, Some(&mut derivatives));
             let (deviations, innovations) = fixed_interval::smooth(&model, &mut regressed);
-            (deviations, innovations, derivatives)
-        });
-        let stretches: Vec<_> = stretches.collect();
-        to.multiply();
+            to.multiply();
+            ((deviations, innovations, derivatives), to)
+        };
+        let (stretches, equations): (Vec<_>, Vec<_>) =
+            parallel::map(path.ranges.iter(), of).into_iter().unzip();
+        let to = Regression::of_all(motion.prior, equations);
         let posterior = noise.spectrum.and_then(|spectrum| to.solved(spectrum));
         // Factor A of the covariance Aᵀ A of the coefficients.
         let found = posterior.map(|found| (found.factor(), found));
-        let mut covariance = [[0.0; 3]; 3];
-        let mut estimates = Vec::with_capacity(path.states.len());
-        for (range, (mut deviations, mut innovations, derivatives)) in
-            path.ranges.iter().zip(stretches)
-        {
+        let estimated = |(range, (mut deviations, mut innovations, derivatives)): (
+            &Range<usize>,
+            (Vec<_>, Vec<_>, Derivatives),
+        )| {
+            let mut covariance = [[0.0; 3]; 3];
             if let Some((factor, found)) = &found {
                 add(&mut covariance, &deviations, -1.0);
                 let coefficients = &found.coefficients;
@@ -47,8 +52,16 @@ impl Problem<'_> {
                 add(&mut covariance, &deviations, 1.0);
             }
             let first = range.start;
-            estimates.extend(self.estimated(motion, path, first, &deviations, &innovations, noise));
-        }
+            let estimates = self.estimated(motion, path, first, &deviations, &innovations, noise);
+            (estimates, covariance)
+        };
+        let sum = |a: Matrix<3>, b: Matrix<3>| {
+            std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+        };
+        let pairs = path.ranges.iter().zip(stretches);
+        let (estimates, covariances): (Vec<_>, Vec<_>) =
+            parallel::map(pairs, estimated).into_iter().unzip();
+        let covariance = covariances.into_iter().reduce(sum).unwrap_or_default();
         let mean = noise.sigma * noise.sigma / path.states.len() as f64;
         path.repeating = found.map(|(factor, found)| {
             let told = found.told(&factor, motion.prior);
@@ -61,7 +74,7 @@ impl Problem<'_> {
                 covariance,
             )
         });
-        estimates
+        estimates.concat()
     }
 }
 

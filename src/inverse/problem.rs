@@ -106,18 +106,22 @@ impl<'a> Problem<'a> {
         let piece = path.piece(&range);
         let states = piece.states;
         let torque = path.repeating.as_ref();
-        let nodes = times.iter().zip(states).map(|(t, state)| Node {
-            t: *t,
-            state,
-            rates: motion.rates_following(path.slopes(motion.prior, state), *t, state),
-            repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])[0]),
+        let nodes = parallel::list(times.len(), |k| {
+            let (t, state) = (times[k], &states[k]);
+            Node {
+                t,
+                state,
+                rates: motion.rates_following(path.slopes(motion.prior, state), t, state),
+                repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])[0]),
+            }
         });
-        let nodes: Vec<Node<'_>> = nodes.collect();
-        let steps = nodes.windows(2).map(|ends| Linearised {
-            intensity: self.intensities.at(0.5 * (ends[0].t + ends[1].t)),
-            ..motion.linearised(&ends[0], &ends[1], torque)
+        let mut steps = parallel::list(times.len().saturating_sub(1), |k| {
+            let (begin, end) = (&nodes[k], &nodes[k + 1]);
+            Linearised {
+                intensity: self.intensities.at(0.5 * (begin.t + end.t)),
+                ..motion.linearised(begin, end, torque)
+            }
         });
-        let mut steps: Vec<Linearised> = steps.collect();
         let mut increments = Increments::default();
         if motion.prior.cycle > 0 {
             increments = Increments::new(ways(states, &steps, path.speed()), motion.prior);
@@ -128,9 +132,10 @@ impl<'a> Problem<'a> {
         Stretch {
             steps,
             increments,
-            observed: range
-                .map(|k| self.record.observed(&self.grid, &piece, k, sigma))
-                .collect(),
+            observed: parallel::list(range.len(), |k| {
+                let node = range.start + k;
+                self.record.observed(&self.grid, &piece, node, sigma)
+            }),
         }
     }
 
@@ -159,11 +164,8 @@ impl<'a> Problem<'a> {
         if self.is_stopped() {
             return Vec::new();
         }
-        let ranges = self.sampled();
-        ranges
-            .into_iter()
-            .map(|range| self.stretch(motion, path, range, sigma))
-            .collect()
+        let of = |range| self.stretch(motion, path, range, sigma);
+        parallel::map(self.sampled().into_iter(), of)
     }
 
     /// Returns the smoothed motion about a path, computed in pieces side by side. What repeats is found along the sampled
@@ -237,32 +239,28 @@ impl<'a> Problem<'a> {
         let dimension = motion.prior.states();
         let known = path.repeating.as_ref().filter(|_| motion.prior.cycle == 0);
         let beside = known.map_or([[0.0; 3]; 3], |known| known.covariance);
-        let estimate =
-            |(at, (deviation, innovation)): (usize, (&kalman::Gaussian<N>, &Option<f64>))| {
-                let mut state = piece.states[at];
-                // The model has the deviation of u less what follows θ and ω.
-                let slopes = path.slopes(motion.prior, &state);
-                state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
-                let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
-                pairs.for_each(|(value, change)| *value += change);
-                let slopes = path.slopes(motion.prior, &state);
-                let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
-                let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
-                let p: Matrix<3> = std::array::from_fn(|i| {
-                    std::array::from_fn(|k| variance * deviation.covariance[i][k] + beside[i][k])
-                });
-                let across: [f64; 3] =
-                    std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
-                let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
-                let covariance = [p[0][0], p[0][1], p[1][1], across[0], across[1], own];
-                Estimate {
-                    state,
-                    alpha: rates.alpha,
-                    covariance,
-                    innovation: innovation.map_or(f64::NAN, |value| value / noise.sigma),
-                }
-            };
-        let found = deviations.iter().zip(innovations).enumerate();
-        found.map(estimate).collect()
+        parallel::list(deviations.len(), |at| {
+            let (deviation, mut state) = (&deviations[at], piece.states[at]);
+            // The model has the deviation of u less what follows θ and ω.
+            let slopes = path.slopes(motion.prior, &state);
+            state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
+            let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
+            pairs.for_each(|(value, change)| *value += change);
+            let slopes = path.slopes(motion.prior, &state);
+            let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
+            let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
+            let p: Matrix<3> = std::array::from_fn(|i| {
+                std::array::from_fn(|k| variance * deviation.covariance[i][k] + beside[i][k])
+            });
+            let across: [f64; 3] =
+                std::array::from_fn(|i| (0..3).map(|k| p[i][k] * gradient[k]).sum::<f64>());
+            let own: f64 = (0..3).map(|k| gradient[k] * across[k]).sum();
+            Estimate {
+                state,
+                alpha: rates.alpha,
+                covariance: [p[0][0], p[0][1], p[1][1], across[0], across[1], own],
+                innovation: innovations[at].map_or(f64::NAN, |value| value / noise.sigma),
+            }
+        })
     }
 }

@@ -93,6 +93,18 @@ impl Regression {
         }
     }
 
+    /// Returns the sum of the equations of several stretches.
+    pub fn of_all(prior: Prior, parts: Vec<Regression>) -> Regression {
+        let add = |mut sum: Regression, part: Regression| {
+            sum.information += part.information;
+            let scores = sum.score.iter_mut().zip(part.score);
+            scores.for_each(|(sum, part)| *sum += part);
+            sum
+        };
+        let sum = parts.into_iter().reduce(add);
+        sum.unwrap_or_else(|| Regression::new(prior))
+    }
+
     /// Adds a row E with its error e; `per` is 1/√S.
     pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
         for (value, score) in row.iter().zip(&mut self.score) {

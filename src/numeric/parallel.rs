@@ -2,18 +2,27 @@
 
 use rayon::prelude::*;
 
-/// Returns the result of each job, in the order of the jobs.
+/// Returns the result of each job, in the order of the jobs; a single job is done in this thread.
 pub fn map<J: Send, R: Send>(
     jobs: impl Iterator<Item = J>,
     work: impl Fn(J) -> R + Sync,
 ) -> Vec<R> {
     let jobs: Vec<J> = jobs.collect();
+    if jobs.len() < 2 {
+        return jobs.into_iter().map(work).collect();
+    }
     jobs.into_par_iter().with_max_len(1).map(&work).collect()
 }
 
-/// Returns the list of `f(0)`, `f(1)`, ... of this length.
+/// Entries of a list that pay for a thread, at least.
+const ENTRIES_OF_A_THREAD: usize = 1 << 12;
+
+/// Returns the list of `f(0)`, `f(1)`, ... of this length; a short list is computed in this thread.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    entries(length).map(&f).collect()
+    match length < 2 * ENTRIES_OF_A_THREAD {
+        true => (0..length).map(f).collect(),
+        false => entries(length).map(&f).collect(),
+    }
 }
 
 /// Returns the lists of the first and of the second values of `f(0)`, `f(1)`, ...
@@ -26,6 +35,7 @@ pub fn pairs<A: Send, B: Send>(
 
 /// Returns the indices of a list, in parts that pay for a thread.
 fn entries(length: usize) -> impl IndexedParallelIterator<Item = usize> {
-    let least = 1 << 12;
-    (0..length).into_par_iter().with_min_len(least)
+    (0..length)
+        .into_par_iter()
+        .with_min_len(ENTRIES_OF_A_THREAD)
 }
