@@ -1,11 +1,17 @@
 //! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
-use super::maximum::{ENOUGH_RISE, better, climb};
+use super::maximum::{Along, ENOUGH_RISE, better};
 use super::scales::Noise;
 
-/// A frequency of a noise, rad/s; none if the noise is without it.
-type Frequency = fn(&mut Noise) -> Option<&mut f64>;
+/// A frequency of a noise.
+#[derive(Clone, Copy)]
+struct Frequency {
+    /// The frequency, rad/s; none if the noise is without it.
+    of: fn(&mut Noise) -> Option<&mut f64>,
+    /// Number of integrations from white noise beyond it.
+    integrations: usize,
+}
 
 impl Linear<'_> {
     /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
@@ -15,7 +21,11 @@ impl Linear<'_> {
 
     /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
     pub fn improved(&self, first: Noise) -> Noise {
-        let best = self.along(first, |noise| Some(&mut noise.corner));
+        let corner = Frequency {
+            of: |noise| Some(&mut noise.corner),
+            integrations: self.prior.order + 2,
+        };
+        let best = self.along(first, corner);
         match best.spectrum {
             None => best,
             Some(_) => self.begun(best),
@@ -24,27 +34,38 @@ impl Linear<'_> {
 
     /// Maximises the likelihood of an evaluated noise over a frequency.
     fn along(&self, first: Noise, which: Frequency) -> Noise {
-        let Some(guess) = which(&mut first.clone()).map(|frequency| frequency.ln()) else {
+        let Frequency { of, integrations } = which;
+        let Some(guess) = of(&mut first.clone()).map(|frequency| frequency.ln()) else {
             return first;
         };
         let at = |log: f64| {
             let mut noise = first;
-            which(&mut noise)
+            of(&mut noise)
                 .into_iter()
                 .for_each(|frequency| *frequency = log.exp());
             self.evaluated(noise)
         };
-        climb(at, guess, first, self.scales.corners().map(f64::ln))
+        let along = Along {
+            at,
+            exponent: 2.0 * integrations as f64,
+            bounds: self.scales.corners().map(f64::ln),
+        };
+        let information = self.scales.information(guess.exp(), along.exponent);
+        along.maximum(guess, first, information)
     }
 
-    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn.
+    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn, until one of them
+    /// gains nothing.
     fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
+        let gains = |next: &Noise, now: &Noise| next.likelihood > now.likelihood + ENOUGH_RISE;
         loop {
-            let next = better(noise, self.improved(self.along(noise, which)));
-            // A likelihood that is not finite does not rise.
-            match next.likelihood > noise.likelihood + ENOUGH_RISE {
-                true => noise = next,
-                false => return noise,
+            let found = better(noise, self.along(noise, which));
+            if !gains(&found, &noise) {
+                return found;
+            }
+            noise = better(found, self.improved(found));
+            if !gains(&noise, &found) {
+                return noise;
             }
         }
     }
@@ -69,7 +90,11 @@ impl Linear<'_> {
             speed_corner: noise.speed_corner.max(noise.corner),
             ..noise
         };
-        let found = self.in_turn(self.evaluated(first), |noise| Some(&mut noise.speed_corner));
+        let speed_corner = Frequency {
+            of: |noise| Some(&mut noise.speed_corner),
+            integrations: 3,
+        };
+        let found = self.in_turn(self.evaluated(first), speed_corner);
         match found.likelihood < noise.likelihood + ENOUGH_RISE {
             true => noise,
             false => found,
@@ -86,6 +111,10 @@ impl Linear<'_> {
             })
         });
         let best = tried.reduce(better).unwrap_or(*from);
-        self.in_turn(best, |noise| noise.correlated.as_mut())
+        let decay = Frequency {
+            of: |noise| noise.correlated.as_mut(),
+            integrations: 1,
+        };
+        self.in_turn(best, decay)
     }
 }
