@@ -22,7 +22,7 @@ pub(super) fn ways(
     states: &[State],
     steps: &[Linearised],
     speed: f64,
-) -> impl Iterator<Item = [[f64; 2]; 4]> {
+) -> impl ExactSizeIterator<Item = [[f64; 2]; 4]> {
     let pairs = states.windows(2).zip(steps);
     pairs.map(move |(ends, step)| {
         let [a, b] = [0, 1].map(|k| [ends[k][0], ends[k][1]]);
@@ -39,39 +39,43 @@ pub(super) type AtNodes<T> = [T; 3];
 pub(super) struct Increments {
     /// Number of coefficients.
     pub count: usize,
-    /// Inner nodes and end of each step, one after the other.
+    /// The first begin, then inner nodes and end of each step, one after the other.
     values: Vec<f64>,
 }
 
 impl Increments {
     /// Of a prior along a path with these crank angles, rad, and speeds, over their unit, at begins, inner nodes and ends.
-    pub fn new(ways: impl Iterator<Item = [[f64; 2]; 4]>, prior: Prior) -> Increments {
-        let at = |[angle, speed]: [f64; 2]| -> Vec<f64> {
-            let list = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
-            match prior.follows_speed {
-                false => list.flatten().collect(),
-                true => list
-                    .flat_map(|[cos, sin]| [cos, sin, speed * cos, speed * sin])
-                    .collect(),
+    pub fn new(ways: impl ExactSizeIterator<Item = [[f64; 2]; 4]>, prior: Prior) -> Increments {
+        let count = prior.coefficients();
+        let fill = |row: &mut [f64], [angle, speed]: [f64; 2]| {
+            let pairs = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
+            for (to, [cos, sin]) in row.chunks_exact_mut(prior.of_harmonic()).zip(pairs) {
+                to.copy_from_slice(&[cos, sin, speed * cos, speed * sin][..to.len()]);
             }
         };
-        let mut values = Vec::new();
-        let mut known = None;
-        for [begin, early, late, end] in ways {
-            let begin = known.unwrap_or_else(|| at(begin));
-            let end = at(end);
-            for list in [&at(early), &at(late), &end] {
-                values.extend(list.iter().zip(&begin).map(|(now, before)| now - before));
+        let steps = ways.len();
+        let mut values = vec![0.0; (1 + 3 * steps) * count];
+        let mut rows = values.chunks_exact_mut(count);
+        for (k, way) in ways.enumerate() {
+            for (place, row) in way[usize::from(k > 0)..].iter().zip(&mut rows) {
+                fill(row, *place);
             }
-            known = Some(end);
         }
-        let count = prior.coefficients();
+        for k in (0..steps).rev() {
+            let (before, after) = values.split_at_mut((3 * k + 1) * count);
+            let begin = &before[3 * k * count..];
+            for row in after.chunks_exact_mut(count).take(3) {
+                row.iter_mut()
+                    .zip(begin)
+                    .for_each(|(now, before)| *now -= before);
+            }
+        }
         Increments { count, values }
     }
 
     /// Returns the rows of inner nodes and end of a step.
     pub fn of(&self, step: usize) -> AtNodes<&[f64]> {
-        let first = 3 * step;
+        let first = 3 * step + 1;
         std::array::from_fn(|k| &self.values[(first + k) * self.count..][..self.count])
     }
 

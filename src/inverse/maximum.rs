@@ -38,14 +38,15 @@ impl<F: Fn(f64) -> Noise> Along<F> {
     /// Maximises the likelihood from a guess, at which the Fisher information on ln of the frequency is expected to be this.
     pub fn maximum(&self, guess: f64, first: Noise, information: f64) -> Noise {
         const EVALUATIONS: usize = 12;
-        /// Largest distance of the second point from the guess.
-        const FARTHEST: f64 = 0.5;
         let [lowest, highest] = self.bounds;
         let mut points = vec![(guess, first.likelihood)];
         let (mut best, mut place) = (first, guess);
         // Steps up in the same direction, one after the other: the samples are not of this spectral density.
         let (mut steps, mut direction) = (0, 0.0);
-        let error = information.sqrt().recip().min(FARTHEST);
+        // Where the samples tell next to nothing, a point on each side shows the way.
+        let is_known = information > LEAST_INFORMATION;
+        let information = information.max(LEAST_INFORMATION);
+        let error = information.sqrt().recip();
         let mut next = match guess + error < highest {
             true => guess + error,
             false => guess - error,
@@ -65,11 +66,16 @@ impl<F: Fn(f64) -> Noise> Along<F> {
                 steps = 0;
             }
             let top = self.top(&mut points, information);
-            if top.rise < ENOUGH_RISE {
-                break;
-            }
-            let is_slow = steps > 1 && (top.place - place).signum() == direction;
-            next = if is_slow { top.beyond } else { top.place };
+            let is_outermost = [points[0].0, points[points.len() - 1].0].contains(&place);
+            next = match steps {
+                _ if points.len() == 2 && !is_known => 2.0 * guess - next,
+                // The likelihood may level off slowly.
+                1 if is_outermost && !is_known => place + direction * REACH,
+                2.. if is_outermost => place + direction * REACH,
+                _ if top.rise < ENOUGH_RISE => break,
+                2.. if (top.place - place).signum() == direction => top.beyond,
+                _ => top.place,
+            };
         }
         best
     }
@@ -97,8 +103,11 @@ impl<F: Fn(f64) -> Noise> Along<F> {
     }
 }
 
+/// Information whose standard error is the largest distance of the second point from the guess, half an e-fold.
+const LEAST_INFORMATION: f64 = 4.0;
+
 /// Largest step beyond the known points, in ln of the frequency.
-const REACH: f64 = 3.0;
+const REACH: f64 = 1.0;
 
 /// Returns the expected maximum by three sorted points, of which one is the best of all.
 pub(super) fn expected(exponent: f64, three: &[Point], best: usize) -> Top {
@@ -140,12 +149,13 @@ fn maximum(exponent: f64, [b, c]: [f64; 2], here: f64, [low, high]: [f64; 2]) ->
         (true, false) => f64::NEG_INFINITY,
         (false, _) => f64::INFINITY,
     };
-    let place = (here + off).clamp(low, high);
+    let within = |place: f64| place.max(low).min(high);
+    let place = within(here + off);
     let [linear, power] = basis(exponent, place - here);
     let rise = b * linear + c * power;
     Top {
         place,
-        beyond: (here + 2.0 * off).clamp(low, high),
+        beyond: within(here + 2.0 * off),
         // Where a likelihood is not finite, nothing is known.
         rise: if rise.is_nan() { f64::INFINITY } else { rise },
     }
@@ -182,7 +192,7 @@ mod tests {
                 let found = along.maximum(guess, at(guess), information);
                 let off = found.corner.ln() * (size * exponent * (exponent - 1.0)).sqrt();
                 assert!(off.abs() < 0.5, "{exponent} {guess}: {off}");
-                assert!(count.get() < 6, "{exponent} {guess}: {}", count.get());
+                assert!(count.get() < 8, "{exponent} {guess}: {}", count.get());
             }
         }
     }

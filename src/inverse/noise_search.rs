@@ -11,6 +11,8 @@ struct Frequency {
     of: fn(&mut Noise) -> Option<&mut f64>,
     /// Number of integrations from white noise beyond it.
     integrations: usize,
+    /// Whether the samples tell it as they tell a corner beside white noise.
+    is_corner: bool,
 }
 
 impl Linear<'_> {
@@ -24,50 +26,52 @@ impl Linear<'_> {
         let corner = Frequency {
             of: |noise| Some(&mut noise.corner),
             integrations: self.prior.order + 2,
+            is_corner: first.correlated.is_none(),
         };
-        let best = self.along(first, corner);
-        match best.spectrum {
-            None => best,
-            Some(_) => self.begun(best),
-        }
+        self.along(first, corner)
     }
 
     /// Maximises the likelihood of an evaluated noise over a frequency.
     fn along(&self, first: Noise, which: Frequency) -> Noise {
-        let Frequency { of, integrations } = which;
-        let Some(guess) = of(&mut first.clone()).map(|frequency| frequency.ln()) else {
+        let Some(guess) = (which.of)(&mut first.clone()).map(|frequency| frequency.ln()) else {
             return first;
         };
         let at = |log: f64| {
             let mut noise = first;
-            of(&mut noise)
+            (which.of)(&mut noise)
                 .into_iter()
                 .for_each(|frequency| *frequency = log.exp());
-            self.evaluated(noise)
+            self.begun(noise)
         };
         let along = Along {
             at,
-            exponent: 2.0 * integrations as f64,
+            exponent: 2.0 * which.integrations as f64,
             bounds: self.scales.corners().map(f64::ln),
         };
-        let information = self.scales.information(guess.exp(), along.exponent);
+        let information = match which.is_corner {
+            true => self.scales.information(guess.exp(), along.exponent),
+            false => 0.0,
+        };
         along.maximum(guess, first, information)
     }
 
     /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn, until one of them
-    /// gains nothing.
+    /// gains nothing after the other.
     fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
-        let gains = |next: &Noise, now: &Noise| next.likelihood > now.likelihood + ENOUGH_RISE;
-        loop {
-            let found = better(noise, self.along(noise, which));
-            if !gains(&found, &noise) {
-                return found;
-            }
-            noise = better(found, self.improved(found));
-            if !gains(&noise, &found) {
-                return noise;
+        for k in 0.. {
+            let next = match k % 2 {
+                0 => self.along(noise, which),
+                _ => self.improved(noise),
+            };
+            let next = better(noise, next);
+            // A likelihood that is not finite does not rise.
+            let gains = next.likelihood > noise.likelihood + ENOUGH_RISE;
+            noise = next;
+            if !gains && k > 0 {
+                break;
             }
         }
+        noise
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
@@ -93,6 +97,7 @@ impl Linear<'_> {
         let speed_corner = Frequency {
             of: |noise| Some(&mut noise.speed_corner),
             integrations: 3,
+            is_corner: false,
         };
         let found = self.in_turn(self.evaluated(first), speed_corner);
         match found.likelihood < noise.likelihood + ENOUGH_RISE {
@@ -114,6 +119,7 @@ impl Linear<'_> {
         let decay = Frequency {
             of: |noise| noise.correlated.as_mut(),
             integrations: 1,
+            is_corner: false,
         };
         self.in_turn(best, decay)
     }

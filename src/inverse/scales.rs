@@ -95,11 +95,12 @@ impl Scales {
     }
 
     /// Returns the Fisher information of the samples on ln of a corner frequency ω_c, rad/s, of the spectral density
-    /// 1 + (ω_c/ω)ⁿ.
+    /// 1 + (ω_c/ω)ⁿ times an unknown variance, which is all that samples tell of a corner beyond their own frequency.
     pub fn information(&self, corner: f64, exponent: f64) -> f64 {
         let angle = PI / exponent;
         let integral = (1.0 - 1.0 / exponent) * angle / angle.sin();
-        exponent * exponent * self.duration * corner / TAU * integral
+        let beyond = (1.0 - corner * self.spacing / PI).max(0.0);
+        exponent * exponent * self.duration * corner / TAU * integral * beyond
     }
 
     /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.
