@@ -44,9 +44,8 @@ impl<F: Fn(f64) -> Noise> Along<F> {
         // Steps up in the same direction, one after the other: the samples are not of this spectral density.
         let (mut steps, mut direction) = (0, 0.0);
         // Where the samples tell next to nothing, a point on each side shows the way.
-        let is_known = information > LEAST_INFORMATION;
-        let information = information.max(LEAST_INFORMATION);
-        let error = information.sqrt().recip();
+        let error = information.sqrt().recip().min(0.5 * REACH);
+        let is_known = error < 0.5 * REACH;
         let mut next = match guess + error < highest {
             true => guess + error,
             false => guess - error,
@@ -65,12 +64,12 @@ impl<F: Fn(f64) -> Noise> Along<F> {
             } else {
                 steps = 0;
             }
-            let top = self.top(&mut points, information);
+            let top = self.top(&mut points, (error * error).recip());
             let is_outermost = [points[0].0, points[points.len() - 1].0].contains(&place);
             next = match steps {
                 _ if points.len() == 2 && !is_known => 2.0 * guess - next,
                 // The likelihood may level off slowly.
-                1 if is_outermost && !is_known => place + direction * REACH,
+                1.. if is_outermost && !is_known => place + direction * REACH,
                 2.. if is_outermost => place + direction * REACH,
                 _ if top.rise < ENOUGH_RISE => break,
                 2.. if (top.place - place).signum() == direction => top.beyond,
@@ -103,10 +102,7 @@ impl<F: Fn(f64) -> Noise> Along<F> {
     }
 }
 
-/// Information whose standard error is the largest distance of the second point from the guess, half an e-fold.
-const LEAST_INFORMATION: f64 = 4.0;
-
-/// Largest step beyond the known points, in ln of the frequency.
+/// Largest step beyond the known points, in ln of the frequency; the second point lies half of it from the guess at most.
 const REACH: f64 = 1.0;
 
 /// Returns the expected maximum by three sorted points, of which one is the best of all.

@@ -235,17 +235,16 @@ impl Sweep {
         make: impl Fn(Design) -> R + Sync,
         mut take: impl FnMut(Vec<R>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        /// Target for the time of one batch, half to once this, which bounds the loss when the sweep is cut off.
-        const BATCH_TIME: Duration = Duration::from_millis(500);
-        /// Largest number of designs of a batch: more gain nothing and do not stay in the cache.
-        const BATCH_SIZE: usize = 1 << 10;
+        /// Target for the time of one batch, half to once this: long against the start of threads, and short enough for its
+        /// designs to stay in the cache.
+        const BATCH_TIME: Duration = Duration::from_millis(20);
         let (mut start, mut count) = (range.start, 16);
         while start < range.end {
             let end = range.end.min(start + count);
             let begun = Instant::now();
             let made = parallel::map(start..end, |index| make(self.design(index)));
             if begun.elapsed() < BATCH_TIME / 2 {
-                count = (2 * count).min(BATCH_SIZE);
+                count *= 2;
             } else if begun.elapsed() > BATCH_TIME {
                 count = (count / 2).max(16);
             }
