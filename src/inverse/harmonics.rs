@@ -50,7 +50,10 @@ impl Increments {
         let fill = |row: &mut [f64], [angle, speed]: [f64; 2]| {
             let pairs = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
             for (to, [cos, sin]) in row.chunks_exact_mut(prior.of_harmonic()).zip(pairs) {
-                to.copy_from_slice(&[cos, sin, speed * cos, speed * sin][..to.len()]);
+                let values = [cos, sin, speed * cos, speed * sin];
+                to.iter_mut()
+                    .zip(values)
+                    .for_each(|(to, value)| *to = value);
             }
         };
         let steps = ways.len();
