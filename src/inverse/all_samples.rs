@@ -5,7 +5,7 @@ use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linearised::Motion;
-use super::maximum::{ENOUGH_RISE, better, expected};
+use super::maximum::{ENOUGH_RISE, better, vertex};
 use super::problem::{NODES_OF_A_THREAD, Problem};
 use super::scales::{Noise, Scales};
 use super::state_space::with_dimension;
@@ -48,17 +48,10 @@ impl Problem<'_> {
                 return likeliest;
             }
             let inner = judged.windows(3).find(|w| w[1].corner == likeliest.corner);
-            if let Some(three) = inner {
-                let points: Vec<_> = three
-                    .iter()
-                    .map(|n| (n.corner.ln(), n.likelihood))
-                    .collect();
-                let exponent = 2.0 * (motion.prior.order + 2) as f64;
-                let corner = expected(exponent, &points, 1).place.exp();
-                return Noise {
-                    corner,
-                    ..likeliest
-                };
+            if let Some([a, b, c]) = inner.and_then(|w| w.first_chunk()) {
+                let point = |noise: &Noise| (noise.corner.ln(), noise.likelihood);
+                let corner = vertex(point(a), point(b), point(c)).place.exp();
+                return Noise { corner, ..*b };
             }
             // At the edge of what was tried: further out the likelihood gains nothing.
             if likeliest.likelihood < judged[1].likelihood.max(judged[3].likelihood) + ENOUGH_RISE {

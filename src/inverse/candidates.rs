@@ -118,7 +118,7 @@ impl Problem<'_> {
     }
 
     /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost (Schwarz 1978)
-    /// beside the torque as it is without.
+    /// beside the likeliest prior without.
     fn repeating(
         &self,
         turns: f64,
@@ -189,6 +189,9 @@ impl Problem<'_> {
             harmonics: 2 * prior.harmonics,
             ..prior
         }) {}
+        let without = tried.iter().map(|one| one.noise.likelihood);
+        let least = without.fold(f64::NEG_INFINITY, f64::max) + cost;
+        found.retain(|one| one.noise.likelihood > least);
         found
     }
 

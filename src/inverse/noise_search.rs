@@ -1,19 +1,11 @@
 //! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
-use super::maximum::{Along, ENOUGH_RISE, better};
+use super::maximum::{ENOUGH_RISE, better, climb};
 use super::scales::Noise;
 
-/// A frequency of a noise.
-#[derive(Clone, Copy)]
-struct Frequency {
-    /// The frequency, rad/s; none if the noise is without it.
-    of: fn(&mut Noise) -> Option<&mut f64>,
-    /// Number of integrations from white noise beyond it.
-    integrations: usize,
-    /// Whether the samples tell it as they tell a corner beside white noise.
-    is_corner: bool,
-}
+/// A frequency of a noise, rad/s; none if the noise is without it.
+type Frequency = fn(&mut Noise) -> Option<&mut f64>;
 
 impl Linear<'_> {
     /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
@@ -23,55 +15,38 @@ impl Linear<'_> {
 
     /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
     pub fn improved(&self, first: Noise) -> Noise {
-        let corner = Frequency {
-            of: |noise| Some(&mut noise.corner),
-            integrations: self.prior.order + 2,
-            is_corner: first.correlated.is_none(),
-        };
-        self.along(first, corner)
+        let best = self.along(first, |noise| Some(&mut noise.corner));
+        match best.spectrum {
+            None => best,
+            Some(_) => self.begun(best),
+        }
     }
 
     /// Maximises the likelihood of an evaluated noise over a frequency.
     fn along(&self, first: Noise, which: Frequency) -> Noise {
-        let Some(guess) = (which.of)(&mut first.clone()).map(|frequency| frequency.ln()) else {
+        let Some(guess) = which(&mut first.clone()).map(|frequency| frequency.ln()) else {
             return first;
         };
         let at = |log: f64| {
             let mut noise = first;
-            (which.of)(&mut noise)
+            which(&mut noise)
                 .into_iter()
                 .for_each(|frequency| *frequency = log.exp());
-            self.begun(noise)
+            self.evaluated(noise)
         };
-        let along = Along {
-            at,
-            exponent: 2.0 * which.integrations as f64,
-            bounds: self.scales.corners().map(f64::ln),
-        };
-        let information = match which.is_corner {
-            true => self.scales.information(guess.exp(), along.exponent),
-            false => 0.0,
-        };
-        along.maximum(guess, first, information)
+        climb(at, guess, first, self.scales.corners().map(f64::ln))
     }
 
-    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn, until one of them
-    /// gains nothing after the other.
+    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn.
     fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
-        for k in 0.. {
-            let next = match k % 2 {
-                0 => self.along(noise, which),
-                _ => self.improved(noise),
-            };
-            let next = better(noise, next);
+        loop {
+            let next = better(noise, self.improved(self.along(noise, which)));
             // A likelihood that is not finite does not rise.
-            let gains = next.likelihood > noise.likelihood + ENOUGH_RISE;
-            noise = next;
-            if !gains && k > 0 {
-                break;
+            match next.likelihood > noise.likelihood + ENOUGH_RISE {
+                true => noise = next,
+                false => return noise,
             }
         }
-        noise
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
@@ -94,12 +69,7 @@ impl Linear<'_> {
             speed_corner: noise.speed_corner.max(noise.corner),
             ..noise
         };
-        let speed_corner = Frequency {
-            of: |noise| Some(&mut noise.speed_corner),
-            integrations: 3,
-            is_corner: false,
-        };
-        let found = self.in_turn(self.evaluated(first), speed_corner);
+        let found = self.in_turn(self.evaluated(first), |noise| Some(&mut noise.speed_corner));
         match found.likelihood < noise.likelihood + ENOUGH_RISE {
             true => noise,
             false => found,
@@ -116,11 +86,6 @@ impl Linear<'_> {
             })
         });
         let best = tried.reduce(better).unwrap_or(*from);
-        let decay = Frequency {
-            of: |noise| noise.correlated.as_mut(),
-            integrations: 1,
-            is_corner: false,
-        };
-        self.in_turn(best, decay)
+        self.in_turn(best, |noise| noise.correlated.as_mut())
     }
 }

@@ -1,7 +1,5 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use std::f64::consts::{PI, TAU};
-
 use super::prior::State;
 use super::regression::Spectrum;
 
@@ -92,15 +90,6 @@ impl Scales {
     /// Returns first decay rates of a correlation, 1/s: over 0.2, 1 and 5 samples.
     pub fn decays(&self) -> [f64; 3] {
         [0.2, 1.0, 5.0].map(|steps| 1.0 / (steps * self.spacing))
-    }
-
-    /// Returns the Fisher information of the samples on ln of a corner frequency ω_c, rad/s, of the spectral density
-    /// 1 + (ω_c/ω)ⁿ times an unknown variance, which is all that samples tell of a corner beyond their own frequency.
-    pub fn information(&self, corner: f64, exponent: f64) -> f64 {
-        let angle = PI / exponent;
-        let integral = (1.0 - 1.0 / exponent) * angle / angle.sin();
-        let beyond = (1.0 - corner * self.spacing / PI).max(0.0);
-        exponent * exponent * self.duration * corner / TAU * integral * beyond
     }
 
     /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.

@@ -14,14 +14,11 @@ pub fn map<J: Send, R: Send>(
     jobs.into_par_iter().with_max_len(1).map(&work).collect()
 }
 
-/// Entries of a list that pay for a thread, at least.
-const ENTRIES_OF_A_THREAD: usize = 1 << 12;
-
 /// Returns the list of `f(0)`, `f(1)`, ... of this length; a short list is computed in this thread.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    match length < 2 * ENTRIES_OF_A_THREAD {
-        true => (0..length).map(f).collect(),
-        false => entries(length).map(&f).collect(),
+    match entries(length) {
+        Some(entries) => entries.map(&f).collect(),
+        None => (0..length).map(f).collect(),
     }
 }
 
@@ -30,12 +27,15 @@ pub fn pairs<A: Send, B: Send>(
     length: usize,
     f: impl Fn(usize) -> (A, B) + Sync,
 ) -> (Vec<A>, Vec<B>) {
-    entries(length).map(&f).unzip()
+    match entries(length) {
+        Some(entries) => entries.map(&f).unzip(),
+        None => (0..length).map(f).unzip(),
+    }
 }
 
-/// Returns the indices of a list, in parts that pay for a thread.
-fn entries(length: usize) -> impl IndexedParallelIterator<Item = usize> {
-    (0..length)
-        .into_par_iter()
-        .with_min_len(ENTRIES_OF_A_THREAD)
+/// Returns the indices of a list, in parts that pay for a thread; none if there are not two of them.
+fn entries(length: usize) -> Option<impl IndexedParallelIterator<Item = usize>> {
+    let least = 1 << 12;
+    let all = (0..length).into_par_iter().with_min_len(least);
+    (length >= 2 * least).then_some(all)
 }
