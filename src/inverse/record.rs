@@ -9,6 +9,7 @@ use super::quantised::{Codes, Interval};
 use super::residual_tests;
 use super::state_space::Observed;
 use crate::mechanism::Linkage;
+use crate::numeric::ROUNDING_DEVIATION;
 use crate::scene::Measured;
 
 /// Least noise of an instrument, rad: none resolves the root of double rounding.
@@ -122,10 +123,12 @@ impl Record<'_> {
         INSTRUMENT_NOISE * self.sensor.size()
     }
 
-    /// True if the samples were computed: their noise is below that of any instrument.
+    /// True if the samples were computed: their noise, that of their codes included, is below that of any instrument.
     pub fn is_computed(&self) -> bool {
         let noise = residual_tests::noise(&self.times, &self.values).max(self.floor);
-        self.codes.is_none() && noise < self.instrument_noise()
+        let widths = self.intervals.iter().map(|interval| interval.width);
+        let of_codes = ROUNDING_DEVIATION * widths.fold(0.0, f64::max);
+        self.codes.is_none() && noise.max(of_codes) < self.instrument_noise()
     }
 
     /// Returns the crank angle of a path at a sample of a node, rad.

@@ -871,6 +871,35 @@ fn an_encoder_off_its_centre_is_named_where_a_torque_repeats() {
     }
 }
 
+/// An encoder whose crank passes several steps from sample to sample: its codes give the force at least as well as samples
+/// with noise of a step's standard deviation, and the band covers.
+#[test]
+fn codes_of_a_fast_crank_tell_no_less_than_noise_of_their_size() {
+    let machine = Motion {
+        name: "machine",
+        start: [0.3, 85.0],
+        end: 6.0,
+        rows: 3000,
+        torque: |_, theta, omega| 0.05 * (85.0 - omega) + 1.8 * (2.0 * theta).sin(),
+    };
+    const STEPS: f64 = 256.0;
+    for motion in [&machine, &ENGINE] {
+        let truth = motion.run();
+        let judged = |sensor| {
+            let record = measure(&truth, sensor, &mut Random(0x1204_2b99_77aa_1c0d));
+            judge(&truth, &record, &found(motion, &record, 1.0))
+        };
+        let [error, covered] = judged(Sensor::Encoder(STEPS));
+        let [of_noise, _] = judged(Sensor::Angle(TAU / STEPS / 12f64.sqrt()));
+        assert!(covered > 0.85, "{}: covered {covered}", motion.name);
+        assert!(
+            error < 1.3 * of_noise,
+            "{}: {error} N, with noise {of_noise} N",
+            motion.name
+        );
+    }
+}
+
 /// Motions within a turn that are no polynomials: where one of them is chosen, the band holds though its degree was chosen, too.
 #[test]
 fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
