@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
 use super::row::Residual;
-use super::samples::{self, kinematic};
+use super::samples;
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
 use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
@@ -15,7 +15,6 @@ use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::median::range;
 use crate::numeric::parallel;
-use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement};
 
 /// Estimated motion, with residuals and figures of the fit.
@@ -42,8 +41,6 @@ pub(super) struct Fitted {
     pub coded: Option<f64>,
     /// θ, ω, θ̈ at each sample under each of the errors that all samples share.
     pub moved: Vec<Vec<[f64; 3]>>,
-    /// Number of parameters of the noise.
-    pub of_noise: f64,
     /// Lower bound of the standard deviation of a sample, rad or m.
     pub floor: f64,
 }
@@ -78,7 +75,7 @@ impl Fitted {
             (FitKind::Polynomial, _) | (FitKind::Auto, Some(_)) => {
                 let (fitted, fit) = polynomial("it was asked for")?;
                 return Ok(match degree {
-                    None => fitted.averaged(&fit, &record, None),
+                    None => fitted.averaged(&fit, &record),
                     Some(_) => fitted,
                 });
             }
@@ -100,44 +97,23 @@ impl Fitted {
         if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
         }
-        let smoothed = Fitted::smoothed(
-            measurement,
-            angles,
-            equation,
-            sources,
-            suspected,
-            options.stop.as_ref(),
-        );
-        Ok(match simple {
-            Some((polynomial, fit))
-                if smoothed.summary.outliers == 0
-                    && smoothed.coded.is_none()
-                    && polynomial.is_preferred_to(&smoothed) =>
-            {
-                polynomial.averaged(&fit, &record, Some(&smoothed))
-            }
-            _ => smoothed,
-        })
-    }
-
-    fn smoothed(
-        measurement: &Measurement,
-        angles: &CrankAngles<'_>,
-        equation: &Equation,
-        sources: &[Source],
-        suspected: bool,
-        stop: Option<&Stop>,
-    ) -> Fitted {
-        let (mut problem, kinematic) = kinematic(measurement, angles, equation, stop);
+        let (mut problem, kinematic) =
+            samples::kinematic(measurement, angles, equation, options.stop.as_ref());
         let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
+        if let Some((polynomial, fit)) = simple {
+            let degree = polynomial.summary.degree;
+            if problem.prefers_polynomial(degree, &kinematic, &smoothed) {
+                return Ok(polynomial.averaged(&fit, &record));
+            }
+        }
         // Frees the memory of a long record.
         drop(kinematic);
-        Fitted {
+        Ok(Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
             ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
-        }
+        })
     }
 
     fn of_smoother(
@@ -178,9 +154,6 @@ impl Fitted {
         fitted.patterned =
             whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
         fitted.converged = smoothed.converged;
-        // σ and the intensity of the process noise; begin, end and factor of each stretch; decay of the correlation.
-        let correlated = f64::from(u8::from(smoothed.noise.correlated.is_some()));
-        fitted.of_noise = 2.0 + 3.0 * problem.intensities.0.len() as f64 + correlated;
         fitted.cycle = prior.cycle;
         fitted.told = (smoothed.repeating.as_ref())
             .map_or(0.0, |torque| torque.told as f64 / f64::from(prior.cycle));
@@ -283,7 +256,6 @@ impl Fitted {
             motion,
             residuals,
             summary,
-            of_noise: 1.0,
             floor: record.floor,
             ..Fitted::default()
         }

@@ -25,12 +25,6 @@ impl MotionEstimate {
         self.error(&[1.0, 0.0, 0.0], 0.0)
     }
 
-    /// Returns the mean squares of the deviations from another motion: the covariance with the squares of the difference.
-    pub fn about(&self, other: &[f64; 3]) -> [f64; 6] {
-        let off: [f64; 3] = std::array::from_fn(|k| self.value[k] - other[k]);
-        self.widened(off).covariance
-    }
-
     /// Returns the motion with the error of a time scale whose relative standard error is `part`.
     pub fn stretched(self, part: f64) -> MotionEstimate {
         let [_, first, second] = self.value;

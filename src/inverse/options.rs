@@ -5,7 +5,7 @@ use crate::numeric::stop::Stop;
 named! {
     /// Method of motion estimation.
     pub enum FitKind {
-        /// Polynomial within one turn where it leaves only noise and has the lower AICc, else the smoother.
+        /// Polynomial within one turn where it leaves only noise and is the likelier motion, else the smoother.
         Auto = "auto",
         /// A polynomial of the crank angle over time.
         Polynomial = "polynomial",

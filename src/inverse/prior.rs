@@ -104,6 +104,9 @@ impl Prior {
 /// The prior without mechanics: a smoothing spline of degree seven in state-space form.
 pub(super) const KINEMATIC: Prior = Prior::new(Unknown::Acceleration, 2);
 
+/// The priors without mechanics, which are polynomials of degree order + 1 without process noise.
+pub(super) const WITHOUT_MECHANICS: &[Prior] = &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)];
+
 /// A torque as a Wiener process.
 pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
 
@@ -121,5 +124,5 @@ pub(super) const LADDERS: [&[Prior]; 4] = [
     &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
     &[TORQUE, Prior::new(Unknown::Torque, 2), SMOOTH],
     &[FOLLOWING],
-    &[KINEMATIC, Prior::new(Unknown::Acceleration, 3)],
+    WITHOUT_MECHANICS,
 ];

@@ -1,16 +1,18 @@
-//! Choice between polynomial and smoother, and the uncertainty that the choice adds (Burnham and Anderson, Model
-//! Selection and Multimodel Inference, 2nd ed. 2002, chapter 4): the degree and the kind are estimated, too, and a term
-//! that is left out for its size may be as large as its error.
+//! Choice between polynomial and smoother, and the uncertainty that the choice of a degree adds (Burnham and Anderson,
+//! Model Selection and Multimodel Inference, 2nd ed. 2002, chapter 4): a term that is left out for its size may be as
+//! large as its error.
 
 use super::fitted::Fitted;
+use super::prior::WITHOUT_MECHANICS;
+use super::problem::Problem;
 use super::record::Record;
+use super::smoother::Smoothed;
 use crate::numeric::parallel;
 use crate::numeric::polynomial_fit::PolynomialFit;
 
 /// Akaike's criterion AICc for few samples (Hurvich and Tsai, Biometrika 76 (1989) 297) by the root mean square of the
-/// residuals and the number of parameters with those of the noise; of a smoother by its effective parameters (Hurvich,
-/// Simonoff and Tsai, J. R. Statist. Soc. B 60 (1998) 271).
-pub(super) fn criterion(samples: usize, spread: f64, parameters: f64) -> f64 {
+/// residuals and the number of parameters with that of the noise.
+fn criterion(samples: usize, spread: f64, parameters: f64) -> f64 {
     let n = samples as f64;
     2.0 * n * spread.max(f64::MIN_POSITIVE).ln()
         + 2.0 * parameters * n / (n - parameters - 1.0).max(1.0)
@@ -36,44 +38,36 @@ fn akaike(criteria: Vec<f64>) -> Vec<f64> {
     weights.iter().map(|weight| weight / sum).collect()
 }
 
+impl Problem<'_> {
+    /// True if the samples make a polynomial likelier than a smoothed motion: it is the prior without mechanics of its degree
+    /// that does without process noise, one parameter less (Schwarz, Ann. Statist. 6 (1978) 461). False for a degree above
+    /// those of the priors.
+    pub fn prefers_polynomial(
+        &self,
+        degree: usize,
+        kinematic: &Smoothed,
+        smoothed: &Smoothed,
+    ) -> bool {
+        let mut priors = WITHOUT_MECHANICS.iter();
+        let Some(prior) = priors.find(|prior| prior.order + 1 >= degree) else {
+            return false;
+        };
+        let cost = 0.5 * (self.record.times.len() as f64).ln();
+        let likelihood = self.about(*prior, kinematic).without_process_noise();
+        let are_plain = self.record.codes.is_none() && self.record.outliers().next().is_none();
+        are_plain && likelihood + cost > smoothed.noise.likelihood
+    }
+}
+
 impl Fitted {
-    /// Returns the criterion of the fit.
-    fn information(&self) -> f64 {
-        let parameters = self.summary.parameters + self.of_noise;
-        let spread = self.summary.rms.max(self.floor);
-        criterion(self.residuals.len(), spread, parameters)
-    }
-
-    /// True if a polynomial has the lower criterion.
-    pub fn is_preferred_to(&self, smoothed: &Fitted) -> bool {
-        self.information() <= smoothed.information()
-    }
-
-    /// Returns a polynomial of a chosen degree with the covariance over all degrees, and over a smoothed motion if it was
-    /// compared with one, by Akaike weights.
-    pub fn averaged(
-        mut self,
-        fit: &PolynomialFit,
-        record: &Record<'_>,
-        smoothed: Option<&Fitted>,
-    ) -> Fitted {
+    /// Returns a polynomial of a chosen degree with the covariance over all degrees, by Akaike weights.
+    pub fn averaged(mut self, fit: &PolynomialFit, record: &Record<'_>) -> Fitted {
         let samples = self.residuals.len();
         let of_degree = |(degree, spread): (usize, f64)| {
             criterion(samples, spread.max(self.floor), degree as f64 + 2.0)
         };
-        let degrees = fit.residuals().enumerate().map(of_degree);
-        let mut weights = akaike(degrees.chain(smoothed.map(Fitted::information)).collect());
-        let of_smoothed = smoothed.and_then(|_| weights.pop()).unwrap_or(0.0);
-        let covariances = parallel::list(samples, |i| {
-            let mut covariance = fit.averaged(record.times[i], &weights);
-            if let Some(smoothed) = smoothed {
-                let other = smoothed.motion[i].about(&self.motion[i].value);
-                for (sum, other) in covariance.iter_mut().zip(other) {
-                    *sum += of_smoothed * other;
-                }
-            }
-            covariance
-        });
+        let weights = akaike(fit.residuals().enumerate().map(of_degree).collect());
+        let covariances = parallel::list(samples, |i| fit.averaged(record.times[i], &weights));
         for (state, covariance) in self.motion.iter_mut().zip(covariances) {
             state.covariance = covariance;
         }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use slider_crank::inverse::{Inverse, InverseOptions, inverse};
+use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
 use slider_crank::scene::{Measurement, Reading, Scene};
 
 fn hard(name: &str) -> PathBuf {
@@ -41,9 +41,13 @@ fn force([theta, omega, alpha]: [f64; 3]) -> f64 {
     inertia * alpha / dx + mass * (dx * alpha + d2x * omega * omega)
 }
 
-fn inverted(measurement: &Measurement) -> Inverse {
+fn inverted(measurement: &Measurement, fit: FitKind) -> Inverse {
     let scene = Scene::load(hard("12-polynomial.toml")).expect("a scene");
-    inverse(&scene, measurement, &InverseOptions::default()).expect("an inversion")
+    let options = InverseOptions {
+        fit,
+        ..InverseOptions::default()
+    };
+    inverse(&scene, measurement, &options).expect("an inversion")
 }
 
 /// Returns the errors of the slider force of all rows that have one, in standard errors.
@@ -56,17 +60,20 @@ fn errors(found: &Inverse) -> Vec<f64> {
 #[test]
 fn a_polynomial_on_ill_scaled_time_gives_its_force() {
     let motion = Measurement::load(hard("12-polynomial.csv"), &Reading::default());
-    let found = inverted(&motion.expect("samples"));
-    assert!(found.summary.fit.degree >= 10);
-    assert!((found.summary.fit.sigma / 1e-4 - 1.0).abs() < 0.15);
-    let notes = &found.summary.warnings;
-    assert!(notes.iter().any(|note| note.contains("1 gap")), "{notes:?}");
-    let errors = errors(&found);
-    assert!(errors.len() > 210);
-    let squares: f64 = errors.iter().map(|e| e * e).sum();
-    let usual = (squares / errors.len() as f64).sqrt();
-    assert!((0.2..1.8).contains(&usual), "{usual}");
-    assert!(errors.iter().all(|e| e.abs() < 4.5), "{errors:?}");
+    let motion = motion.expect("samples");
+    for fit in [FitKind::Polynomial, FitKind::Auto] {
+        let found = inverted(&motion, fit);
+        assert!(fit == FitKind::Auto || found.summary.fit.degree >= 10);
+        assert!((found.summary.fit.sigma / 1e-4 - 1.0).abs() < 0.15);
+        let notes = &found.summary.warnings;
+        assert!(notes.iter().any(|note| note.contains("1 gap")), "{notes:?}");
+        let errors = errors(&found);
+        assert!(errors.len() > 210);
+        let squares: f64 = errors.iter().map(|e| e * e).sum();
+        let usual = (squares / errors.len() as f64).sqrt();
+        assert!((0.2..1.8).contains(&usual), "{fit}: {usual}");
+        assert!(errors.iter().all(|e| e.abs() < 4.5), "{fit}: {errors:?}");
+    }
 }
 
 #[test]
@@ -76,7 +83,7 @@ fn without_noise_the_rounding_of_time_is_all_that_is_lost() {
         .collect();
     let angles = times.iter().map(|t| motion(*t)[0]).collect();
     let samples = Measurement::new(slider_crank::scene::Measured::Theta, times, angles);
-    let found = inverted(&samples.expect("samples"));
+    let found = inverted(&samples.expect("samples"), FitKind::Auto);
     for row in &found.rows {
         let [theta, omega, alpha] = motion(row.t);
         assert!((row.theta - theta).abs() < 1e-14);

@@ -268,13 +268,17 @@ fn plain(truth: &Truth, record: &Record, sound: &[bool]) -> f64 {
 }
 
 fn found(motion: &Motion, record: &Record, stretch: f64) -> Inverse {
+    found_by(FitKind::Auto, motion, record, stretch)
+}
+
+fn found_by(fit: FitKind, motion: &Motion, record: &Record, stretch: f64) -> Inverse {
     let samples = Measurement::new(record.measured, record.t.clone(), record.values.clone());
-    inverse(
-        &scene(motion, stretch),
-        &samples.expect("samples"),
-        &InverseOptions::default(),
-    )
-    .expect("an inversion")
+    let options = InverseOptions {
+        fit,
+        ..InverseOptions::default()
+    };
+    let samples = samples.expect("samples");
+    inverse(&scene(motion, stretch), &samples, &options).expect("an inversion")
 }
 
 #[test]
@@ -900,7 +904,8 @@ fn codes_of_a_fast_crank_tell_no_less_than_noise_of_their_size() {
     }
 }
 
-/// Motions within a turn that are no polynomials: where one of them is chosen, the band holds though its degree was chosen, too.
+/// Motions within a turn that are no polynomials: where one of them is chosen, the band holds though its degree was chosen, too,
+/// and the force is about as good as that of the smoother.
 #[test]
 fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
     let of = |name, start, torque| Motion {
@@ -915,13 +920,13 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
         of("brake", [0.6, 30.0], |_, _, omega| -0.3 * omega),
         of("swing", [0.8, 0.0], |_, theta, _| 8.0 * (2.0 - theta)),
     ];
-    let (mut polynomials, mut records, mut covered) = (0, 0, 0.0);
+    let (mut polynomials, mut records, mut covered, mut logs) = (0, 0, 0.0, 0.0);
     for motion in &motions {
         let truth = motion.run();
         for (k, noise) in [1e-4, 3e-4, 1e-3, 3e-3, 1e-2]
             .iter()
             .cycle()
-            .take(20)
+            .take(30)
             .enumerate()
         {
             let mut random = Random((k as u64 + 1) * 7919);
@@ -931,10 +936,12 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
             };
             let record = measure(&truth, sensor, &mut random);
             let found = found(motion, &record, 1.0);
-            let [_, part] = judge(&truth, &record, &found);
+            let [error, part] = judge(&truth, &record, &found);
             if found.summary.fit.kind == "polynomial" {
                 polynomials += 1;
                 covered += part;
+                let smoothed = found_by(FitKind::Smoother, motion, &record, 1.0);
+                logs += (error / judge(&truth, &record, &smoothed)[0]).ln();
             }
             records += 1;
         }
@@ -942,6 +949,8 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
     let covered = covered / f64::from(polynomials);
     assert!(polynomials >= 10, "{polynomials} of {records}");
     assert!(covered > 0.92, "{covered}");
+    let ratio = (logs / f64::from(polynomials)).exp();
+    assert!(ratio < 1.2, "{ratio} of the error of the smoother");
 }
 
 /// Noise of correlation 0.9 on Duarte's motion, a polynomial of degree 4 within a turn: the smoother could follow it with
