@@ -108,6 +108,7 @@ impl Fitted {
         }
         // Frees the memory of a long record.
         drop(kinematic);
+        let smoothed = problem.averaged(smoothed);
         Ok(Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)

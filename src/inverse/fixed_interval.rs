@@ -164,7 +164,7 @@ mod tests {
 
     use super::*;
     use crate::inverse::linearised::Linearised;
-    use crate::inverse::prior::{Prior, Unknown};
+    use crate::inverse::prior::{FOLLOWING, Prior, Unknown};
     use crate::inverse::state_space::{Observed, Stretch};
     use crate::inverse::transition::exponential;
 
@@ -268,6 +268,33 @@ mod tests {
                 let at = 3 * node + i;
                 agrees(found, i, mean[at], covariance[(at, at)].sqrt(), 1e-5);
             }
+        }
+    }
+
+    /// Later samples narrow a diffuse state: here five numbers after few samples of correlated noise.
+    struct Narrowing;
+    impl Companion<5> for Narrowing {
+        fn returned(&mut self, node: usize, visit: &Visit<5>) {
+            let [before, after] = [&visit.predicted, &visit.smoothed].map(|g| &g.covariance);
+            assert!((0..5).all(|k| after[k][k] < 1.01 * before[k][k]), "{node}");
+        }
+    }
+
+    #[test]
+    fn later_samples_narrow_a_diffuse_state() {
+        let mut stretch = stretch(400);
+        for step in &mut stretch.steps {
+            (step.h, step.tilt, step.lever) = (1e-3, 90.0, 40.0);
+            step.top = exponential(step.h, 200.0, -3.0, step.lever);
+        }
+        for log in -40..40 {
+            let model = Deviations {
+                prior: FOLLOWING,
+                correlated: Some(100.0),
+                spread: [1e3, 1e6, 2e7, 2e6, 0.0],
+                ..model(&stretch, (0.5 * f64::from(log)).exp())
+            };
+            smooth(&model, &mut Narrowing);
         }
     }
 }

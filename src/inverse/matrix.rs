@@ -72,7 +72,8 @@ pub(super) fn transposed<const N: usize>(a: &Matrix<N>) -> Matrix<N> {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }
 
-/// Returns the Cholesky factor L of P = L Lᵀ, with the rounding of P's diagonal added.
+/// Returns the Cholesky factor L of P = L Lᵀ, with the rounding of P's diagonal added; a number that is known has a column of
+/// zeros.
 #[inline(always)]
 fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
     let mut root = [[0.0; N]; N];
@@ -82,30 +83,44 @@ fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
         for k in 0..j {
             pivot -= root[j][k] * root[j][k];
         }
-        root[j][j] = if pivot <= 0.0 { rounding } else { pivot }.sqrt();
-        let per = 1.0 / root[j][j];
-        for i in j + 1..N {
-            let mut left = p[i][j];
-            for k in 0..j {
-                left -= root[i][k] * root[j][k];
+        let size = pivot.max(rounding);
+        if size > 0.0 {
+            root[j][j] = size.sqrt();
+            let per = 1.0 / root[j][j];
+            for i in j + 1..N {
+                let mut left = p[i][j];
+                for k in 0..j {
+                    left -= root[i][k] * root[j][k];
+                }
+                root[i][j] = left * per;
             }
-            root[i][j] = left * per;
         }
     }
     root
 }
 
-/// Returns the covariance (P⁻¹ + Y)⁻¹ of a state with the covariance P by more information Y: L (I + LᵀYL)⁻¹ Lᵀ for P = L Lᵀ,
-/// without a difference of large numbers.
+/// Returns the covariance (P⁻¹ + Y)⁻¹ of a state with the covariance P by more information Y: L (I + BᵀB)⁻¹ Lᵀ with B = RᵀL for
+/// P = L Lᵀ and Y = R Rᵀ. Givens rotations add the rows of B to I: the square of a diffuse B would leave no digits.
 #[inline(always)]
 pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -> Matrix<N> {
     let mut part = transposed(&roots(p));
-    let told = roots(&congruent(&part, information, &diagonal([1.0; N])));
+    let rows = transposed(&product(&part, &roots(information)));
+    let mut told = diagonal([1.0; N]);
+    for mut row in rows {
+        for j in 0..N {
+            let size = (told[j][j] * told[j][j] + row[j] * row[j]).sqrt();
+            let (cos, sin) = (told[j][j] / size, row[j] / size);
+            for k in j..N {
+                let (a, b) = (told[j][k], row[k]);
+                (told[j][k], row[k]) = (cos * a + sin * b, cos * b - sin * a);
+            }
+        }
+    }
     for i in 0..N {
         let per = 1.0 / told[i][i];
         for j in 0..N {
             for k in 0..i {
-                part[i][j] -= told[i][k] * part[k][j];
+                part[i][j] -= told[k][i] * part[k][j];
             }
             part[i][j] *= per;
         }

@@ -7,6 +7,9 @@ pub(super) fn better(a: Noise, b: Noise) -> Noise {
     if b.likelihood > a.likelihood { b } else { a }
 }
 
+/// First step of a search over ln of a frequency.
+pub(super) const FIRST_STEP: f64 = 0.5;
+
 /// Maximises the likelihood near a guess: uphill in growing steps, then parabolas through the three best points.
 pub(super) fn climb(
     at: impl Fn(f64) -> Noise,
@@ -14,10 +17,9 @@ pub(super) fn climb(
     first: Noise,
     [lowest, highest]: [f64; 2],
 ) -> Noise {
-    const FIRST: f64 = 0.5;
     let mut points = vec![(guess, first)];
     for direction in [1.0, -1.0] {
-        let mut step = FIRST;
+        let mut step = FIRST_STEP;
         let (mut here, mut before) = (guess, first.likelihood);
         loop {
             let next = (here + direction * step).clamp(lowest, highest);

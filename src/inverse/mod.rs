@@ -30,6 +30,7 @@
 mod alignment;
 mod all_samples;
 mod as_printed;
+mod averaging;
 mod bands;
 mod branch_choice;
 mod branch_tracking;
