@@ -10,6 +10,7 @@ use super::fixed_interval::{self, Visit};
 use super::kalman::{Companion, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
+use super::outliers;
 use super::prior::SMOOTH;
 use super::problem::Problem;
 use super::scales::{Intensities, Span};
@@ -141,6 +142,9 @@ impl Problem<'_> {
         suspected: bool,
     ) -> Smoothed {
         let mut best = self.likeliest_of_all(kinematic, suspected);
+        if self.judges_again(&best) {
+            best = self.likeliest_of_all(kinematic, suspected);
+        }
         // Periodic priors, smooth torques, noise below that of instruments and long records represented by stretches have no
         // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
         while best.prior.cycle == 0
@@ -165,6 +169,20 @@ impl Problem<'_> {
             break;
         }
         best
+    }
+
+    /// Weighs the samples by a motion through the equation, which follows fewer of them than one without mechanics; true if
+    /// that changes weights.
+    fn judges_again(&mut self, best: &Smoothed) -> bool {
+        if self.record.codes.is_some() || self.sampled() != self.all() {
+            return false;
+        }
+        let judged = outliers::judge(self, best, 0.0);
+        let judged = judged.filter(|judged| judged.few);
+        judged.is_some_and(|judged| {
+            let before = std::mem::replace(&mut self.record.weights, judged.weights);
+            !outliers::alike(&before, &self.record.weights)
+        })
     }
 
     fn likeliest_of_all(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {

@@ -984,6 +984,52 @@ fn bands_of_short_records_cover_what_the_noise_hides() {
     assert!(covered / records > 0.92, "{}\n{report}", covered / records);
 }
 
+/// A loss alone: no torque that repeats is made of it, for that must gain what its two parameters cost.
+#[test]
+fn a_loss_alone_repeats_nothing() {
+    let coast = Motion {
+        name: "coast",
+        start: [0.3, 30.0],
+        end: 4.0,
+        rows: 1000,
+        torque: |_, _, omega| -(0.05 + 0.002 * omega),
+    };
+    let truth = coast.run();
+    for noise in [1e-5, 1e-4, 1e-3] {
+        for seed in 1..=4 {
+            let found = of_angles(&coast, &truth, noise, seed);
+            let prior = &found.summary.fit.prior;
+            assert!(!prior.contains("repeats"), "{noise}, seed {seed}: {prior}");
+        }
+    }
+}
+
+/// An outlier next to the end of a record with few samples in a turn: a motion without mechanics follows it, the equation
+/// does not, and no pulse of the torque is made of it.
+#[test]
+fn an_outlier_next_to_the_end_is_no_pulse() {
+    let slowing = Motion {
+        name: "slowing",
+        start: [3.3, 9.0],
+        end: 4.0,
+        rows: 36,
+        torque: |_, _, omega| -0.01 - 0.001 * omega * omega,
+    };
+    let truth = slowing.run();
+    for seed in 1..=20 {
+        let mut record = measure(&truth, Sensor::Angle(6e-4), &mut Random(seed * 7919));
+        let last = record.values.len() - 1;
+        record.values[last - 1] += 0.2;
+        record.values[last / 3] -= 0.2;
+        let found = found(&slowing, &record, 1.0);
+        let pairs = found.rows.iter().zip(&truth.torque);
+        let off = pairs.map(|(row, torque)| (row.crank_torque.expect("a torque") - torque).abs());
+        let far = off.fold(0.0, f64::max);
+        assert!(far < 0.05, "seed {seed}: {far} N m");
+        assert!(found.summary.fit.outliers > 0, "seed {seed}");
+    }
+}
+
 /// Noise of correlation 0.9 on Duarte's motion, a polynomial of degree 4 within a turn: the smoother could follow it with
 /// prediction errors that are white, yet correlated noise is likelier.
 #[test]
