@@ -8,6 +8,7 @@ use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
 use super::smoother::Smoothed;
+use crate::numeric::parallel;
 
 /// ln of the odds to the most probable intensity below which another one does not count.
 const LEAST_LOG_ODDS: f64 = -6.0;
@@ -30,19 +31,22 @@ impl Problem<'_> {
             return smoothed;
         }
         let motion = self.motion(smoothed.prior);
-        let mut covariances = vec![[0.0; 6]; smoothed.estimates.len()];
-        for Weighed { noise, log } in &weighed {
+        let squares = parallel::map(weighed.iter(), |one| {
             let mut path = smoothed.path();
-            let found = self.smoothed(&motion, &mut path, smoothed.scales, noise);
+            let found = self.smoothed(&motion, &mut path, smoothed.scales, &one.noise);
             let pairs = found.iter().zip(&smoothed.estimates);
-            for (sum, (found, likeliest)) in covariances.iter_mut().zip(pairs) {
-                let squares = found.about(likeliest);
-                (0..6).for_each(|entry| sum[entry] += log.exp() * squares[entry]);
-            }
-        }
+            pairs
+                .map(|(found, likeliest)| found.about(likeliest))
+                .collect::<Vec<_>>()
+        });
         let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
-        for (estimate, sum) in smoothed.estimates.iter_mut().zip(covariances) {
-            estimate.covariance = sum.map(|entry| entry / total);
+        for (node, estimate) in smoothed.estimates.iter_mut().enumerate() {
+            estimate.covariance = [0.0; 6];
+            for (one, squares) in weighed.iter().zip(&squares) {
+                let weight = one.log.exp() / total;
+                let pairs = estimate.covariance.iter_mut().zip(squares[node]);
+                pairs.for_each(|(sum, square)| *sum += weight * square);
+            }
         }
         smoothed
     }
