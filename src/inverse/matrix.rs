@@ -100,21 +100,28 @@ fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
 }
 
 /// Returns the covariance (P⁻¹ + Y)⁻¹ of a state with the covariance P by more information Y: L (I + BᵀB)⁻¹ Lᵀ with B = RᵀL for
-/// P = L Lᵀ and Y = R Rᵀ. Givens rotations add the rows of B to I: the square of a diffuse B would leave no digits.
+/// P = L Lᵀ and Y = R Rᵀ. Householder reflections bring I above B to triangular form: the square of a diffuse B would leave
+/// no digits.
 #[inline(always)]
 pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -> Matrix<N> {
     let mut part = transposed(&roots(p));
-    let rows = transposed(&product(&part, &roots(information)));
+    // Columns of B.
+    let mut rest = product(&part, &roots(information));
     let mut told = diagonal([1.0; N]);
-    for mut row in rows {
-        for j in 0..N {
-            let size = (told[j][j] * told[j][j] + row[j] * row[j]).sqrt();
-            let (cos, sin) = (told[j][j] / size, row[j] / size);
-            for k in j..N {
-                let (a, b) = (told[j][k], row[k]);
-                (told[j][k], row[k]) = (cos * a + sin * b, cos * b - sin * a);
+    for j in 0..N {
+        let column = rest[j];
+        let square = dot(&column, &column);
+        let size = (told[j][j] * told[j][j] + square).sqrt();
+        let head = told[j][j] + size;
+        let per = 2.0 / (head * head + square);
+        for k in j + 1..N {
+            let share = per * (head * told[j][k] + dot(&column, &rest[k]));
+            told[j][k] -= share * head;
+            for i in 0..N {
+                rest[k][i] -= share * column[i];
             }
         }
+        told[j][j] = -size;
     }
     for i in 0..N {
         let per = 1.0 / told[i][i];
