@@ -56,11 +56,10 @@ impl About {
         }
     }
 
-    /// Returns ln of the likelihood of the prior without process noise: at the least corner frequency.
+    /// Returns ln of the likelihood of the prior without process noise.
     pub fn without_process_noise(&self) -> f64 {
-        let [least, _] = self.scales.corners();
-        let found = self.linear(self.prior).evaluated(Noise::white(least));
-        found.likelihood
+        let none = Noise::white(0.0);
+        self.linear(self.prior).evaluated(none).likelihood
     }
 
     /// A prior with its likeliest noise, from a first one; none where this is less likely than `least`.

@@ -6,7 +6,7 @@ use super::estimate::Estimate;
 use super::grid::Path;
 use super::likelihood::Linear;
 use super::linearised::Motion;
-use super::matrix::Matrix;
+use super::matrix::{Matrix, sum};
 use super::periodic::{Derivatives, Regressed};
 use super::problem::Problem;
 use super::regression::Regression;
@@ -55,13 +55,11 @@ impl Problem<'_> {
             let estimates = self.estimated(motion, path, first, &deviations, &innovations, noise);
             (estimates, covariance)
         };
-        let sum = |a: Matrix<3>, b: Matrix<3>| {
-            std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
-        };
+        let both = |a: Matrix<3>, b: Matrix<3>| std::array::from_fn(|i| sum(a[i], b[i]));
         let pairs = path.ranges.iter().zip(stretches);
         let (estimates, covariances): (Vec<_>, Vec<_>) =
             parallel::map(pairs, estimated).into_iter().unzip();
-        let covariance = covariances.into_iter().reduce(sum).unwrap_or_default();
+        let covariance = covariances.into_iter().reduce(both).unwrap_or_default();
         let mean = noise.sigma * noise.sigma / path.states.len() as f64;
         path.repeating = found.map(|(factor, found)| {
             let told = found.told(&factor, motion.prior);

@@ -48,14 +48,14 @@ impl Problem<'_> {
         kinematic: &Smoothed,
         smoothed: &Smoothed,
     ) -> bool {
-        let mut priors = WITHOUT_MECHANICS.iter();
-        let Some(prior) = priors.find(|prior| prior.order + 1 >= degree) else {
-            return false;
-        };
-        let cost = 0.5 * (self.record.times.len() as f64).ln();
-        let likelihood = self.about(*prior, kinematic).without_process_noise();
         let are_plain = self.record.codes.is_none() && self.record.outliers().next().is_none();
-        are_plain && likelihood + cost > smoothed.noise.likelihood
+        let mut priors = WITHOUT_MECHANICS.iter().filter(|_| are_plain);
+        let prior = priors.find(|prior| prior.order + 1 >= degree);
+        let cost = 0.5 * (self.record.times.len() as f64).ln();
+        prior.is_some_and(|prior| {
+            let likelihood = self.about(*prior, kinematic).without_process_noise();
+            likelihood + cost > smoothed.noise.likelihood
+        })
     }
 }
 

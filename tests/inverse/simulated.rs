@@ -633,16 +633,23 @@ fn a_long_record_has_a_finite_motion() {
     }
 }
 
+/// Machine at work whose torque repeats twice a turn.
+const MACHINE: Motion = Motion {
+    name: "machine",
+    start: [0.3, 85.0],
+    end: 1.0,
+    rows: 1000,
+    torque: |_, theta, omega| 0.05 * (85.0 - omega) + 1.8 * (2.0 * theta).sin(),
+};
+
 /// Slider positions at nine samples a turn, each at a time that is off by up to 0.4 of their spacing: the crank makes the turns
 /// that it made, and not the many more of an alias.
 #[test]
 fn samples_at_wrong_times_keep_their_turns() {
     let machine = Motion {
-        name: "machine",
-        start: [0.3, 85.0],
         end: 16.4,
         rows: 2000,
-        torque: |_, theta, omega| 0.05 * (85.0 - omega) + 1.8 * (2.0 * theta).sin(),
+        ..MACHINE
     };
     let truth = machine.run();
     for seed in 1..=3 {
@@ -880,11 +887,9 @@ fn an_encoder_off_its_centre_is_named_where_a_torque_repeats() {
 #[test]
 fn codes_of_a_fast_crank_tell_no_less_than_noise_of_their_size() {
     let machine = Motion {
-        name: "machine",
-        start: [0.3, 85.0],
         end: 6.0,
         rows: 3000,
-        torque: |_, theta, omega| 0.05 * (85.0 - omega) + 1.8 * (2.0 * theta).sin(),
+        ..MACHINE
     };
     const STEPS: f64 = 256.0;
     for motion in [&machine, &ENGINE] {
