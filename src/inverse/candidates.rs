@@ -92,9 +92,11 @@ impl Problem<'_> {
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
         let motion = self.motion(prior);
         let path = self.path_of(prior, from, self.sampled());
+        let mut scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
+        scales.torque /= from.noise.sigma;
         About {
             prior,
-            scales: self.scales(&motion, &path, from.scales.slope, from.scales.motion),
+            scales,
             stretches: self.stretches(&motion, &path, from.noise.sigma),
             corner: from.noise.corner,
             path,
@@ -146,7 +148,7 @@ impl Problem<'_> {
                 return None;
             }
             let plain = Prior {
-                follows_speed: prior.follows_speed,
+                powers: prior.powers,
                 ..TORQUE
             };
             let about = abouts.iter().find(|about| about.prior == plain)?;
@@ -181,7 +183,7 @@ impl Problem<'_> {
             next.is_some()
         };
         extend(|prior| Prior {
-            follows_speed: true,
+            powers: 1,
             ..prior
         });
         if turns >= 4.0 {

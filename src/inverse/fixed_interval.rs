@@ -284,7 +284,7 @@ mod tests {
     fn later_samples_narrow_a_diffuse_state() {
         let mut stretch = stretch(400);
         for step in &mut stretch.steps {
-            (step.h, step.tilt, step.lever) = (1e-3, 90.0, 40.0);
+            (step.h, step.tilt, step.lever) = (1e-3, [90.0, 0.0], 40.0);
             step.top = exponential(step.h, 200.0, -3.0, step.lever);
         }
         for log in -40..40 {

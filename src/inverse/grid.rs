@@ -74,12 +74,12 @@ impl Path {
         }
     }
 
-    /// The derivatives of the torque that follows the state by θ and ω: of what repeats, and of g ω.
+    /// The derivatives of the torque that follows the state by θ and ω: of what repeats, and of what follows the speed.
     pub fn slopes(&self, prior: Prior, state: &State) -> [f64; 2] {
         let repeating = self.repeating.as_ref();
         let at = |torque: &Repeating| torque.at(state[0], state[1]);
         let [_, by_theta, by_omega] = repeating.map_or([0.0; 3], at);
-        [by_theta, by_omega + prior.by_speed(state)]
+        [by_theta, by_omega + prior.of_speed(state, state[1])[1]]
     }
 
     /// Returns the unit of the speed in a torque that repeats, rad/s: the root mean square where none is known yet.

@@ -25,9 +25,8 @@ impl Linear<'_> {
         if self.scales.identified.is_some() {
             spread[2] = 0.0;
         }
-        if self.prior.follows_speed {
-            // With this spread, g times the spread of the speed has the spread of u.
-            spread[2 + self.prior.order] = spread[2] / self.scales.speed;
+        for k in 0..self.prior.powers {
+            spread[2 + self.prior.order + k] = self.scales.torque / self.scales.powers[k];
         }
         spread
     }
@@ -38,9 +37,9 @@ impl Linear<'_> {
             stretch,
             prior: self.prior,
             noise: self.scales.density(noise.corner, self.prior.order),
-            speed_noise: match self.prior.follows_speed {
-                true => self.scales.density(noise.speed_corner, 1) / self.scales.speed.powi(2),
-                false => 0.0,
+            speed_noise: match self.prior.powers {
+                0 => 0.0,
+                _ => self.scales.density(noise.speed_corner, 1) / self.scales.powers[0].powi(2),
             },
             correlated: noise.correlated,
             spread: self.spread(),
@@ -76,7 +75,7 @@ impl Linear<'_> {
             parallel::map(self.stretches.iter(), of).into_iter().unzip();
         let mut evidence: Evidence = evidences.into_iter().sum();
         let regression = Regression::of_all(self.prior, regressions);
-        let starts = self.prior.states() * self.stretches.len();
+        let starts = self.prior.diffuse() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;
         let rest = Rest {
@@ -118,7 +117,7 @@ impl Linear<'_> {
     /// Returns the noise with its likelihood and σ, from the evidence of filters that were started `begun` times.
     pub fn judged(&self, mut noise: Noise, evidence: &Evidence, begun: usize) -> Noise {
         let starts = match self.scales.identified {
-            None => (self.prior.states() * begun) as f64,
+            None => (self.prior.diffuse() * begun) as f64,
             Some(values) => (2 + values) as f64,
         };
         let free = evidence.samples as f64 - starts;
@@ -128,7 +127,6 @@ impl Linear<'_> {
         let Scales {
             lever,
             motion: [alpha, jerk],
-            speed,
             ..
         } = self.scales;
         // The spreads of θ and ω are the same for all priors.
@@ -139,9 +137,6 @@ impl Linear<'_> {
                 start += (spread / prior).ln();
             }
             prior *= jerk / alpha;
-        }
-        if self.prior.follows_speed {
-            start += (spread[2 + self.prior.order] * speed * lever / alpha).ln();
         }
         let likelihood = start * begun as f64
             - free * noise.sigma.ln()

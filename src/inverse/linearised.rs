@@ -3,7 +3,7 @@
 //! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
 //! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
-use super::prior::{Prior, State, Unknown};
+use super::prior::{POWERS, Prior, State, Unknown, powers_of};
 use super::repeating::Repeating;
 use super::transition::exponential;
 use crate::mechanism::{Equation, Terms};
@@ -114,14 +114,14 @@ impl Motion<'_> {
         let h = b.t - a.t;
         let mean = |f: fn(&Rates) -> f64| 0.5 * (f(&a.rates) + f(&b.rates));
         let lever = mean(|r| r.by_unknown);
-        let tilt = match self.prior.follows_speed {
-            true => (b.state[1] - a.state[1]) / h,
-            false => 0.0,
-        };
+        let [before, after] = [a, b].map(|node| powers_of(node.state[1]));
+        let tilt = std::array::from_fn(|k| (after[k] - before[k]) / h);
         let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
-        if self.prior.follows_speed {
+        if self.prior.powers > 0 {
             for row in &mut top {
-                row[2 + self.prior.order] = row[3] * tilt;
+                let ramp = row[3];
+                let columns = row.iter_mut().skip(2 + self.prior.order).zip(tilt);
+                columns.for_each(|(value, tilt)| *value = ramp * tilt);
             }
         }
         let mut defect = self.predicted(a, b, torque);
@@ -150,8 +150,8 @@ pub(super) struct Linearised {
     pub defect: State,
     /// Mean ∂θ̈/∂u of the step.
     pub lever: f64,
-    /// Mean acceleration of the step, rad/s²: the rate at which g adds to u.
-    pub tilt: f64,
+    /// Mean rates of ω, rad/s², and of ω|ω|, rad²/s³: those at which g₁ and g₂ add to u.
+    pub tilt: [f64; POWERS],
     /// Intensity of the process noise over the usual one.
     pub intensity: f64,
 }

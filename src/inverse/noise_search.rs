@@ -63,7 +63,7 @@ impl Linear<'_> {
         self.improved(best)
     }
 
-    /// Maximises the likelihood over the noise of g and that of u in turn, for a loss not proportional to the speed.
+    /// Maximises the likelihood over the noise of g₁ and that of u in turn, for a loss not proportional to the speed.
     pub fn with_speed_corner(&self, noise: Noise) -> Noise {
         let first = Noise {
             speed_corner: noise.speed_corner.max(noise.corner),

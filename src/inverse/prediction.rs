@@ -21,6 +21,12 @@ impl Motion<'_> {
         state
     }
 
+    /// Returns what the part of u that follows the speed gains from a state to another speed, rad/s.
+    fn faster(&self, from: &State, omega: f64) -> f64 {
+        let [before, after] = [from[1], omega].map(|omega| self.prior.of_speed(from, omega)[0]);
+        after - before
+    }
+
     /// Returns the state that follows from node a at node b, by Lobatto's rule along the quintic between them: θ and ω to h⁷.
     /// The noise of u is no part of it.
     pub fn predicted(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> State {
@@ -28,15 +34,15 @@ impl Motion<'_> {
         if self.prior.unknown == Unknown::Acceleration {
             return self.later(0, h, a.state);
         }
-        let g = self.prior.by_speed(a.state);
         let mut after = self.later(2, h, a.state);
-        after[2] += g * (b.state[1] - a.state[1]) + b.repeated - a.repeated;
+        after[2] += self.faster(a.state, b.state[1]) + b.repeated - a.repeated;
         let way = way(a, b);
         let within = |part: f64| {
             let [way, rate, _] = way.at(part);
             let (theta, omega) = (a.state[0] + way, rate / h);
             let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
-            let unknown = self.later(2, part * h, a.state)[2] + g * (omega - a.state[1]) + repeated;
+            let unknown =
+                self.later(2, part * h, a.state)[2] + self.faster(a.state, omega) + repeated;
             self.acceleration(a.t + part * h, theta, omega, unknown)[0]
         };
         let first = a.rates.alpha;
@@ -58,7 +64,7 @@ impl Motion<'_> {
         let state = |theta: f64, omega: f64| {
             let mut state = self.later(2, h, a.state);
             let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
-            state[2] += self.prior.by_speed(a.state) * (omega - a.state[1]) + repeated;
+            state[2] += self.faster(a.state, omega) + repeated;
             [theta, omega, state[2], state[3], state[4]]
         };
         let [turned, rate, _] = way(a, b).at(0.5);

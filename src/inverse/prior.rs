@@ -3,8 +3,16 @@
 /// Largest order of a prior.
 pub(super) const ORDERS: usize = 3;
 
-/// State: θ, ω, u, then the derivatives of u, or g.
+/// State: θ, ω, u, then the derivatives of u, or g₁ and g₂.
 pub(super) type State = [f64; 2 + ORDERS];
+
+/// Most powers of the speed.
+pub(super) const POWERS: usize = 2;
+
+/// Returns ω and ω|ω|.
+pub(super) fn powers_of(omega: f64) -> [f64; POWERS] {
+    [omega, omega * omega.abs()]
+}
 
 /// What is unknown and varies as an integrated Wiener process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,9 +31,9 @@ pub(super) struct Prior {
     pub unknown: Unknown,
     /// Number of integrations from the white noise to u: 1 (Wiener process) or more.
     pub order: usize,
-    /// Whether g ω with an unknown constant g is a part of u beside that: g is the last state. The amplitudes of what repeats
-    /// are then straight lines over ω.
-    pub follows_speed: bool,
+    /// Number of powers of the speed that are parts of u beside that, with constants that are the last states: g₁ ω, then
+    /// g₂ ω|ω|. With one or more the amplitudes of what repeats are straight lines over ω.
+    pub powers: usize,
     /// Turns of the cycle in which a part of u repeats; 0 without such a part.
     pub cycle: u8,
     /// Harmonics of that part in a cycle.
@@ -38,7 +46,7 @@ impl Prior {
         Prior {
             unknown,
             order,
-            follows_speed: false,
+            powers: 0,
             cycle: 0,
             harmonics: 0,
         }
@@ -60,26 +68,32 @@ impl Prior {
 
     /// Number of coefficients of each harmonic: of cos kθ and sin kθ, and of these times the speed.
     pub fn of_harmonic(self) -> usize {
-        if self.follows_speed { 4 } else { 2 }
+        if self.powers > 0 { 4 } else { 2 }
     }
 
     /// Number of states.
     pub fn states(self) -> usize {
-        2 + self.order + usize::from(self.follows_speed)
+        2 + self.order + self.powers
     }
 
-    /// Returns g of a state, N m s; 0 without.
-    pub fn by_speed(self, state: &State) -> f64 {
-        match self.follows_speed {
-            true => state[2 + self.order],
-            false => 0.0,
-        }
+    /// Returns the part of u, N m, that follows a speed, rad/s, with the constants of a state, and its derivative by the speed.
+    pub fn of_speed(self, state: &State, omega: f64) -> [f64; 2] {
+        let constants = state.iter().skip(2 + self.order).take(self.powers);
+        let terms = constants.zip(powers_of(omega)).zip([1.0, 2.0 * omega.abs()]);
+        terms.fold([0.0; 2], |[sum, slope], ((g, power), rate)| {
+            [sum + g * power, slope + g * rate]
+        })
+    }
+
+    /// Number of the states that may begin anywhere; those of the speed's powers are no larger than the torque makes likely.
+    pub fn diffuse(self) -> usize {
+        2 + self.order
     }
 
     /// Names the random term in words.
     pub fn name(self) -> &'static str {
-        match (self.cycle, self.follows_speed) {
-            (0, false) => match (self.unknown, self.order) {
+        match (self.cycle, self.powers) {
+            (0, 0) => match (self.unknown, self.order) {
                 (Unknown::Acceleration, 3) => "angle with white crackle, without mechanics",
                 (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
                 (Unknown::Torque, 3) => "torque as a twice integrated Wiener process",
@@ -88,13 +102,12 @@ impl Prior {
                 (Unknown::Force, 1) => "force as a Wiener process",
                 (Unknown::Force, _) => "force as an integrated Wiener process",
             },
-            (0, true) => "torque that follows the speed, and a Wiener process",
-            (1, false) => "torque that repeats every turn, and a Wiener process",
-            (1, true) => {
-                "torque that repeats every turn and follows the speed, and a Wiener process"
-            }
-            (_, false) => "torque that repeats every two turns, and a Wiener process",
-            (_, true) => {
+            (0, 1) => "torque that follows the speed, and a Wiener process",
+            (0, _) => "torque that follows the speed and its square, and a Wiener process",
+            (1, 0) => "torque that repeats every turn, and a Wiener process",
+            (1, _) => "torque that repeats every turn and follows the speed, and a Wiener process",
+            (_, 0) => "torque that repeats every two turns, and a Wiener process",
+            (_, _) => {
                 "torque that repeats every two turns and follows the speed, and a Wiener process"
             }
         }
@@ -115,7 +128,13 @@ pub(super) const SMOOTH: Prior = Prior::new(Unknown::Torque, 3);
 
 /// A torque in proportion to the speed, and a Wiener process.
 pub(super) const FOLLOWING: Prior = Prior {
-    follows_speed: true,
+    powers: 1,
+    ..TORQUE
+};
+
+/// A torque with parts in proportion to the speed and to its square, and a Wiener process.
+const QUADRATIC: Prior = Prior {
+    powers: POWERS,
     ..TORQUE
 };
 
@@ -123,6 +142,6 @@ pub(super) const FOLLOWING: Prior = Prior {
 pub(super) const LADDERS: [&[Prior]; 4] = [
     &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
     &[TORQUE, Prior::new(Unknown::Torque, 2), SMOOTH],
-    &[FOLLOWING],
+    &[FOLLOWING, QUADRATIC],
     WITHOUT_MECHANICS,
 ];

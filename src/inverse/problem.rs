@@ -52,10 +52,11 @@ impl<'a> Problem<'a> {
         }
         let end = |e: &Estimate| [e.state[0], e.state[1]];
         let [theta, omega] = cubic(times, [end(a), end(b)], t);
-        let g = smoothed.prior.by_speed(&a.state);
         let torque = smoothed.repeating.as_ref();
-        let follows =
-            |theta, omega| g * omega + torque.map_or(0.0, |torque| torque.at(theta, omega)[0]);
+        let follows = |theta, omega| {
+            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]);
+            smoothed.prior.of_speed(&a.state, omega)[0] + repeated
+        };
         let [before, after] = [a, b].map(|e| follows(e.state[0], e.state[1]));
         let rest = a.state[2] - before + part * (b.state[2] - after - (a.state[2] - before));
         let unknown = rest + follows(theta, omega);

@@ -1,6 +1,6 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use super::prior::State;
+use super::prior::{POWERS, State};
 use super::regression::Spectrum;
 
 /// Typical magnitudes along a record.
@@ -16,8 +16,11 @@ pub(super) struct Scales {
     pub lever: f64,
     /// Root mean squares of θ̈, rad/s², and its rate, rad/s³: spread of the prior before the first sample.
     pub motion: [f64; 2],
-    /// Standard deviation of ω along the record, rad/s.
-    pub speed: f64,
+    /// Standard deviations of ω, rad/s, and of ω|ω|, rad²/s², along the record.
+    pub powers: [f64; POWERS],
+    /// Root mean square of u along the record, in σ: what a power of the speed that varies by its standard deviation adds to u has
+    /// this one.
+    pub torque: f64,
     /// Lower bound of the standard deviation of a sample, rad or m.
     pub floor: f64,
     /// Standard deviation of a sample of weight 1, rad, where it is known (codes).
@@ -32,8 +35,8 @@ pub(super) struct Noise {
     /// Corner frequency ω_c of the smoother, rad/s: the spectral density of the process noise is q = ω_c^(2D) σ²
     /// h/(lever² slope²) for sample spacing h and D integrations from the white noise to θ.
     pub corner: f64,
-    /// Corner frequency, rad/s, of the Wiener process g in u = g ω: density of a prior of order one, over the squared
-    /// spread of the speed; 0 if g is constant or absent.
+    /// Corner frequency, rad/s, of the Wiener process g₁ in u = g₁ ω: density of a prior of order one, over the squared
+    /// spread of the speed; 0 if g₁ is constant or absent.
     pub speed_corner: f64,
     /// Variances of the harmonics of the periodic part.
     pub spectrum: Option<Spectrum>,

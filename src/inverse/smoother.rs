@@ -167,7 +167,7 @@ impl Problem<'_> {
             }
             let prior = motion.prior;
             // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
-            if iteration == 1 || is_at_rest || iteration == 0 && prior.follows_speed {
+            if iteration == 1 || is_at_rest || iteration == 0 && prior.powers > 0 {
                 let stretches = self.stretches(&motion, &path, noise.sigma);
                 let linear = Linear {
                     stretches: &stretches,
@@ -179,7 +179,7 @@ impl Problem<'_> {
                     known = linear.evaluated(noise);
                     noise = linear.improved(known);
                 }
-                if prior.follows_speed {
+                if prior.powers > 0 {
                     noise = linear.with_speed_corner(noise);
                 }
                 // Where the path came to rest by chance, far from the samples, it has no likelihood.

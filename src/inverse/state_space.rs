@@ -49,14 +49,14 @@ pub(super) struct Stretch {
     pub observed: Vec<Observed>,
 }
 
-/// Linear model of the deviations from a nominal path; N is 2 + order, one more with g, one more with correlated noise.
+/// Linear model of the deviations from a nominal path; N is 2 + order, one more with each power of the speed, one more with correlated noise.
 #[derive(Clone, Debug)]
 pub(super) struct Deviations<'a> {
     pub stretch: &'a Stretch,
     pub prior: Prior,
     /// Spectral density of the process noise over σ².
     pub noise: f64,
-    /// Spectral density of the white noise that g integrates, over σ².
+    /// Spectral density of the white noise that g₁ integrates, over σ².
     pub speed_noise: f64,
     /// Decay rate of the correlation of the sample noise, 1/s; none for white noise.
     pub correlated: Option<f64>,
@@ -89,8 +89,8 @@ impl Deviations<'_> {
             transition[2][4] = 0.5 * step.h * step.h;
             transition[3][4] = step.h;
         }
-        if self.prior.follows_speed {
-            transition[2][2 + self.prior.order] = step.h * step.tilt;
+        for k in 0..self.prior.powers {
+            transition[2][2 + self.prior.order + k] = step.h * step.tilt[k];
         }
         let mut noise = self.process_noise(node);
         if let Some(decay) = self.correlated {
@@ -146,7 +146,7 @@ impl Deviations<'_> {
         let step = &self.stretch.steps[node];
         let mut covariance = [[0.0; N]; N];
         let noise = &mut covariance;
-        let (h, b, tilt) = (step.h, step.lever, step.tilt);
+        let (h, b, tilt) = (step.h, step.lever, step.tilt[0]);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
         let time = h * step.intensity;
         let density = time * self.noise;

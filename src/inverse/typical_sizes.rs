@@ -3,6 +3,7 @@
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::linearised::Motion;
+use super::prior::powers_of;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::scales::Scales;
@@ -33,11 +34,12 @@ impl Problem<'_> {
         let duration = times[times.len() - 1] - times[0];
         let samples = self.record.times.len() as f64;
         let stride = path.states.len().div_ceil(1000);
-        let (mut lever, mut count) = (0.0, 0.0);
+        let (mut lever, mut torque, mut count) = (0.0, 0.0, 0.0);
         for (node, state) in path.nodes().step_by(stride) {
             let rates = motion.rates(times[node], state);
             if rates.by_unknown.is_finite() {
                 lever += rates.by_unknown * rates.by_unknown;
+                torque += state[2] * state[2];
                 count += 1.0;
             }
         }
@@ -47,7 +49,11 @@ impl Problem<'_> {
             slope,
             lever: (lever / count).sqrt(),
             motion: shape,
-            speed: spread(path.states.iter().step_by(stride).map(|state| state[1])),
+            powers: std::array::from_fn(|k| {
+                let states = path.states.iter().step_by(stride);
+                spread(states.map(|state| powers_of(state[1])[k]))
+            }),
+            torque: f64::sqrt(torque / count),
             floor: self.record.floor,
             known: self.record.codes.map(Codes::spread),
             identified: None,
