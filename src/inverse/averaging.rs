@@ -1,16 +1,17 @@
-//! Band over all intensities of the process noise: few samples hardly tell whether a torque is steady or varies below their noise,
-//! and the likeliest intensity may be none at all. The motion stays the likeliest one; its covariance is the mean over the
-//! intensities by their posterior probability, with the squares of what they make of the motion. The standard deviation of
-//! the process noise has a uniform prior (Gelman, Bayesian Analysis 1 (2006) 515), under which none is no likelier than little.
+//! Band over all priors and intensities of the process noise: few samples hardly tell whether a torque is steady or varies below
+//! their noise, and the likeliest intensity may be none at all. The motion stays the likeliest one; its covariance is the mean
+//! over priors and intensities by their posterior probability, with the squares of what they make of the motion (Hoeting et al.,
+//! Statist. Sci. 14 (1999) 382). The standard deviation of the process noise has a uniform prior (Gelman, Bayesian Analysis 1
+//! (2006) 515), under which none is no likelier than little.
 
-use super::estimate::Estimate;
+use super::candidates::Candidate;
 use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 
-/// ln of the odds to the most probable intensity below which another one does not count.
+/// ln of the odds to the most probable model below which another one does not count.
 const LEAST_LOG_ODDS: f64 = -6.0;
 
 /// Noise with ln of its posterior probability, up to a constant.
@@ -20,39 +21,56 @@ struct Weighed {
     log: f64,
 }
 
+/// Mean squares of the deviations from the likeliest motion at all nodes, with the posterior probability of a model.
+type Squares = (f64, Vec<[f64; 6]>);
+
 impl Problem<'_> {
-    /// Returns a smoothed motion with its band over all intensities of the process noise. A long record tells its own.
+    /// Returns a smoothed motion with its band over all priors and intensities of the process noise. A long record tells its
+    /// own.
     pub fn averaged(&self, mut smoothed: Smoothed) -> Smoothed {
         if self.sampled() != self.all() {
             return smoothed;
         }
-        let weighed = self.posterior(&smoothed);
-        if weighed.len() < 2 {
-            return smoothed;
+        let mut models = self.over_intensities(&smoothed, &smoothed, 0.0);
+        for (other, log) in smoothed.contenders() {
+            let path = self.path_of(other.prior, &smoothed, self.all());
+            let found = self.completed(other.unsmoothed(), path, false);
+            if found.converged && found.is_finite() {
+                models.extend(self.over_intensities(&found, &smoothed, log));
+            }
         }
-        let motion = self.motion(smoothed.prior);
-        let squares = parallel::map(weighed.iter(), |one| {
-            let mut path = smoothed.path();
-            let found = self.smoothed(&motion, &mut path, smoothed.scales, &one.noise);
-            let pairs = found.iter().zip(&smoothed.estimates);
-            pairs
-                .map(|(found, likeliest)| found.about(likeliest))
-                .collect::<Vec<_>>()
-        });
-        let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
+        let total: f64 = models.iter().map(|(weight, _)| weight).sum();
         for (node, estimate) in smoothed.estimates.iter_mut().enumerate() {
             estimate.covariance = [0.0; 6];
-            for (one, squares) in weighed.iter().zip(&squares) {
-                let weight = one.log.exp() / total;
+            for (weight, squares) in &models {
                 let pairs = estimate.covariance.iter_mut().zip(squares[node]);
-                pairs.for_each(|(sum, square)| *sum += weight * square);
+                pairs.for_each(|(sum, square)| *sum += weight / total * square);
             }
         }
         smoothed
     }
 
-    /// Returns the noises whose corner frequencies count, in steps from the likeliest one.
-    fn posterior(&self, smoothed: &Smoothed) -> Vec<Weighed> {
+    /// Returns what the intensities of a prior make of the motion, against the likeliest one; ln of their probabilities adds to
+    /// `log`.
+    fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log: f64) -> Vec<Squares> {
+        let weighed = self.posterior(of, LEAST_LOG_ODDS - log);
+        let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
+        let motion = self.motion(of.prior);
+        parallel::map(weighed.iter(), |one| {
+            let is_known = one.noise.corner == of.noise.corner;
+            let found = match is_known {
+                true => &of.estimates,
+                false => &self.smoothed(&motion, &mut of.path(), of.scales, &one.noise),
+            };
+            let pairs = found.iter().zip(&likeliest.estimates);
+            let squares = pairs
+                .map(|(found, likeliest)| found.estimated().about(likeliest.motion()).covariance);
+            ((log + one.log).exp() / total, squares.collect())
+        })
+    }
+
+    /// Returns the noises whose corner frequencies count by the least ln of their odds, in steps from the likeliest one.
+    fn posterior(&self, smoothed: &Smoothed, least: f64) -> Vec<Weighed> {
         let motion = self.motion(smoothed.prior);
         let stretches = self.stretches(&motion, &smoothed.path(), smoothed.noise.sigma);
         let linear = smoothed.linear(&stretches);
@@ -62,18 +80,19 @@ impl Problem<'_> {
         let power = (smoothed.prior.order + 2) as f64;
         let at = |corner: f64| {
             let noise = linear.evaluated(Noise {
-                corner: corner.exp(),
+                corner,
                 ..smoothed.noise
             });
-            let log = noise.likelihood - smoothed.noise.likelihood + power * (corner - likeliest);
+            let power = power * (corner.ln() - likeliest);
+            let log = noise.likelihood - smoothed.noise.likelihood + power;
             Weighed { noise, log }
         };
-        let mut list = vec![at(likeliest)];
+        let mut list = vec![at(smoothed.noise.corner)];
         for step in [FIRST_STEP, -FIRST_STEP] {
             let corners = (1..).map(|k| likeliest + step * f64::from(k));
             for corner in corners.take_while(|corner| (lowest..=highest).contains(corner)) {
-                let next = at(corner);
-                let counts = |most: &Weighed| next.log > most.log + LEAST_LOG_ODDS;
+                let next = at(corner.exp());
+                let counts = |most: &Weighed| next.log > most.log + least;
                 if !list.iter().all(counts) {
                     break;
                 }
@@ -85,22 +104,24 @@ impl Problem<'_> {
             .map(|one| one.log)
             .fold(f64::NEG_INFINITY, f64::max);
         list.iter_mut().for_each(|one| one.log -= most);
-        list.retain(|one| one.log > LEAST_LOG_ODDS);
+        list.retain(|one| one.log > least);
         list
     }
 }
 
-impl Estimate {
-    /// Returns the mean squares of the deviations from another motion: the covariance with the squares of the difference.
-    fn about(&self, other: &Estimate) -> [f64; 6] {
-        let [a, b] = [self.motion(), other.motion()];
-        let off: [f64; 3] = std::array::from_fn(|k| a[k] - b[k]);
-        let mut squares = self.covariance;
-        let entries = (0..3).flat_map(|row| (0..=row).map(move |column| off[row] * off[column]));
-        squares
-            .iter_mut()
-            .zip(entries)
-            .for_each(|(sum, square)| *sum += square);
-        squares
+impl Smoothed {
+    /// Returns the priors that count beside its own, with ln of their odds to it. A part that repeats has harmonics enough for
+    /// what others might add.
+    fn contenders(&self) -> Vec<(Candidate, f64)> {
+        let own = self.compared.iter().find(|one| one.prior == self.prior);
+        let likelihood = own.map_or(f64::INFINITY, |own| own.noise.likelihood);
+        let others = self
+            .compared
+            .iter()
+            .filter(|other| other.prior != self.prior);
+        others
+            .map(|other| (*other, (other.noise.likelihood - likelihood).min(0.0)))
+            .filter(|(other, log)| other.prior.cycle == 0 && *log > LEAST_LOG_ODDS)
+            .collect()
     }
 }

@@ -24,18 +24,25 @@ pub(super) struct Candidate {
     pub scales: Scales,
 }
 
+impl Candidate {
+    /// Returns what it is before its motion is smoothed at any node.
+    pub fn unsmoothed(&self) -> Smoothed {
+        Smoothed {
+            prior: self.prior,
+            noise: self.noise,
+            scales: self.scales,
+            estimates: Vec::new(),
+            repeating: None,
+            converged: true,
+            compared: Vec::new(),
+        }
+    }
+}
+
 /// Returns ln of the likelihood of the likeliest candidate; the list has it first.
 pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
     let best = tried.first();
     best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
-}
-
-/// Priors with the ln of their likelihoods.
-pub(super) fn listed(tried: &[Candidate]) -> Vec<(Prior, f64)> {
-    tried
-        .iter()
-        .map(|candidate| (candidate.prior, candidate.noise.likelihood))
-        .collect()
 }
 
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
@@ -182,10 +189,7 @@ impl Problem<'_> {
             found.extend(next);
             next.is_some()
         };
-        extend(|prior| Prior {
-            powers: 1,
-            ..prior
-        });
+        extend(|prior| Prior { powers: 1, ..prior });
         if turns >= 4.0 {
             extend(|prior| Prior {
                 cycle: 2,

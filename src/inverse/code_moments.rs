@@ -201,9 +201,7 @@ impl Problem<'_> {
         }
         let likelihood = |one: &OfCodes| one.smoothed.noise.likelihood;
         found.sort_by(|a, b| likelihood(b).total_cmp(&likelihood(a)));
-        let compared = found.iter();
-        let compared = compared.map(|one| (one.smoothed.prior, likelihood(one)));
-        let compared = compared.collect();
+        let compared = found.iter().map(|one| one.smoothed.candidate()).collect();
         let best = found.into_iter().next();
         let (smoothed, sites) = best.map_or_else(
             || (kinematic.clone(), first),

@@ -102,8 +102,11 @@ impl Fitted {
         let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
         if let Some((polynomial, fit)) = simple {
             let degree = polynomial.summary.degree;
-            if problem.prefers_polynomial(degree, &kinematic, &smoothed) {
-                return Ok(polynomial.averaged(&fit, &record));
+            let log_odds = problem.log_odds(degree, &kinematic, &smoothed);
+            if let Some(log_odds) = log_odds.filter(|log_odds| *log_odds > 0.0) {
+                let other = problem.averaged(smoothed);
+                let other = problem.motion_at(&other, measurement.elapsed());
+                return Ok(polynomial.averaged(&fit, &record).beside(other, log_odds));
             }
         }
         // Frees the memory of a long record.
@@ -146,9 +149,9 @@ impl Fitted {
         });
         fitted.coded = record.codes.map(|codes| codes.step);
         let compared = smoothed.compared.iter();
-        let compared = compared.map(|(prior, likelihood)| CandidateSummary {
-            prior: prior.name(),
-            log_likelihood: *likelihood,
+        let compared = compared.map(|candidate| CandidateSummary {
+            prior: candidate.prior.name(),
+            log_likelihood: candidate.noise.likelihood,
         });
         fitted.free = (counted - parameters).max(1.0);
         // Prediction errors of codes are not normal.

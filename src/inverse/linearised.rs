@@ -159,10 +159,10 @@ pub(super) struct Linearised {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inverse::prior::FOLLOWING;
+    use crate::inverse::prior::QUADRATIC;
     use crate::scene::{Crank, Scene, Slider};
 
-    /// A loss of −0.3 N m s and a constant torque on an offset slider-crank: along the motion by 2000 steps of the midpoint rule
+    /// A loss by the speed and its square and a constant torque on an offset slider-crank: along the motion by 2000 steps of the midpoint rule
     /// a step of the model leaves h⁷ of the motion's series, as it states, and the error of that rule.
     #[test]
     fn a_step_follows_the_equation_of_motion() {
@@ -175,14 +175,15 @@ mod tests {
         }));
         let motion = Motion {
             equation: &equation,
-            prior: FOLLOWING,
+            prior: QUADRATIC,
             origin: 0.0,
         };
-        let (g, rest, first) = (-0.3, 4.0, [0.7, 20.0]);
+        let (g, rest, first) = ([-0.3, -0.004], 4.0, [0.7, 20.0]);
+        let driven = |omega: f64| rest + g[0] * omega + g[1] * omega * omega.abs();
         let rates = |[theta, omega]: [f64; 2]| {
             [
                 omega,
-                motion.acceleration(0.0, theta, omega, rest + g * omega)[0],
+                motion.acceleration(0.0, theta, omega, driven(omega))[0],
             ]
         };
         let node = |t: f64| {
@@ -192,7 +193,7 @@ mod tests {
                 let middle = rates([0, 1].map(|k| now[k] + 0.5 * h * begin[k]));
                 now = [0, 1].map(|k| now[k] + h * middle[k]);
             }
-            [now[0], now[1], rest + g * now[1], g, 0.0]
+            [now[0], now[1], driven(now[1]), g[0], g[1]]
         };
         let left = |h: f64| {
             let [begin, end] = [node(0.0), node(h)];

@@ -31,6 +31,20 @@ impl MotionEstimate {
         self.widened([0.0, part * first, 2.0 * part * second])
     }
 
+    /// Returns the motion with the band that it has where another one has this part of the probability.
+    pub fn beside(mut self, other: MotionEstimate, part: f64) -> MotionEstimate {
+        let other = other.about(self.value);
+        let pairs = self.covariance.iter_mut().zip(other.covariance);
+        pairs.for_each(|(own, other)| *own += part * (other - *own));
+        self
+    }
+
+    /// Returns the motion with the mean squares of its deviations from these values in place of its covariance.
+    pub fn about(self, values: [f64; 3]) -> MotionEstimate {
+        let off = std::array::from_fn(|k| self.value[k] - values[k]);
+        self.widened(off)
+    }
+
     /// Returns the motion with an error that all three have in common.
     fn widened(mut self, off: [f64; 3]) -> MotionEstimate {
         let mut entry = 0;

@@ -79,7 +79,9 @@ impl Prior {
     /// Returns the part of u, N m, that follows a speed, rad/s, with the constants of a state, and its derivative by the speed.
     pub fn of_speed(self, state: &State, omega: f64) -> [f64; 2] {
         let constants = state.iter().skip(2 + self.order).take(self.powers);
-        let terms = constants.zip(powers_of(omega)).zip([1.0, 2.0 * omega.abs()]);
+        let terms = constants
+            .zip(powers_of(omega))
+            .zip([1.0, 2.0 * omega.abs()]);
         terms.fold([0.0; 2], |[sum, slope], ((g, power), rate)| {
             [sum + g * power, slope + g * rate]
         })
@@ -133,7 +135,7 @@ pub(super) const FOLLOWING: Prior = Prior {
 };
 
 /// A torque with parts in proportion to the speed and to its square, and a Wiener process.
-const QUADRATIC: Prior = Prior {
+pub(super) const QUADRATIC: Prior = Prior {
     powers: POWERS,
     ..TORQUE
 };

@@ -3,6 +3,7 @@
 //! large as its error.
 
 use super::fitted::Fitted;
+use super::motion_estimate::MotionEstimate;
 use super::prior::WITHOUT_MECHANICS;
 use super::problem::Problem;
 use super::record::Record;
@@ -39,22 +40,22 @@ fn akaike(criteria: Vec<f64>) -> Vec<f64> {
 }
 
 impl Problem<'_> {
-    /// True if the samples make a polynomial likelier than a smoothed motion: it is the prior without mechanics of its degree
-    /// that does without process noise, one parameter less (Schwarz, Ann. Statist. 6 (1978) 461). False for a degree above
-    /// those of the priors.
-    pub fn prefers_polynomial(
+    /// Returns ln of the odds of a polynomial to a smoothed motion: it is the prior without mechanics of its degree that does
+    /// without process noise, one parameter less (Schwarz, Ann. Statist. 6 (1978) 461). None for a degree above those of the
+    /// priors.
+    pub fn log_odds(
         &self,
         degree: usize,
         kinematic: &Smoothed,
         smoothed: &Smoothed,
-    ) -> bool {
+    ) -> Option<f64> {
         let are_plain = self.record.codes.is_none() && self.record.outliers().next().is_none();
         let mut priors = WITHOUT_MECHANICS.iter().filter(|_| are_plain);
         let prior = priors.find(|prior| prior.order + 1 >= degree);
         let cost = 0.5 * (self.record.times.len() as f64).ln();
-        prior.is_some_and(|prior| {
+        prior.map(|prior| {
             let likelihood = self.about(*prior, kinematic).without_process_noise();
-            likelihood + cost > smoothed.noise.likelihood
+            likelihood + cost - smoothed.noise.likelihood
         })
     }
 }
@@ -70,6 +71,15 @@ impl Fitted {
         let covariances = parallel::list(samples, |i| fit.averaged(record.times[i], &weights));
         for (state, covariance) in self.motion.iter_mut().zip(covariances) {
             state.covariance = covariance;
+        }
+        self
+    }
+
+    /// Returns a motion with its band where another one is less probable by these odds.
+    pub fn beside(mut self, other: Vec<MotionEstimate>, log_odds: f64) -> Fitted {
+        let part = 1.0 / (1.0 + log_odds.exp());
+        for (motion, other) in self.motion.iter_mut().zip(other) {
+            *motion = motion.beside(other, part);
         }
         self
     }

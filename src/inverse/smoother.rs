@@ -1,7 +1,7 @@
 //! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
 //! prior chosen by marginal likelihood.
 
-use super::candidates::{Candidate, likelihood, listed};
+use super::candidates::{Candidate, likelihood};
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::likelihood::Linear;
@@ -24,8 +24,8 @@ pub(super) struct Smoothed {
     pub repeating: Option<Repeating>,
     /// Whether the iterations came to rest.
     pub converged: bool,
-    /// The priors among which its prior was chosen, with the ln of their likelihoods, the likeliest first.
-    pub compared: Vec<(Prior, f64)>,
+    /// The priors among which its prior was chosen, the likeliest first.
+    pub compared: Vec<Candidate>,
 }
 
 impl Smoothed {
@@ -34,6 +34,15 @@ impl Smoothed {
         Linear {
             stretches,
             prior: self.prior,
+            scales: self.scales,
+        }
+    }
+
+    /// Its prior with its noise.
+    pub fn candidate(&self) -> Candidate {
+        Candidate {
+            prior: self.prior,
+            noise: self.noise,
             scales: self.scales,
         }
     }
@@ -92,7 +101,7 @@ impl Problem<'_> {
         let white = self.tried(kinematic, &[]);
         let Some(mut found) = self.first_converged(&white, kinematic) else {
             return Smoothed {
-                compared: listed(&white),
+                compared: white,
                 ..kinematic.clone()
             };
         };
@@ -136,7 +145,7 @@ impl Problem<'_> {
             }
         }
         best.map(|best| Smoothed {
-            compared: listed(tried),
+            compared: tried.to_vec(),
             ..best
         })
     }
@@ -150,13 +159,8 @@ impl Problem<'_> {
         } = *candidate;
         let mut motion = self.motion(prior);
         let mut result = Smoothed {
-            prior,
-            noise,
-            scales,
-            estimates: Vec::new(),
-            repeating: None,
             converged: false,
-            compared: Vec::new(),
+            ..candidate.unsmoothed()
         };
         let mut is_at_rest = false;
         let mut correction = Correction::default();

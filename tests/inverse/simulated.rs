@@ -926,6 +926,7 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
         of("swing", [0.8, 0.0], |_, theta, _| 8.0 * (2.0 - theta)),
     ];
     let (mut polynomials, mut records, mut covered, mut logs) = (0, 0, 0.0, 0.0);
+    let mut narrow = 0;
     for motion in &motions {
         let truth = motion.run();
         for (k, noise) in [1e-4, 3e-4, 1e-3, 3e-3, 1e-2]
@@ -942,6 +943,7 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
             let record = measure(&truth, sensor, &mut random);
             let found = found(motion, &record, 1.0);
             let [error, part] = judge(&truth, &record, &found);
+            narrow += usize::from(part < 0.85);
             if found.summary.fit.kind == "polynomial" {
                 polynomials += 1;
                 covered += part;
@@ -954,6 +956,7 @@ fn bands_within_one_turn_hold_for_motions_that_are_no_polynomials() {
     let covered = covered / f64::from(polynomials);
     assert!(polynomials >= 10, "{polynomials} of {records}");
     assert!(covered > 0.92, "{covered}");
+    assert!(narrow == 0, "{narrow} of {records}");
     let ratio = (logs / f64::from(polynomials)).exp();
     assert!(ratio < 1.2, "{ratio} of the error of the smoother");
 }
@@ -987,6 +990,36 @@ fn bands_of_short_records_cover_what_the_noise_hides() {
         }
     }
     assert!(covered / records > 0.92, "{}\n{report}", covered / records);
+}
+
+/// A fan slows a crank in proportion to the square of its speed: the loss varies within a turn, too.
+#[test]
+fn a_fan_takes_torque_by_the_square_of_the_speed() {
+    let fan = Motion {
+        name: "fan",
+        start: [0.4, 45.0],
+        end: 4.0,
+        rows: 1000,
+        torque: |_, _, omega| -2e-4 * omega * omega.abs(),
+    };
+    let truth = fan.run();
+    for seed in 1..=3 {
+        let record = measure(&truth, Sensor::Angle(2e-4), &mut Random(seed * 7919));
+        let found = found(&fan, &record, 1.0);
+        let (mut off, mut all) = (0.0, 0.0);
+        for (row, torque) in found.rows.iter().zip(&truth.torque) {
+            off += (row.crank_torque.unwrap_or_default() - torque).powi(2);
+            all += torque * torque;
+        }
+        let [_, covered] = judge(&truth, &record, &found);
+        let off = (off / all).sqrt();
+        assert!(
+            off < 1e-2,
+            "seed {seed}: {off} of {}",
+            found.summary.fit.prior
+        );
+        assert!(covered > 0.85, "seed {seed}: {covered}");
+    }
 }
 
 /// A loss alone: no torque that repeats is made of it, for that must gain what its two parameters cost.
