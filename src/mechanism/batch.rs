@@ -1,5 +1,7 @@
 //! Lagrange equation at many instants or crank angles at once, in arrays that the compiler vectorises.
 
+use multiversion::multiversion;
+
 use super::lagrange::forward;
 use super::load::instant;
 use super::{Equation, Inertia, LoadValue, Normal, Terms};
@@ -89,11 +91,8 @@ impl Equation {
     }
 
     /// Computes positions and terms at N crank angles, rad.
-    #[inline]
     pub fn term_arrays<const N: usize>(&self, theta: &[f64; N]) -> TermArrays<N> {
-        let mut arrays = TermArrays::ZERO;
-        self.each(theta, |i, at| arrays.take(i, at));
-        arrays
+        term_arrays(self, theta)
     }
 
     /// Calls `take` with the index and the terms of each of N crank angles, rad.
@@ -116,7 +115,7 @@ impl Equation {
 
     /// Computes positions at the first `count` angles (rad); the other entries are zero.
     pub fn first_terms<const N: usize>(&self, theta: &[f64; N], count: usize) -> TermArrays<N> {
-        self.first(theta, count, |_| ()).0
+        first(self, theta, count, |_| ()).0
     }
 
     /// Computes positions at the first `count` angles (rad), and the guide's normal force; the other entries are zero.
@@ -125,30 +124,38 @@ impl Equation {
         theta: &[f64; N],
         count: usize,
     ) -> (TermArrays<N>, [Normal; N]) {
-        self.first(theta, count, |at| self.normal_without_cases(at))
+        first(self, theta, count, |at| self.normal_without_cases(at))
     }
+}
 
-    #[inline(always)]
-    fn first<const N: usize, T: Copy + Default>(
-        &self,
-        theta: &[f64; N],
-        count: usize,
-        beside: impl Fn(&Terms) -> T,
-    ) -> (TermArrays<N>, [T; N]) {
-        let (mut all, mut of_all) = (TermArrays::ZERO, [T::default(); N]);
-        for begin in (0..count).step_by(LANES) {
-            let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
-            let (mut at, mut of_some) = (TermArrays::<LANES>::ZERO, [T::default(); LANES]);
-            self.each(&some, |i, terms| {
-                at.take(i, terms);
-                of_some[i] = beside(terms);
-            });
-            for (i, j) in (begin..count).take(LANES).enumerate() {
-                (all.x[j], all.dx[j], all.dv[j]) = (at.x[i], at.dx[i], at.dv[i]);
-                (all.m[j], all.half_dm[j]) = (at.m[i], at.half_dm[i]);
-                of_all[j] = of_some[i];
-            }
+#[multiversion(targets("x86_64+avx2"))]
+fn term_arrays<const N: usize>(equation: &Equation, theta: &[f64; N]) -> TermArrays<N> {
+    let mut arrays = TermArrays::ZERO;
+    equation.each(theta, |i, at| arrays.take(i, at));
+    arrays
+}
+
+/// Computes positions at the first `count` angles (rad) and what `beside` takes from them; the other entries are zero.
+#[multiversion(targets("x86_64+avx2"))]
+fn first<const N: usize, T: Copy + Default>(
+    equation: &Equation,
+    theta: &[f64; N],
+    count: usize,
+    beside: impl Fn(&Terms) -> T,
+) -> (TermArrays<N>, [T; N]) {
+    let (mut all, mut of_all) = (TermArrays::ZERO, [T::default(); N]);
+    for begin in (0..count).step_by(LANES) {
+        let some: [f64; LANES] = std::array::from_fn(|i| theta[(begin + i).min(N - 1)]);
+        let (mut at, mut of_some) = (TermArrays::<LANES>::ZERO, [T::default(); LANES]);
+        equation.each(&some, |i, terms| {
+            at.take(i, terms);
+            of_some[i] = beside(terms);
+        });
+        for (i, j) in (begin..count).take(LANES).enumerate() {
+            (all.x[j], all.dx[j], all.dv[j]) = (at.x[i], at.dx[i], at.dv[i]);
+            (all.m[j], all.half_dm[j]) = (at.m[i], at.half_dm[i]);
+            of_all[j] = of_some[i];
         }
-        (all, of_all)
     }
+    (all, of_all)
 }

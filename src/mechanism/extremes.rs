@@ -3,6 +3,8 @@
 use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use multiversion::multiversion;
+
 use super::{Class, Linkage, Pose};
 use crate::numeric::angle::{distinct, in_turn, in_turns};
 use crate::numeric::root;
@@ -61,16 +63,24 @@ fn derivatives(linkage: &Linkage, pose: &Pose) -> [f64; 3] {
     [pose.dx, pose.d2x, linkage.third_derivatives(pose).1]
 }
 
-/// Returns the second and third derivative of x at crank angles, rad; sines and cosines are computed eight at a time.
+/// Returns the second and third derivative of x at crank angles, rad, eight at a time.
+#[multiversion(targets("x86_64+avx2"))]
 fn slopes(linkage: &Linkage, grid: &[f64]) -> Vec<[f64; 2]> {
+    let is_far = linkage.stays_far_from_limits();
     let mut slopes = Vec::with_capacity(grid.len());
     for some in grid.chunks(8) {
         let angles: [f64; 8] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+        let mut here = [[0.0; 2]; 8];
         let (sin, cos) = sin_cos(&angles);
-        for i in 0..some.len() {
-            let [_, d2x, d3x] = derivatives(linkage, &linkage.pose_at(sin[i], cos[i]));
-            slopes.push([d2x, d3x]);
+        for i in 0..8 {
+            let pose = match is_far {
+                true => linkage.pose_far_from_limits(sin[i], cos[i]),
+                false => linkage.pose_at(sin[i], cos[i]),
+            };
+            let [_, d2x, d3x] = derivatives(linkage, &pose);
+            here[i] = [d2x, d3x];
         }
+        slopes.extend(&here[..some.len()]);
     }
     slopes
 }

@@ -7,6 +7,7 @@ mod transform;
 pub use rule::Rule;
 
 use super::LANES;
+use multiversion::multiversion;
 
 /// Largest degree of a series.
 pub const MAX_DEGREE: usize = 32;
@@ -100,20 +101,7 @@ impl Series {
 
     /// Replaces some places by the values there.
     pub fn values(&self, places: &mut [f64]) {
-        for places in places.chunks_mut(2 * LANES) {
-            let mut x = [0.0; 2 * LANES];
-            x[..places.len()].copy_from_slice(places);
-            let twice = x.map(|x| 2.0 * x);
-            let (mut b1, mut b2) = ([0.0; 2 * LANES], [0.0; 2 * LANES]);
-            for c in self.terms()[1..].iter().rev() {
-                for j in 0..2 * LANES {
-                    (b1[j], b2[j]) = ((c - b2[j]) + twice[j] * b1[j], b1[j]);
-                }
-            }
-            for (j, value) in places.iter_mut().enumerate() {
-                *value = (self.coefficients[0] - b2[j]) + x[j] * b1[j];
-            }
-        }
+        values(self.terms(), places);
     }
 
     /// Returns the integral from −1; the term beyond the degree is left out, for it is as small as the tail.
@@ -172,5 +160,24 @@ impl Series {
             return 0.0;
         }
         (self.coefficients[degree - 1].abs() + self.coefficients[degree].abs()) / largest
+    }
+}
+
+/// Replaces some places by the values there of the series with some coefficients, by Clenshaw's recurrence.
+#[multiversion(targets("x86_64+avx2"))]
+fn values(terms: &[f64], places: &mut [f64]) {
+    for places in places.chunks_mut(2 * LANES) {
+        let mut x = [0.0; 2 * LANES];
+        x[..places.len()].copy_from_slice(places);
+        let twice = x.map(|x| 2.0 * x);
+        let (mut b1, mut b2) = ([0.0; 2 * LANES], [0.0; 2 * LANES]);
+        for c in terms[1..].iter().rev() {
+            for j in 0..2 * LANES {
+                (b1[j], b2[j]) = ((c - b2[j]) + twice[j] * b1[j], b1[j]);
+            }
+        }
+        for (j, value) in places.iter_mut().enumerate() {
+            *value = (terms[0] - b2[j]) + x[j] * b1[j];
+        }
     }
 }
