@@ -29,18 +29,18 @@ const COSINE: [f64; 6] = [
 ];
 
 /// Computes sines and cosines of angles (rad), accurate to about one unit in the last place.
-#[inline]
+#[inline(always)]
 pub fn sin_cos<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sin, mut cos) = ([0.0; N], [0.0; N]);
     // The reduction to one quadrant leaves smaller angles with all digits.
-    let range = 1e4 * PI;
+    let is_near = |angle: f64| angle.abs() < 1e4 * PI;
     let mut near = true;
     for i in 0..N {
-        near &= angles[i].abs() < range;
+        near &= is_near(angles[i]);
         (sin[i], cos[i]) = near_zero(angles[i]);
     }
     if !near {
-        for i in 0..N {
+        for i in (0..N).filter(|i| !is_near(angles[*i])) {
             (sin[i], cos[i]) = angles[i].sin_cos();
         }
     }

@@ -1,6 +1,9 @@
 //! Operations of formulas, on numbers and on enclosures.
 
+use multiversion::multiversion;
+
 use crate::numeric::enclosure::Enclosed;
+use crate::numeric::trigonometry::sin_cos;
 use crate::scene::Variable;
 
 /// Operation of an evaluation in postfix order; `Call1` and `Call2` hold indices of `FUNCTIONS_1` and `FUNCTIONS_2`.
@@ -100,8 +103,11 @@ impl<const N: usize> Operand for [f64; N] {
     }
 
     fn called(self, function: usize) -> [f64; N] {
-        let function = FUNCTIONS_1[function].1;
-        each(self, self, |a, _| function(a))
+        match FUNCTIONS_1[function] {
+            ("sin", ..) => sines_and_cosines(&self).0,
+            ("cos", ..) => sines_and_cosines(&self).1,
+            (_, function, _) => each(self, self, |a, _| function(a)),
+        }
     }
 
     fn with(self, op: Op, other: [f64; N]) -> [f64; N] {
@@ -141,6 +147,11 @@ impl Operand for Enclosed {
             _ => Enclosed::UNKNOWN,
         }
     }
+}
+
+#[multiversion(targets("x86_64+avx2"))]
+fn sines_and_cosines<const N: usize>(angles: &[f64; N]) -> ([f64; N], [f64; N]) {
+    sin_cos(angles)
 }
 
 /// Applies an operation to each pair of numbers.
