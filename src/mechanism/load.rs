@@ -217,6 +217,9 @@ impl Loads {
     /// Returns torque and force of the loads without a known potential that depend on the position alone, at slider
     /// position x, m.
     pub fn of_place(&self, theta: impl Into<Angle>, x: f64) -> LoadValue {
+        if self.placed.is_empty() {
+            return LoadValue::default();
+        }
         let now = instant(0.0, theta, 0.0, [x, 0.0]);
         let [value] = NonlinearLoads::sums([&self.placed], &[now]);
         value

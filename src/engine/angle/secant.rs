@@ -35,9 +35,7 @@ impl Secant {
         let mut slopes = [0.0; MAX_DEGREE + 1];
         for (j, slope) in slopes[..count].iter_mut().enumerate() {
             let secant = (later.forces[j] - self.forces[j]) / (later.at[j] - self.at[j]);
-            if secant.is_finite() {
-                *slope = secant;
-            }
+            *slope = if secant.is_finite() { secant } else { 0.0 };
         }
         slopes
     }
@@ -73,12 +71,13 @@ impl PanelSolution {
                 more[j] = slopes[j] * by[j];
             }
             let work = panel.rule.integrals(&more);
-            let mut moved = 0.0f64;
+            let mut moved = [0.0; MAX_DEGREE + 1];
             for j in 0..count {
                 let next = sweep[j] + half * work[j];
-                moved = moved.max((next - change[j]).abs());
+                moved[j] = next - change[j];
                 change[j] = next;
             }
+            let moved = largest(&moved[..count]);
             (last, ratio) = (moved, moved / last);
         }
         if first == 0.0 {

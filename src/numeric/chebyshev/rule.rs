@@ -20,7 +20,7 @@ pub struct Rule {
     /// Matrices from values to integrals from 0 to the points.
     integrals: Matrices,
     /// Weights of the values in the last two coefficients.
-    last: [[f64; 2]; MAX_DEGREE + 1],
+    last: [Values; 2],
     /// Matrix of integration, built on first use.
     integration: OnceLock<Vec<Values>>,
 }
@@ -51,7 +51,7 @@ impl Rule {
             weights: [0.0; MAX_DEGREE + 1],
             series: Matrices::new(),
             integrals: Matrices::new(),
-            last: [[0.0; 2]; MAX_DEGREE + 1],
+            last: [[0.0; MAX_DEGREE + 1]; 2],
             integration: OnceLock::new(),
         };
         let n = degree as f64;
@@ -76,7 +76,9 @@ impl Rule {
             let mut unit = [0.0; MAX_DEGREE + 1];
             unit[j] = 1.0;
             let series = rule.series(&unit);
-            rule.last[j] = [series.coefficient(degree - 1), series.coefficient(degree)];
+            for (k, last) in rule.last.iter_mut().enumerate() {
+                last[j] = series.coefficient(degree - 1 + k);
+            }
             // ∫ T_k over [−1, 1] is 2/(1 − k²) for even k.
             let integral = |k: usize| 2.0 * series.coefficient(k) / (1.0 - (k * k) as f64);
             rule.weights[j] = (0..=degree).step_by(2).map(integral).sum();
@@ -169,11 +171,7 @@ impl Rule {
 
     /// Returns the sum of the magnitudes of the last two coefficients of the series through values at the points.
     pub fn last_terms(&self, values: &Values) -> f64 {
-        let last = &self.last;
-        let products = last.iter().zip(values).take(self.degree + 1);
-        let [a, b] = products.fold([0.0; 2], |sum, (last, value)| {
-            [sum[0] + last[0] * value, sum[1] + last[1] * value]
-        });
+        let [a, b] = [0, 1].map(|k| self.sum(&self.last[k], values));
         a.abs() + b.abs()
     }
 
@@ -237,14 +235,19 @@ impl Rule {
 
     /// Integrates as [`Self::integral`], simply rounded.
     pub fn rounded_integral(&self, values: &Values) -> f64 {
+        self.sum(&self.weights, values)
+    }
+
+    /// Returns the sum of the products of weights and values at the points.
+    fn sum(&self, weights: &Values, values: &Values) -> f64 {
         let mut sums = [0.0; LANES];
-        let weights = self.weights[..self.degree].chunks_exact(LANES);
-        for (weights, values) in weights.zip(values.chunks_exact(LANES)) {
+        let weighted = weights[..self.degree].chunks_exact(LANES);
+        for (weights, values) in weighted.zip(values.chunks_exact(LANES)) {
             for k in 0..LANES {
                 sums[k] += weights[k] * values[k];
             }
         }
-        let last = self.weights[self.degree] * values[self.degree];
+        let last = weights[self.degree] * values[self.degree];
         (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
     }
 }
