@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use super::Dynamics;
+use super::dynamics::{Dynamics, StateVariable};
 use super::panel::{PanelStart, PanelTable};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
 use crate::numeric::enclosure::Interval;
@@ -156,7 +156,7 @@ impl Forces {
         start: PanelStart,
     ) -> Values {
         let mut rates = self.rates_of_table(panel);
-        if !dynamics.has_state_loads() {
+        if !dynamics.has_state_loads() || dynamics.state_variable() == Some(StateVariable::Time) {
             return rates;
         }
         // Relative step of least error for a central difference.

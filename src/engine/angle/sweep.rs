@@ -1,6 +1,6 @@
 //! Collocation on one panel: K' = F(θ) + L(θ, ω, t), t' = 1/ω at its points, by Picard iteration and Newton's method.
 
-use super::Dynamics;
+use super::dynamics::{Dynamics, StateVariable};
 use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
 use super::secant::Secant;
 use super::solution::PanelSolution;
@@ -108,7 +108,8 @@ pub(super) fn sweep<D: Dynamics>(
             return Ok(());
         } else if let Some(measured) = measured {
             panel.factor = measured;
-            newton = measured > SLOW_FACTOR;
+            // Newton's method is one for the energy: of a load of time secants know more.
+            newton = measured > SLOW_FACTOR && variable != Some(StateVariable::Time);
         }
         (earlier, before) = (before, largest);
     }
