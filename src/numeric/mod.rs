@@ -8,6 +8,7 @@ pub mod dip;
 pub mod double_double;
 pub mod enclosure;
 pub mod exact;
+pub mod exponential;
 pub mod fourier;
 pub mod gauss;
 pub mod interpolate;

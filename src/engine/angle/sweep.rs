@@ -6,6 +6,7 @@ use super::secant::Secant;
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 use crate::numeric::exact::SUM_ROUNDING;
+use crate::numeric::exponential;
 use nalgebra::{DMatrix, DVectorViewMut};
 
 /// Reason why a panel is not solved.
@@ -193,8 +194,11 @@ impl PanelSolution {
         if 0.5 * half.abs() * largest(&factor[..count]) > panel.rule.degree() as f64 {
             return false;
         }
+        for factor in &mut factor[..count] {
+            *factor *= half;
+        }
+        factor = exponential::of(&factor);
         for j in 0..count {
-            factor[j] = (half * factor[j]).exp();
             rates[j] *= change[j] / factor[j];
         }
         let more = panel.rule.integrals(&rates);

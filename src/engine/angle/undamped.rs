@@ -3,6 +3,7 @@
 use super::Dynamics;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
+use crate::numeric::exponential;
 
 impl<P: Copy> PanelTable<P> {
     /// Tabulates the motion under forces of the position alone and of the switch: K = growth·(K₀ + work).
@@ -16,10 +17,9 @@ impl<P: Copy> PanelTable<P> {
                 *rate = force * mobility;
             }
             let mut growth = self.growth.take().unwrap_or_else(|| Box::new(rates));
-            *growth = self.rule.integrals(&rates);
-            for (growth, force) in growth[..count].iter_mut().zip(&mut force) {
-                *growth = (half * *growth).exp();
-                *force /= *growth;
+            *growth = exponential::of(&self.rule.integrals(&rates).map(|rate| half * rate));
+            for (growth, force) in growth[..count].iter().zip(&mut force) {
+                *force /= growth;
             }
             self.growth = Some(growth);
         }
