@@ -9,7 +9,7 @@ use slider_crank::optimise::{Problem, optimise as search};
 use slider_crank::report;
 use slider_crank::scene::Varied;
 use slider_crank::scene::unit::Quantity;
-use slider_crank::simulate::SteadyOptions;
+use slider_crank::simulate::Options;
 use slider_crank::sweep::{Goal, SweepOptions};
 
 use crate::call;
@@ -52,11 +52,15 @@ impl Wanted {
 
     /// But for the request to stop.
     fn options(&self) -> PyResult<SweepOptions> {
-        let default = SweepOptions::default();
+        let default = Options::default();
         Ok(SweepOptions {
-            method: method_of(&self.method)?,
-            max_evaluations: self.max_evaluations.unwrap_or(default.max_evaluations),
-            ..default
+            fluctuation: self.fluctuation,
+            run: Options {
+                method: method_of(&self.method)?,
+                max_evaluations: self.max_evaluations.unwrap_or(default.max_evaluations),
+                ..default
+            },
+            ..SweepOptions::default()
         })
     }
 }
@@ -74,16 +78,8 @@ pub fn optimise(py: Python<'_>, scene: Py<Scene>, wanted: Wanted) -> PyResult<(S
     };
     let options = wanted.options()?;
     let found = call::run(py, |call| {
-        let steady = SteadyOptions {
-            fluctuation: wanted.fluctuation,
-            max_evaluations: options.max_evaluations,
-            stop: Some(call.stop.clone()),
-        };
-        let options = SweepOptions {
-            steady: Some(steady),
-            stop: Some(call.stop.clone()),
-            ..options
-        };
+        let mut options = options;
+        options.run.stop = Some(call.stop.clone());
         search(this.draft.clone(), varied.clone(), &problem, options)
     })?;
     let values = varied.iter().zip(&found.values);

@@ -7,7 +7,7 @@ use slider_crank::error::Error;
 use slider_crank::report::{self, PlotRows, Report, RowColumns, RunReport, View};
 use slider_crank::scene::Scene as Plain;
 use slider_crank::simulate::{
-    Options, Row, RowSink, Simulation, SteadyOptions, simulate_rows, simulate_with_rows,
+    Options, Row, RowSink, Simulation, simulate_rows, simulate_with_rows,
 };
 
 use crate::call::{self, Call};
@@ -94,12 +94,8 @@ fn begun(
     if !steady {
         return Ok((scene, None));
     }
-    let options = SteadyOptions {
-        max_evaluations: options.max_evaluations,
-        stop: Some(call.stop.clone()),
-        ..SteadyOptions::default()
-    };
-    let found = slider_crank::simulate::steady_state(&scene, &options)?;
+    let options = with_stop(options, call);
+    let found = slider_crank::simulate::steady_state(&scene, None, &options)?;
     Ok((found.start(&scene), Some(found)))
 }
 
@@ -208,15 +204,16 @@ pub fn steady_state(
     fluctuation: Option<f64>,
     max_evaluations: Option<u64>,
 ) -> PyResult<String> {
-    let default = SteadyOptions::default();
+    let default = Options::default();
     let asked = scene.get();
     call::run(py, |call| {
-        let options = SteadyOptions {
-            fluctuation,
+        let options = Options {
             max_evaluations: max_evaluations.unwrap_or(default.max_evaluations),
             stop: Some(call.stop.clone()),
+            ..default
         };
-        let found = slider_crank::simulate::steady_state(&asked.scene(call), &options)?;
+        let scene = asked.scene(call);
+        let found = slider_crank::simulate::steady_state(&scene, fluctuation, &options)?;
         report::json(&found)
     })
 }

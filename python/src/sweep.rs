@@ -9,7 +9,7 @@ use slider_crank::report::{
     self, MOST_PAGE_DESIGNS, SweepSummary, SweepSummaryOptions, SweepWriter, Table,
 };
 use slider_crank::scene::Varied;
-use slider_crank::simulate::SteadyOptions;
+use slider_crank::simulate::Options;
 use slider_crank::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 use crate::call::{self, Call};
@@ -62,9 +62,7 @@ impl Asked {
             let named = figures.clone();
             figures.extend(beside.filter(|figure| !named.contains(figure)));
         }
-        let default = SweepOptions::default();
-        let max_evaluations = self.max_evaluations.unwrap_or(default.max_evaluations);
-        let steady = self.steady_state || self.fluctuation.is_some();
+        let default = Options::default();
         Ok(SweepOptions {
             figures,
             sample: self.sample.map(|count| LatinHypercube {
@@ -72,16 +70,16 @@ impl Asked {
                 seed: self.seed,
             }),
             motion: self.motion,
-            reactions: self.reactions,
-            steady: steady.then_some(SteadyOptions {
-                fluctuation: self.fluctuation,
-                max_evaluations,
-                stop: None,
-            }),
-            method: method_of(&self.method)?,
-            estimate: self.estimate,
-            max_evaluations,
-            ..default
+            steady: self.steady_state,
+            fluctuation: self.fluctuation,
+            run: Options {
+                method: method_of(&self.method)?,
+                reactions: self.reactions,
+                estimate: self.estimate,
+                max_evaluations: self.max_evaluations.unwrap_or(default.max_evaluations),
+                ..default
+            },
+            ..SweepOptions::default()
         })
     }
 }
@@ -138,15 +136,9 @@ pub fn sweep<'py>(
     Ok((columns, json, designs))
 }
 
-fn stopping(options: SweepOptions, call: &Call) -> SweepOptions {
-    SweepOptions {
-        stop: Some(call.stop.clone()),
-        steady: options.steady.map(|steady| SteadyOptions {
-            stop: Some(call.stop.clone()),
-            ..steady
-        }),
-        ..options
-    }
+fn stopping(mut options: SweepOptions, call: &Call) -> SweepOptions {
+    options.run.stop = Some(call.stop.clone());
+    options
 }
 
 #[pymethods]

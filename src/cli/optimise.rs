@@ -10,7 +10,7 @@ use crate::optimise::{Constraint, Problem, optimise};
 use crate::plan::Method;
 use crate::report;
 use crate::scene::Varied;
-use crate::simulate::{SteadyOptions, Stop};
+use crate::simulate::{Options, Stop};
 use crate::sweep::{Figure, Goal, SweepOptions};
 
 /// Arguments of `optimise`.
@@ -50,7 +50,7 @@ pub(super) struct Arguments {
     #[arg(long, default_value = "auto")]
     method: Method,
     /// Work limit: most evaluations of the equation in one design
-    #[arg(long, value_name = "COUNT", default_value_t = SweepOptions::default().max_evaluations)]
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().max_evaluations)]
     max_evaluations: u64,
 }
 
@@ -69,14 +69,13 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     };
     let (out, best) = (create(out)?, create(best)?);
     let options = SweepOptions {
-        steady: Some(SteadyOptions {
-            fluctuation: arguments.fluctuation,
+        fluctuation: arguments.fluctuation,
+        run: Options {
+            method: arguments.method,
             max_evaluations: arguments.max_evaluations,
-            stop: Some(stop.of_one()),
-        }),
-        method: arguments.method,
-        max_evaluations: arguments.max_evaluations,
-        stop: Some(stop.clone()),
+            stop: Some(stop.clone()),
+            ..Options::default()
+        },
         ..SweepOptions::default()
     };
     let varied = arguments.vary.clone();

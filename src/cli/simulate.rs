@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{PlotRows, Preview, RowWriter, RunReport};
 use crate::scene::Scene;
-use crate::simulate::{Options, Row, RowSink, SteadyOptions, Stop, simulate_rows, steady_state};
+use crate::simulate::{Options, Row, RowSink, Stop, simulate_rows, steady_state};
 
 /// Arguments of `simulate`.
 #[derive(Debug, Args)]
@@ -126,12 +126,16 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
         Scene::new(1.0, 2.0).tolerance(tolerance).check()?;
         scene.run.tolerance = tolerance;
     }
-    let options = SteadyOptions {
-        fluctuation: arguments.fluctuation,
+    let options = Options {
+        method: arguments.method,
+        reactions: arguments.reactions,
+        driving_torque: arguments.torque,
+        estimate: !arguments.no_estimate,
         max_evaluations: arguments.max_evaluations,
+        events_kept: arguments.max_events,
         stop: Some(stop.clone()),
     };
-    let found = || steady_state(&scene, &options);
+    let found = || steady_state(&scene, arguments.fluctuation, &options);
     let steady = arguments.steady_state.then(found).transpose()?;
     if let Some(steady) = &steady {
         scene = steady.start(&scene);
@@ -146,15 +150,6 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
         writer: targets.rows.take().map(RowWriter::new),
         preview: streams.text_on_stdout().then(Preview::default),
         loose: scene.clearance.is_some(),
-    };
-    let options = Options {
-        method: arguments.method,
-        reactions: arguments.reactions,
-        driving_torque: arguments.torque,
-        estimate: !arguments.no_estimate,
-        max_evaluations: arguments.max_evaluations,
-        events_kept: arguments.max_events,
-        stop: Some(stop.clone()),
     };
     let result = simulate_rows(&scene, &options, &mut rows);
     let keeps = matches!(&result, Ok(_) | Err(Error::Interrupted));

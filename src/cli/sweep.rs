@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report::{self, SweepSummaryOptions, SweepWriter};
 use crate::scene::Varied;
-use crate::simulate::{SteadyOptions, Stop};
+use crate::simulate::{Options, Stop};
 use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
@@ -78,7 +78,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     no_estimate: bool,
     /// Work limit: most evaluations of the equation in one design
-    #[arg(long, value_name = "COUNT", default_value_t = SweepOptions::default().max_evaluations)]
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().max_evaluations)]
     max_evaluations: u64,
 }
 
@@ -118,24 +118,22 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
     let draft = streams.draft(read)?;
-    let steady = SteadyOptions {
-        fluctuation: arguments.fluctuation,
-        max_evaluations: arguments.max_evaluations,
-        stop: Some(stop.of_one()),
-    };
     let (sample, seed) = (arguments.sample, arguments.seed);
-    let has_steady = arguments.steady_state || arguments.fluctuation.is_some();
     let options = SweepOptions {
         figures: arguments.figures(),
         sample: sample.map(|count| LatinHypercube { count, seed }),
         diagrams: false,
         motion: !arguments.no_motion,
-        reactions: arguments.reactions,
-        steady: has_steady.then_some(steady),
-        method: arguments.method,
-        estimate: !arguments.no_estimate,
-        max_evaluations: arguments.max_evaluations,
-        stop: Some(stop.clone()),
+        steady: arguments.steady_state,
+        fluctuation: arguments.fluctuation,
+        run: Options {
+            method: arguments.method,
+            reactions: arguments.reactions,
+            estimate: !arguments.no_estimate,
+            max_evaluations: arguments.max_evaluations,
+            stop: Some(stop.clone()),
+            ..Options::default()
+        },
     };
     let varied = match arguments.vary.as_slice() {
         [] => draft.tolerances(),

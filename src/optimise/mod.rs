@@ -178,13 +178,13 @@ pub fn optimise(
         count: search::DESIGNS_PER_KEY * varied.len() as u64,
         seed: problem.seed,
     };
-    let options = SweepOptions {
+    let mut options = SweepOptions {
         figures,
         sample: Some(sample),
-        estimate: false,
         ..options
     };
-    let stop = options.stop.clone().unwrap_or_default();
+    options.run.estimate = false;
+    let stop = options.run.stop.clone().unwrap_or_default();
     let sweep = Sweep::new(draft, varied, options)?;
     let mut evaluator = Evaluator::new(&sweep, problem, &stop);
     let found = search::run(&mut evaluator, sample)?;

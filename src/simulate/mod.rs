@@ -45,9 +45,10 @@ pub use result::{Cost, ErrorEstimate, Event, Final, Peak, Peaks, Piece, Summary,
 pub use row::{LooseRow, NoRows, Row, RowSink};
 pub use run::{simulate, simulate_rows, simulate_with_rows};
 pub use simulation::Simulation;
+#[cfg(feature = "cli")]
+pub(crate) use steady::check_fluctuation;
 pub use steady::{
-    Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyOptions, SteadyState,
-    steady_state,
+    Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState, steady_state,
 };
 pub use stop::{Stopped, Torques, Why};
 pub use warning::{NoRange, Warning};

@@ -78,8 +78,14 @@ impl Design {
                 Err(error) => self.fail(Outcome::Refused, &error),
             }
         }
-        if let Some(asked) = &options.steady {
-            match steady_state(scene, asked) {
+        let run = Options {
+            stop: options.run.stop.as_ref().map(Stop::of_one),
+            // Only the number of events is needed.
+            events_kept: 0,
+            ..options.run.clone()
+        };
+        if options.steady {
+            match steady_state(scene, options.fluctuation, &run) {
                 Ok(steady) => self.steady = Some(steady),
                 Err(error) => self.fail(Outcome::Refused, &error),
             }
@@ -87,16 +93,6 @@ impl Design {
         if !options.motion {
             return;
         }
-        let run = Options {
-            method: options.method,
-            reactions: options.reactions,
-            estimate: options.estimate,
-            max_evaluations: options.max_evaluations,
-            stop: options.stop.as_ref().map(Stop::of_one),
-            // Only the number of events is needed.
-            events_kept: 0,
-            ..Options::default()
-        };
         let summary = match simulate_rows(scene, &run, &mut NoRows) {
             Ok(run) => run.summary,
             Err(error) => return self.fail(Outcome::Refused, &error),

@@ -144,7 +144,7 @@ impl Sweep {
     /// Returns a copy of the sweep that estimates the error of each motion.
     pub fn with_estimates(&self) -> Sweep {
         let mut sweep = self.clone();
-        sweep.options.estimate = true;
+        sweep.options.run.estimate = true;
         sweep
     }
 
@@ -167,10 +167,7 @@ impl Sweep {
     /// stop; one sweep has the same hash on all systems.
     pub fn identity(&self) -> u64 {
         let mut options = self.options.clone();
-        options.stop = None;
-        if let Some(steady) = &mut options.steady {
-            steady.stop = None;
-        }
+        options.run.stop = None;
         let (version, scene) = (env!("CARGO_PKG_VERSION"), self.draft.text());
         let mut text = format!("{version}\0{scene}\0{options:?}");
         for one in &self.varied {
@@ -248,7 +245,13 @@ impl Sweep {
             } else if begun.elapsed() > BATCH_TIME {
                 count = (count / 2).max(16);
             }
-            if self.options.stop.as_ref().is_some_and(Stop::is_requested) {
+            if self
+                .options
+                .run
+                .stop
+                .as_ref()
+                .is_some_and(Stop::is_requested)
+            {
                 return Err(Error::Interrupted);
             }
             take(made)?;

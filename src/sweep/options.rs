@@ -2,9 +2,7 @@
 
 use super::{Figure, LatinHypercube, Source};
 use crate::error::Error;
-use crate::numeric::stop::Stop;
-use crate::plan::Method;
-use crate::simulate::{Options, SteadyOptions};
+use crate::simulate::{Options, check_fluctuation};
 
 /// Computations asked of every design, beyond the scene.
 #[derive(Clone, Debug)]
@@ -17,34 +15,24 @@ pub struct SweepOptions {
     pub diagrams: bool,
     /// Whether to compute the forward motion, for scenes with a run.
     pub motion: bool,
-    /// Whether to find the largest joint forces of the motion.
-    pub reactions: bool,
-    /// Settings of the search for the periodic steady state and its flywheel; none without search.
-    pub steady: Option<SteadyOptions>,
-    /// Method of the forward motion.
-    pub method: Method,
-    /// Whether to estimate the global error of the motion, by a second run.
-    pub estimate: bool,
-    /// Maximum number of evaluations of the equation in one motion.
-    pub max_evaluations: u64,
-    /// Request to stop; the batch in progress is then dropped.
-    pub stop: Option<Stop>,
+    /// Whether to search for the periodic steady state.
+    pub steady: bool,
+    /// Coefficient of fluctuation of the flywheel of the steady state, which is then searched for.
+    pub fluctuation: Option<f64>,
+    /// Options of each motion and search; its events are only counted. A request to stop drops the batch in progress.
+    pub run: Options,
 }
 
 impl Default for SweepOptions {
     fn default() -> SweepOptions {
-        let one = Options::default();
         SweepOptions {
             figures: Vec::new(),
             sample: None,
             diagrams: false,
             motion: true,
-            reactions: false,
-            steady: None,
-            method: one.method,
-            estimate: one.estimate,
-            max_evaluations: one.max_evaluations,
-            stop: None,
+            steady: false,
+            fluctuation: None,
+            run: Options::default(),
         }
     }
 }
@@ -61,15 +49,16 @@ impl SweepOptions {
                 "say which, like --fluctuation 0.02",
             ));
         }
-        self.steady.as_ref().map_or(Ok(()), SteadyOptions::check)?;
+        check_fluctuation(self.fluctuation)?;
         if named {
-            self.reactions = takes(Source::Peaks);
-            self.motion = self.reactions || takes(Source::Motion);
+            self.run.reactions = takes(Source::Peaks);
+            self.motion = self.run.reactions || takes(Source::Motion);
             self.diagrams = takes(Source::Diagrams);
-            let steady = takes(Source::Steady) || takes(Source::Flywheel);
-            self.steady = steady.then(|| self.steady.take().unwrap_or_default());
+            self.steady = takes(Source::Steady) || takes(Source::Flywheel);
+        } else {
+            self.steady |= self.fluctuation.is_some();
         }
-        let forces = self.reactions && !(self.motion && has_run);
+        let forces = self.run.reactions && !(self.motion && has_run);
         if forces || named && self.motion && !has_run {
             let help = match has_run {
                 true => "do without --no-motion",
@@ -97,12 +86,9 @@ impl SweepOptions {
             Source::Turn => true,
             Source::Diagrams => self.diagrams,
             Source::Motion => self.motion,
-            Source::Peaks => self.reactions,
-            Source::Steady => self.steady.is_some(),
-            Source::Flywheel => {
-                let asked = self.steady.as_ref();
-                asked.is_some_and(|asked| asked.fluctuation.is_some())
-            }
+            Source::Peaks => self.run.reactions,
+            Source::Steady => self.steady,
+            Source::Flywheel => self.fluctuation.is_some(),
         }
     }
 }

@@ -9,9 +9,7 @@ use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Period, Scene, Slider, Table,
     Variable, Variables,
 };
-use slider_crank::simulate::{
-    Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
-};
+use slider_crank::simulate::{Options, SteadyState, Summary, simulate, steady_state};
 
 const INERTIA: f64 = 0.02;
 
@@ -221,7 +219,7 @@ fn a_blow_in_one_turn_is_not_repeated_in_all() {
 }
 
 fn steady(scene: &Scene) -> SteadyState {
-    steady_state(scene, &SteadyOptions::default()).unwrap()
+    steady_state(scene, None, &Options::default()).unwrap()
 }
 
 /// Compares a steady state with the speed, least and largest speed and time of the last cycle of a motion.
@@ -344,11 +342,7 @@ fn steady_states_with_friction_at_the_guide_and_tables_over_x() {
 fn a_flywheel_for_a_four_stroke_engine() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/four-stroke.toml");
     let scene = Scene::load(&path).unwrap();
-    let options = SteadyOptions {
-        fluctuation: Some(0.02),
-        ..SteadyOptions::default()
-    };
-    let found = steady_state(&scene, &options).unwrap();
+    let found = steady_state(&scene, Some(0.02), &Options::default()).unwrap();
     assert_eq!(found.cycle_turns, 2);
     // Reference: DOP853 of SciPy between the rows of the table, with the speeds at 200 angles of each piece.
     for (estimated, expected) in [

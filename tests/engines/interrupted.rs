@@ -10,9 +10,7 @@ use slider_crank::scene::{
     Clearance, ContactLaw, Crank, Draft, Friction, Instant, Joint, Load, Period, Rod, Scene,
     Slider, Variables,
 };
-use slider_crank::simulate::{
-    Options, SteadyOptions, Summary, Why, simulate, simulate_rows, steady_state,
-};
+use slider_crank::simulate::{Options, Summary, Why, simulate, simulate_rows, steady_state};
 use slider_crank::sweep::{Sweep, SweepOptions};
 
 /// Largest number of evaluations after the request: current panels and steps, and tables of a turn.
@@ -156,19 +154,17 @@ fn searches_and_sweeps_say_that_they_are_interrupted() {
     let (load, stop, count) = asking(Variables::THETA.or(Variables::OMEGA), 2000, |now| {
         0.5 + 0.2 * now.theta.sin() - 0.01 * now.omega
     });
-    let options = SteadyOptions {
+    let options = Options {
         stop: Some(stop),
-        ..SteadyOptions::default()
+        ..Options::default()
     };
-    let found = steady_state(&machine().torque(load.with_period(period)), &options);
+    let found = steady_state(&machine().torque(load.with_period(period)), None, &options);
     assert!(matches!(found, Err(Error::Interrupted)), "{found:?}");
     assert!(count.load(Ordering::Relaxed) < 2000 + BEYOND);
 
     let stop = Stop::default();
-    let options = SweepOptions {
-        stop: Some(stop.clone()),
-        ..SweepOptions::default()
-    };
+    let mut options = SweepOptions::default();
+    options.run.stop = Some(stop.clone());
     let rods = "geometry.rod=150mm:160mm:100000".parse().expect("values");
     let sweep = Sweep::new(Draft::duarte(), vec![rods], options).expect("a sweep");
     let plain = Sweep::new(

@@ -7,9 +7,7 @@ use slider_crank::scene::{
     Branch, Crank, Every, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider,
     Table, Variable, Variables,
 };
-use slider_crank::simulate::{
-    Options, Simulation, SteadyOptions, simulate, simulate_rows, steady_state,
-};
+use slider_crank::simulate::{Options, Simulation, simulate, simulate_rows, steady_state};
 
 const R: f64 = 0.05;
 const L: f64 = 0.15;
@@ -84,7 +82,7 @@ fn the_faster_of_two_almost_equal_places_of_a_turn_is_found() {
         }))
         .torque(Load::Viscous(0.173_659_533_435_254_9))
         .start(2.760_762_601_304_997_5, 30.327_356_593_953_205);
-    let steady = steady_state(&scene, &SteadyOptions::default()).expect("a steady state");
+    let steady = steady_state(&scene, None, &Options::default()).expect("a steady state");
     let options = Options {
         method: Method::Dop853,
         ..Options::default()
@@ -304,7 +302,7 @@ fn a_cycle_that_jams_is_named() {
     let run = simulate(&scene.clone().revolutions(1.0), &Options::default()).expect("a run");
     let stopped = run.summary.stopped.expect("a jam").to_string();
     assert!(stopped.contains("jams"), "{stopped}");
-    let said = steady_state(&scene, &SteadyOptions::default()).unwrap_err();
+    let said = steady_state(&scene, None, &Options::default()).unwrap_err();
     let said = said.to_string();
     assert!(
         said.contains("jams") && !said.contains("not smooth"),

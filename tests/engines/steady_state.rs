@@ -10,28 +10,19 @@ use slider_crank::plan::Method;
 use slider_crank::scene::{
     Branch, Clearance, Crank, Friction, Gravity, Joint, Load, Period, Rod, Scene, Slider, Variables,
 };
-use slider_crank::simulate::{
-    Estimated, Options, SteadyOptions, SteadyState, Summary, simulate, steady_state,
-};
+use slider_crank::simulate::{Estimated, Options, SteadyState, Summary, simulate, steady_state};
 
 fn steady(scene: &Scene) -> SteadyState {
-    steady_state(scene, &SteadyOptions::default()).unwrap()
+    steady_state(scene, None, &Options::default()).unwrap()
 }
 
 fn sized(scene: &Scene, fluctuation: f64) -> SteadyState {
-    let options = SteadyOptions {
-        fluctuation: Some(fluctuation),
-        ..SteadyOptions::default()
-    };
-    steady_state(scene, &options).unwrap()
+    steady_state(scene, Some(fluctuation), &Options::default()).unwrap()
 }
 
 fn refused(scene: &Scene, fluctuation: Option<f64>, words: &[&str]) {
-    let options = SteadyOptions {
-        fluctuation,
-        ..SteadyOptions::default()
-    };
-    let said = steady_state(scene, &options).unwrap_err().to_string();
+    let said = steady_state(scene, fluctuation, &Options::default());
+    let said = said.unwrap_err().to_string();
     for word in words {
         assert!(said.contains(word), "{word}: {said}");
     }
@@ -407,11 +398,7 @@ fn a_flywheel_costs_few_steady_states() {
             coefficient: 0.1,
             static_coefficient: 0.1,
         });
-        let options = SteadyOptions {
-            fluctuation,
-            ..SteadyOptions::default()
-        };
-        steady_state(&scene, &options).unwrap();
+        steady_state(&scene, fluctuation, &Options::default()).unwrap();
         count.load(Relaxed)
     };
     let [without, with] = [None, Some(1e-3)].map(evaluations);

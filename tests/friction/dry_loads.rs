@@ -8,7 +8,7 @@ use slider_crank::scene::{
     Crank, Expression, Friction, Gravity, Interpolation, Load, Rod, Scene, Slider, Table, Variable,
 };
 use slider_crank::simulate::{
-    Options, Row, Simulation, SteadyOptions, Summary, simulate, simulate_rows, steady_state,
+    Options, Row, Simulation, Summary, simulate, simulate_rows, steady_state,
 };
 
 use crate::support::machines::machine;
@@ -284,7 +284,7 @@ fn a_motor_and_a_brake_agree_on_a_speed() {
             no_load_speed: 100.0 * sense,
         };
         let scene = wheel(0.02).torque(motor).torque(Load::dry(2.0));
-        let found = steady_state(&scene.start(0.0, 20.0 * sense), &SteadyOptions::default());
+        let found = steady_state(&scene.start(0.0, 20.0 * sense), None, &Options::default());
         let found = found.expect("a steady state");
         let near = |value: f64, expected: f64| {
             assert!((value - expected).abs() < 1e-9, "{value} for {expected}");

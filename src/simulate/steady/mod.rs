@@ -13,43 +13,19 @@ use super::second_run::MARGIN;
 use crate::error::Error;
 use crate::mechanism::{Class, Limits, Linkage};
 use crate::numeric::fourier;
-use crate::numeric::stop::Stop;
 use crate::plan::Cycle;
 use crate::scene::{MotionKind, Scene};
 use periodic_orbit::{PeriodicOrbit, find};
 pub use result::{Estimated, Flywheel, LoadWork, SpeedExtreme, SpeedOrder, SteadyState};
 
-/// Options of a search for the steady state.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SteadyOptions {
-    /// Coefficient of fluctuation for which a flywheel is wanted.
-    pub fluctuation: Option<f64>,
-    /// Largest number of evaluations of the loads in each search.
-    pub max_evaluations: u64,
-    /// Request to stop; the search then ends with [`Error::Interrupted`].
-    pub stop: Option<Stop>,
-}
-
-impl Default for SteadyOptions {
-    fn default() -> SteadyOptions {
-        SteadyOptions {
-            fluctuation: None,
-            max_evaluations: Options::default().max_evaluations,
-            stop: None,
-        }
-    }
-}
-
-impl SteadyOptions {
-    /// Refuses a coefficient of fluctuation that no flywheel gives.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        match self.fluctuation {
-            Some(wanted) if !(wanted > 0.0 && wanted < 2.0) => Err(Error::refused(
-                format!("a coefficient of fluctuation of {wanted} is asked for"),
-                "give a number between 0 and 2, like 0.02",
-            )),
-            _ => Ok(()),
-        }
+/// Refuses a coefficient of fluctuation that no flywheel gives.
+pub(crate) fn check_fluctuation(wanted: Option<f64>) -> Result<(), Error> {
+    match wanted {
+        Some(wanted) if !(wanted > 0.0 && wanted < 2.0) => Err(Error::refused(
+            format!("a coefficient of fluctuation of {wanted} is asked for"),
+            "give a number between 0 and 2, like 0.02",
+        )),
+        _ => Ok(()),
     }
 }
 
@@ -59,6 +35,9 @@ impl SteadyOptions {
 /// Where no load depends on the speed and a turn gains no energy, every speed is periodic: the start speed is then the
 /// steady one.
 ///
+/// `fluctuation` is the coefficient of fluctuation for which a flywheel is wanted. Of the options, the work limit holds
+/// for each search, and a request to stop ends it.
+///
 /// # Errors
 /// [`Error::Scene`] for impossible values, [`Error::Refused`] with the reason where there is no periodic motion
 /// or no flywheel, or where the crank angle cannot be the independent variable; [`Error::Incomplete`] at the work limit;
@@ -66,17 +45,21 @@ impl SteadyOptions {
 ///
 /// ```
 /// use slider_crank::scene::{Crank, Load, Scene};
-/// use slider_crank::simulate::{SteadyOptions, steady_state};
+/// use slider_crank::simulate::{Options, steady_state};
 /// let scene = Scene::new(0.05, 0.15)
 ///     .crank(Crank { inertia: 0.02, ..Crank::default() })
 ///     .torque(Load::Constant(3.0))
 ///     .torque(Load::Viscous(0.1))
 ///     .start(0.0, 5.0);
-/// let steady = steady_state(&scene, &SteadyOptions::default()).unwrap();
+/// let steady = steady_state(&scene, None, &Options::default()).unwrap();
 /// assert!((steady.omega_mean_rad_per_s.value - 30.0).abs() < 1e-11);
 /// ```
-pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
-    let found = search(scene, options);
+pub fn steady_state(
+    scene: &Scene,
+    fluctuation: Option<f64>,
+    options: &Options,
+) -> Result<SteadyState, Error> {
+    let found = search(scene, fluctuation, options);
     match &options.stop {
         // Interrupted cycles look like those of a crank that stops.
         Some(stop) if stop.is_requested() => Err(Error::Interrupted),
@@ -84,8 +67,12 @@ pub fn steady_state(scene: &Scene, options: &SteadyOptions) -> Result<SteadyStat
     }
 }
 
-fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> {
-    options.check()?;
+fn search(
+    scene: &Scene,
+    fluctuation: Option<f64>,
+    options: &Options,
+) -> Result<SteadyState, Error> {
+    check_fluctuation(fluctuation)?;
     refuse_what_has_none(scene)?;
     let rests = scene.motion.speed == 0.0;
     let of_runs = &Options {
@@ -99,8 +86,7 @@ fn search(scene: &Scene, options: &SteadyOptions) -> Result<SteadyState, Error> 
     let speed = found.cycle.speed;
     let mut steady = Verified::new(scene, found, of_runs)?.described(scene);
     steady.approached_from_start = (!rests).then_some(approached);
-    steady.flywheel = options
-        .fluctuation
+    steady.flywheel = fluctuation
         .map(|wanted| flywheel::size(scene, speed, &steady.fluctuation, wanted, of_runs))
         .transpose()?;
     let notes = [
