@@ -59,7 +59,6 @@ pub fn kinematics<'py>(
         sensitivity,
         change: change.collect::<PyResult<_>>()?,
         offsets: Vec::new(),
-        iterate_from: None,
     };
     let asked = scene.get();
     let (turn, table, summary) = call::run(py, |call| {

@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args};
 
 use super::outputs::Outputs;
 use super::streams::origin;
-use super::values::{angle, any_length, check_rows_of_turn, length, positive_angle};
+use super::values::{any_length, check_rows_of_turn, length, positive_angle};
 use super::watch::say;
 use crate::error::Error;
 use crate::kinematics::{Length, TurnOptions, one_turn, size_from_stroke};
@@ -55,9 +55,6 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     rod_ratio: Option<f64>,
-    /// Closes the loop by Newton-Raphson too, from this guess of the rod's angle seen from the slider, like "180 deg"
-    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true)]
-    newton_guess: Option<f64>,
     /// Draws a diagram of the forces in place of columns: turning-moment, pressure-volume, polar, orders or balance
     #[arg(long, value_name = "NAME", value_parser = diagram, requires = "plot", conflicts_with_all = ["show", "over"])]
     diagram: Option<Diagram>,
@@ -79,7 +76,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
         sensitivity: arguments.sensitivity,
         change: arguments.change.clone(),
         offsets: arguments.with_offset.clone(),
-        iterate_from: arguments.newton_guess,
     };
     let result = one_turn(&scene, &options)?;
     let report = TurnReport {

@@ -15,8 +15,6 @@ pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosit
 pub use diagrams::{Counterweight, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 pub use offsets::{OffsetExtremes, offset_extremes};
-pub use one_turn::{
-    LengthSlope, LoopCheck, MOST_ROWS_OF_TURN, OneTurn, TurnOptions, TurnRow, one_turn,
-};
+pub use one_turn::{LengthSlope, MOST_ROWS_OF_TURN, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use synthesis::{Choice, Synthesis, synthesis};
 pub use turning_moment::{Area, TurningMoment};

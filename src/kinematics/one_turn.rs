@@ -1,5 +1,5 @@
-//! One turn, or the cycle of the loads: kinematics of a scene with forces, sensitivities, the effect of changed
-//! lengths, and loop closure by Newton-Raphson as a check, as far as asked for.
+//! One turn, or the cycle of the loads: kinematics of a scene with forces, sensitivities, and the effect of changed
+//! lengths, as far as asked for.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use super::diagrams::Diagrams;
 use super::forces::{ForceAnalysis, ForceRow, forces};
 use super::offsets::{OffsetExtremes, offset_extremes};
 use crate::error::Error;
-use crate::mechanism::{Length, Linkage, TorqueSlope};
+use crate::mechanism::{Length, TorqueSlope};
 use crate::numeric::angle;
 use crate::scene::{LARGEST_VALUE, Scene};
 
@@ -28,8 +28,6 @@ pub struct TurnOptions {
     pub change: Vec<(Length, f64)>,
     /// Offsets (m) whose extremes are listed.
     pub offsets: Vec<f64>,
-    /// Guess of the rod's angle as seen from the slider, rad, for a loop closure by Newton-Raphson.
-    pub iterate_from: Option<f64>,
 }
 
 /// One turn of a mechanism.
@@ -50,33 +48,11 @@ pub struct OneTurn {
     /// Extremes with other offsets.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub offsets: Vec<OffsetExtremes>,
-    /// Loop closure by iteration.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub loop_closure: Option<LoopCheck>,
     #[serde(skip)]
     has_slopes: bool,
     /// Derivatives of the driving torque; none if not asked for or not known.
     #[serde(skip)]
     torque_slope: Option<TorqueSlope>,
-}
-
-/// Loop closure by Newton-Raphson from one guess for every degree of a turn.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct LoopCheck {
-    /// Guess of the rod's angle as seen from the slider, rad.
-    pub guess_rad: f64,
-    /// Least number of Newton-Raphson steps.
-    pub iterations_min: u32,
-    /// Greatest number of Newton-Raphson steps.
-    pub iterations_max: u32,
-    /// Number of crank angles whose solution lies on the scene's branch.
-    pub on_branch: usize,
-    /// Number of crank angles whose solution lies on the other branch.
-    pub on_other_branch: usize,
-    /// Number of crank angles at which the iteration does not converge.
-    pub failed: usize,
-    /// Largest distance of x from the closed form on the same branch, m.
-    pub worst_x_m: f64,
 }
 
 /// Row of a turn: the kinematics and the quantities asked for.
@@ -144,9 +120,6 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
         forces,
         changed: changed(scene, &options.change)?,
         offsets: offset_extremes(scene, &options.offsets)?,
-        loop_closure: options
-            .iterate_from
-            .map(|guess| check_loop(&kinematics.linkage, guess)),
         kinematics,
         has_slopes: options.sensitivity,
         torque_slope: torque_slope.and_then(Result::ok),
@@ -174,32 +147,6 @@ fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>
     }
     // Only the lengths count; the rod's centre of gravity may lie anywhere.
     kinematics(&scene).map(Some)
-}
-
-fn check_loop(linkage: &Linkage, guess: f64) -> LoopCheck {
-    let mut check = LoopCheck {
-        guess_rad: guess,
-        iterations_min: u32::MAX,
-        ..LoopCheck::default()
-    };
-    for theta in angle::turn(1f64.to_radians()) {
-        // A tolerance of 1e-9 crank lengths equals Gupta's 1e-6 mm for a crank of one metre.
-        let Some(found) = linkage.close_loop(theta, (guess, 0.0), 1e-9 * linkage.r) else {
-            check.failed += 1;
-            continue;
-        };
-        check.iterations_min = check.iterations_min.min(found.iterations);
-        check.iterations_max = check.iterations_max.max(found.iterations);
-        if found.branch == linkage.s {
-            check.on_branch += 1;
-            let error = (found.x - linkage.pose(theta).x).abs();
-            check.worst_x_m = check.worst_x_m.max(error);
-        } else {
-            check.on_other_branch += 1;
-        }
-    }
-    check.iterations_min = check.iterations_min.min(check.iterations_max);
-    check
 }
 
 impl OneTurn {

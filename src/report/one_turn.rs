@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::curves::CURVE_STEP;
 use super::diagrams::{self, Diagram};
-use super::key_values::{Facts, degrees, fact, given, six};
+use super::key_values::{Facts, fact, given, six};
 use super::rows::{REACTIONS, reactions};
 use super::text::{NAME_WIDTH, extreme, kinematics};
 use super::{DefaultView, Report, Table, View};
@@ -81,21 +81,6 @@ impl Report for TurnReport<'_> {
         for with in &result.offsets {
             let name = format!("with offset {} m", given(with.offset_m));
             facts.add(name, offset(with, unit));
-        }
-        if let Some(check) = &result.loop_closure {
-            fact!(
-                facts,
-                "Newton-Raphson",
-                "from {} deg: {} to {} steps; {} angles on the scene's branch, {} on the other, {} without end",
-                degrees(check.guess_rad),
-                check.iterations_min,
-                check.iterations_max,
-                check.on_branch,
-                check.on_other_branch,
-                check.failed
-            );
-            let worst = check.worst_x_m;
-            fact!(facts, "  off the closed form", "{worst:.1e} m");
         }
         facts
     }

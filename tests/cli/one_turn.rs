@@ -1,4 +1,4 @@
-//! `kinematics` with forces, sensitivities, changed lengths, sizing and the iterative loop closure.
+//! `kinematics` with forces, sensitivities, changed lengths and sizing.
 
 use super::program::{Folder, PUMP, Rows, at, close, repository};
 
@@ -143,17 +143,6 @@ fn a_torque_of_unknown_slope_is_left_out() {
             .all(Option::is_none)
     );
     assert!(rows.cells_of("a_by_rod_per_s2").iter().all(Option::is_some));
-}
-
-#[test]
-fn the_iterated_loop_is_the_closed_form() {
-    let (summary, _) = run(&["--newton-guess", "180 deg"]);
-    assert_eq!(at(&summary, "loop_closure.on_branch"), 361.0);
-    assert!(at(&summary, "loop_closure.worst_x_m") < 1e-9);
-    let (summary, _) = run(&["--newton-guess", "0 deg"]);
-    assert_eq!(at(&summary, "loop_closure.on_other_branch"), 361.0);
-    let (summary, _) = run(&["--newton-guess", "90 deg"]);
-    assert!(at(&summary, "loop_closure.on_branch") < 361.0, "{summary}");
 }
 
 #[test]
