@@ -58,7 +58,6 @@ pub fn kinematics<'py>(
         balance: Some(0.5),
         sensitivity,
         change: change.collect::<PyResult<_>>()?,
-        offsets: Vec::new(),
     };
     let asked = scene.get();
     let (turn, table, summary) = call::run(py, |call| {

@@ -41,9 +41,6 @@ pub(super) struct Arguments {
     /// Compares with a changed length, like "crank=150 mm"; keys crank, rod, offset; may be given again
     #[arg(long, value_name = "KEY=LENGTH", value_parser = change)]
     change: Vec<(Length, f64)>,
-    /// Lists the extremes with another offset, like "10 mm"; may be given again
-    #[arg(long, value_name = "LENGTH", value_parser = any_length, allow_hyphen_values = true)]
-    with_offset: Vec<f64>,
     /// Sizes crank and rod for this stroke, like "80 mm", at the scene's offset
     #[arg(long, value_name = "LENGTH", value_parser = length, requires = "rod_ratio", allow_hyphen_values = true)]
     stroke: Option<f64>,
@@ -75,7 +72,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
         balance: Some(arguments.balance),
         sensitivity: arguments.sensitivity,
         change: arguments.change.clone(),
-        offsets: arguments.with_offset.clone(),
     };
     let result = one_turn(&scene, &options)?;
     let report = TurnReport {

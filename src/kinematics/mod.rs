@@ -3,7 +3,6 @@
 mod closed_form;
 mod diagrams;
 mod forces;
-mod offsets;
 mod one_turn;
 mod synthesis;
 mod turning_moment;
@@ -14,7 +13,6 @@ pub(crate) use closed_form::of_checked;
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use diagrams::{Counterweight, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
-pub use offsets::{OffsetExtremes, offset_extremes};
 pub use one_turn::{LengthSlope, MOST_ROWS_OF_TURN, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use synthesis::{Choice, Synthesis, synthesis};
 pub use turning_moment::{Area, TurningMoment};

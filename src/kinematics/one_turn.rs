@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::closed_form::{Kinematics, KinematicsRow, kinematics};
 use super::diagrams::Diagrams;
 use super::forces::{ForceAnalysis, ForceRow, forces};
-use super::offsets::{OffsetExtremes, offset_extremes};
 use crate::error::Error;
 use crate::mechanism::{Length, TorqueSlope};
 use crate::numeric::angle;
@@ -26,8 +25,6 @@ pub struct TurnOptions {
     pub sensitivity: bool,
     /// Lengths (m) of a second mechanism, which is compared with the first.
     pub change: Vec<(Length, f64)>,
-    /// Offsets (m) whose extremes are listed.
-    pub offsets: Vec<f64>,
 }
 
 /// One turn of a mechanism.
@@ -45,9 +42,6 @@ pub struct OneTurn {
     /// Kinematics of the mechanism with changed lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed: Option<Kinematics>,
-    /// Extremes with other offsets.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub offsets: Vec<OffsetExtremes>,
     #[serde(skip)]
     has_slopes: bool,
     /// Derivatives of the driving torque; none if not asked for or not known.
@@ -119,7 +113,6 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
         diagrams: balanced.and_then(|(forces, part)| forces.diagrams(scene, part)),
         forces,
         changed: changed(scene, &options.change)?,
-        offsets: offset_extremes(scene, &options.offsets)?,
         kinematics,
         has_slopes: options.sensitivity,
         torque_slope: torque_slope.and_then(Result::ok),

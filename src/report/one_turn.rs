@@ -9,7 +9,7 @@ use super::rows::{REACTIONS, reactions};
 use super::text::{NAME_WIDTH, extreme, kinematics};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
-use crate::kinematics::{Located, OffsetExtremes, OneTurn, StrokeTorque, TurnRow};
+use crate::kinematics::{OneTurn, StrokeTorque, TurnRow};
 use crate::scene::Scene;
 
 const POSITION: &str =
@@ -76,11 +76,6 @@ impl Report for TurnReport<'_> {
         forces(&mut facts, result);
         if let Some(found) = &result.diagrams {
             diagrams::facts(&mut facts, found);
-        }
-        let unit = if self.moves() { "m/s2" } else { "m/rad2" };
-        for with in &result.offsets {
-            let name = format!("with offset {} m", given(with.offset_m));
-            facts.add(name, offset(with, unit));
         }
         facts
     }
@@ -215,21 +210,4 @@ fn forces(facts: &mut Facts, result: &OneTurn) {
             fact!(facts, name, "{min} to {max}");
         }
     }
-}
-
-/// Returns stroke and extremes with another offset as text; `unit` is that of the acceleration.
-fn offset(with: &OffsetExtremes, unit: &str) -> String {
-    let mut line = format!("stroke {} m", six(with.stroke_m));
-    let mut add = |name: &str, found: Option<Located>, unit: &str| {
-        if let Some(found) = found {
-            let _ = write!(line, "; {name} {}", extreme(&found, unit));
-        }
-    };
-    add("largest acceleration", with.acceleration_max, unit);
-    add("smallest", with.acceleration_min, unit);
-    for (name, stroke) in [("outward", with.outward), ("inward", with.inward)] {
-        add(&format!("{name} torque from"), stroke.map(|s| s.min), "N m");
-        add("to", stroke.map(|s| s.max), "N m");
-    }
-    line
 }

@@ -308,14 +308,7 @@ fn people_see_six_digits_where_no_error_is_known() {
             "--no-estimate",
         ][..],
         &["kinematics", "scene.toml", "--forces"],
-        &[
-            "kinematics",
-            "scene.toml",
-            "--with-offset",
-            "1 mm",
-            "--change",
-            "rod=151 mm",
-        ],
+        &["kinematics", "scene.toml", "--change", "rod=151 mm"],
         &["statics", "scene.toml", "--torque", "0.3 N m"],
     ] {
         let text = folder.run(arguments).done().stdout;
