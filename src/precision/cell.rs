@@ -47,7 +47,6 @@ pub(super) fn tight_runs(
             theta_error: error.theta_rad,
             omega_error: error.omega_rad_per_s,
             ends_at: None,
-            slider: None,
         };
         Some((Some((run.plan.engine, run.plan.stepper)), reference))
     });
@@ -67,7 +66,6 @@ pub(super) fn closed_form(scene: &Scene, t_end: f64) -> Reference {
         theta_error: DoubleDouble::ROUNDING * theta.value().abs(),
         omega_error: 0.0,
         ends_at: None,
-        slider: None,
     }
 }
 
@@ -160,12 +158,6 @@ impl MethodRun {
         row.error_theta_rad = Some(theta);
         row.error_omega_rad_per_s = Some(omega);
         row.error_is_bound = theta_bound || omega_bound;
-        if let (Some((x, own)), Some(joint)) = (reference.slider, &summary.clearance) {
-            let (distance, bound) = error(joint.last.x_m, x, own);
-            row.error_slider_x_m = Some(distance);
-            row.estimate_slider_x_m = joint.last.error_x_m;
-            row.error_is_bound |= bound;
-        }
         row
     }
 }

@@ -55,17 +55,11 @@ pub struct PrecisionRow {
     pub wall_median_s: Option<f64>,
     /// Number of timed runs.
     pub runs: usize,
-    /// Error of the slider position at the end, m, for a scene with a loose joint.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error_slider_x_m: Option<f64>,
-    /// Estimated error of the slider position, m, as stated by the run; none beyond the horizon of predictability.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub estimate_slider_x_m: Option<f64>,
     /// Number of evaluations of the equation.
     pub evaluations: Option<u64>,
     /// Number of steps.
     pub steps: Option<u64>,
-    /// Whether any error (angle, speed, slider) is less than a hundred times that of the reference: the error stated is
+    /// Whether an error (angle, speed) is less than a hundred times that of the reference: the error stated is
     /// then the sum of the distance from the reference and the error of the reference.
     pub error_is_bound: bool,
     /// Reference of this row, if it differs from that of the scene.
@@ -163,8 +157,6 @@ pub struct Reference {
     pub omega_error: f64,
     /// Time at which the equations end, s, if before the end of the run.
     pub ends_at: Option<f64>,
-    /// Slider position and its error bound, m, for a scene with a loose joint.
-    pub slider: Option<(DoubleDouble, f64)>,
 }
 
 /// Function from scene, end time (s) and maximum number of evaluations to the reference state, if it finds one.

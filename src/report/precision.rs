@@ -114,7 +114,7 @@ fn line(row: &PrecisionRow) -> String {
     aligned(&COLUMN_WIDTHS, name.chain(cells))
 }
 
-/// Returns notes on the rows: methods left out, bounds, failures, other references, slider errors.
+/// Returns notes on the rows: methods left out, bounds, failures, other references.
 pub fn precision_notes(scene: &Precision) -> Vec<String> {
     let mut notes: Vec<String> = scene.left_out.clone();
     if scene.rows.iter().any(|row| row.error_is_bound) {
@@ -147,18 +147,6 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
                 Some((_, tolerances)) => tolerances.push(tolerance),
                 None => said.push((text, vec![tolerance])),
             }
-        }
-    }
-    for row in &scene.rows {
-        if let Some(error) = row.error_slider_x_m {
-            let stated = row.estimate_slider_x_m.map_or(
-                "none stated: beyond the horizon of what is reproducible".to_owned(),
-                |stated| format!("{stated:.1e} m stated"),
-            );
-            notes.push(format!(
-                "tolerance {:.0e}: error of the slider's position {error:.1e} m, {stated}",
-                row.tolerance
-            ));
         }
     }
     let say = |(text, tolerances): (String, Vec<String>)| {

@@ -1,7 +1,7 @@
 //! Comparison of methods, and its reference.
 
 use crate::support::machines::{leaning, rubbing};
-use crate::support::reference::precision;
+use crate::support::reference::{precision, slider};
 use slider_crank::plan::Method;
 use slider_crank::precision::{Precision, PrecisionOptions, PrecisionRow};
 use slider_crank::scene::{
@@ -324,16 +324,22 @@ fn a_loose_joint_has_its_rows() {
             for (error, stated) in [
                 (row.error_theta_rad, row.estimate_theta_rad),
                 (row.error_omega_rad_per_s, row.estimate_omega_rad_per_s),
-                (row.error_slider_x_m, row.estimate_slider_x_m),
             ] {
                 let (error, stated) = (error.unwrap(), stated.unwrap());
                 assert!(error <= 2.0 * stated, "{joint:?} {row:?}");
             }
         }
-        let errors: Vec<f64> = result
-            .rows
+        let (x, own) = slider(&scene, 6e-3).unwrap();
+        let errors: Vec<f64> = [1e-6, 1e-9, 1e-12]
             .iter()
-            .map(|r| r.error_slider_x_m.unwrap())
+            .map(|tolerance| {
+                let scene = scene.clone().tolerance(*tolerance);
+                let run = simulate(&scene, &Options::default()).unwrap();
+                let last = run.summary.clearance.unwrap().last;
+                let error = (x - last.x_m).value().abs() + own;
+                assert!(error <= 2.0 * last.error_x_m.unwrap(), "{joint:?} {last:?}");
+                error
+            })
             .collect();
         assert!(errors[1] < errors[0] && errors[2] < errors[1], "{errors:?}");
         assert!(errors[2] < 1e-12, "{errors:?}");

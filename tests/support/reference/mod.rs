@@ -9,11 +9,12 @@ mod loose;
 mod whole;
 
 use extended::Extended;
-use extrapolation::Fineness;
+use extrapolation::{Fineness, State};
 use guided::Guided;
 use loose::Loose;
 use slider_crank::error::Error;
 use slider_crank::mechanism::{Class, Equation, Limits, Linkage};
+use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::precision::{Precision, PrecisionOptions, Reference, precision_against};
 use slider_crank::scene::{MotionKind, Scene};
 use whole::distance;
@@ -60,17 +61,12 @@ fn in_pieces(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
         theta_error: distance(coarse[1], fine[1]),
         omega_error: distance(coarse[2], fine[2]),
         ends_at: ends.then(|| fine[0].value()),
-        slider: None,
     })
 }
 
 /// Returns the reference of motions with a loose joint.
 fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
-    let extended = Extended::new(scene, t_end);
-    let loose = Loose::new(scene, &extended)?;
-    let [coarse, fine] = twice(&extended, evaluations, |fineness| {
-        loose.end(t_end, fineness)
-    })?;
+    let [coarse, fine] = loose_ends(scene, t_end, evaluations)?;
     Some(Reference {
         what: WHAT.to_owned(),
         theta: fine[1],
@@ -78,7 +74,24 @@ fn loose(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference> {
         theta_error: distance(coarse[1], fine[1]),
         omega_error: distance(coarse[4], fine[4]),
         ends_at: None,
-        slider: Some((fine[3], distance(coarse[3], fine[3]))),
+    })
+}
+
+/// Returns the slider position of a scene with a loose joint at a time (s), and its error bound, m.
+pub fn slider(scene: &Scene, t_end: f64) -> Option<(DoubleDouble, f64)> {
+    let [coarse, fine] = loose_ends(scene, t_end, PrecisionOptions::default().max_evaluations)?;
+    Some((fine[3], distance(coarse[3], fine[3])))
+}
+
+fn loose_ends(
+    scene: &Scene,
+    t_end: f64,
+    evaluations: u64,
+) -> Option<[State<{ loose::NUMBERS }>; 2]> {
+    let extended = Extended::new(scene, t_end);
+    let loose = Loose::new(scene, &extended)?;
+    twice(&extended, evaluations, |fineness| {
+        loose.end(t_end, fineness)
     })
 }
 

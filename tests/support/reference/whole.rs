@@ -44,7 +44,6 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
             theta_error: theta.value().abs() * RESULT_ROUNDING,
             omega_error: 0.0,
             ends_at: None,
-            slider: None,
         });
     }
     // The reference equations do not include dry loads; friction and limits divide a motion into pieces.
@@ -86,7 +85,6 @@ pub fn extended(scene: &Scene, t_end: f64, evaluations: u64) -> Option<Reference
         theta_error: distance(coarse.theta, fine.theta),
         omega_error: distance(coarse.omega, fine.omega),
         ends_at: None,
-        slider: None,
     })
 }
 

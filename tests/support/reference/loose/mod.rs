@@ -12,7 +12,7 @@ use slider_crank::numeric::double_double::DoubleDouble;
 use slider_crank::scene::{Clearance, ContactLaw, MotionKind, Rod, RodModel, Scene};
 
 /// Number of state variables: time, θ, ψ, x and their rates.
-const NUMBERS: usize = 7;
+pub(super) const NUMBERS: usize = 7;
 /// Number of margins: of the depth, of the damping factor, and of the sliding speed.
 const MARGINS: usize = 3;
 
