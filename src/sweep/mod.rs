@@ -210,18 +210,6 @@ impl Sweep {
         Design::new(index, values, scene, &self.options)
     }
 
-    /// Computes designs on all cores and passes them to `take` in order, in batches.
-    ///
-    /// # Errors
-    /// Errors of `take`; [`Error::Interrupted`].
-    pub fn designs(
-        &self,
-        range: Range<usize>,
-        take: impl FnMut(Vec<Design>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        self.map_designs(range, |design| design, take)
-    }
-
     /// Computes designs on all cores, keeps of each what `make` returns, and passes that to `take` in order, in batches.
     ///
     /// # Errors

@@ -174,14 +174,12 @@ fn searches_and_sweeps_say_that_they_are_interrupted() {
     );
     assert_eq!(sweep.identity(), plain.expect("a sweep").identity());
     let mut taken = 0;
-    let end = sweep.designs(0..sweep.len(), |designs| {
-        let complete = |design: &slider_crank::sweep::Design| {
-            design
-                .motion
-                .as_ref()
-                .is_some_and(|motion| motion.stopped.is_none())
-        };
-        assert!(designs.iter().all(complete));
+    let complete = |design: slider_crank::sweep::Design| {
+        let motion = design.motion.as_ref();
+        motion.is_some_and(|motion| motion.stopped.is_none())
+    };
+    let end = sweep.map_designs(0..sweep.len(), complete, |designs| {
+        assert!(designs.iter().all(|complete| *complete));
         taken += designs.len();
         stop.request();
         Ok(())
