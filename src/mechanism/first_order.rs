@@ -5,10 +5,6 @@ use super::Linkage;
 /// Slider motion to first order in r/l and e/l: l cos φ taken as l − (e + r sin θ)²/(2 l).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstOrder {
-    /// Slider position, m.
-    pub x: f64,
-    /// x', m/rad.
-    pub dx: f64,
     /// x'', m/rad²; for e = 0 Obaseki & Alfred (52), −r (cos θ + (r/l) cos 2θ).
     pub d2x: f64,
     /// x' x'' without terms of second order, m²; for e = 0 Obaseki & Alfred (53) is −m ω² times this product.
@@ -23,8 +19,6 @@ impl Linkage {
         let (u, cos_2) = (e + r * sin, (cos - sin) * (cos + sin));
         let tilt = r * cos_2 - e * sin;
         FirstOrder {
-            x: r * cos + s * (l - u * u / (2.0 * l)),
-            dx: -r * sin - s * u * r * cos / l,
             d2x: -r * cos - s * r * tilt / l,
             dx_d2x: r * r * (sin * cos + s * (sin * tilt + u * cos * cos) / l),
         }

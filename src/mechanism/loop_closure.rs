@@ -11,13 +11,11 @@ pub struct Closure {
     pub x: f64,
     /// Newton-Raphson steps.
     pub iterations: u32,
-    /// Branch sign of the solution: −1 where cos θ₃ > 0.
-    pub branch: f64,
 }
 
 impl Linkage {
     /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a guess, until
-    /// the norm of the two is at most `tolerance` (m). The solution may lie on either branch; none where the Jacobian
+    /// the norm of the two is at most `tolerance` (m). The solution may lie on either branch, on the left one where cos θ₃ > 0; none where the Jacobian
     /// is singular, with the rod guessed normal to the guide, or after a hundred steps without convergence.
     pub fn close_loop(&self, theta: f64, guess: (f64, f64), tolerance: f64) -> Option<Closure> {
         let Linkage { r, l, e, .. } = *self;
@@ -31,7 +29,6 @@ impl Linkage {
                     theta3,
                     x,
                     iterations,
-                    branch: if cos3 > 0.0 { -1.0 } else { 1.0 },
                 });
             }
             // [l sin θ₃, −1; −l cos θ₃, 0] (δ, ξ) = −(f1, f2).

@@ -20,11 +20,9 @@ named! {
 impl Length {
     /// Returns the derivatives of (r, l, e) with respect to this length.
     fn unit(self) -> [f64; 3] {
-        match self {
-            Length::Crank => [1.0, 0.0, 0.0],
-            Length::Rod => [0.0, 1.0, 0.0],
-            Length::Offset => [0.0, 0.0, 1.0],
-        }
+        let mut unit = [0.0; 3];
+        unit[self as usize] = 1.0;
+        unit
     }
 }
 
@@ -37,8 +35,6 @@ pub struct PoseSlope {
     pub dx: f64,
     /// Derivative of x'', 1/rad²
     pub d2x: f64,
-    /// Derivative of φ, rad/m
-    pub phi: f64,
     /// Derivative of φ', 1/m
     pub dphi: f64,
     /// Derivative of φ'', 1/m
@@ -78,7 +74,6 @@ impl Linkage {
             x: r_p * cos + s * w_p,
             dx: -r_p * sin + s * dw_p,
             d2x: -r_p * cos + s * d2w_p,
-            phi: over_l(u, u_p) / pose.cos_phi,
             dphi: dphi_p,
             d2phi: d2phi_p,
             axis,
