@@ -4,7 +4,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::error::Error;
-use slider_crank::report::{self, PlotRows, Report, RowColumns, RunReport, View};
+use slider_crank::report::{self, PlotRows, Report, RunReport, Table, View};
 use slider_crank::scene::Scene as Plain;
 use slider_crank::simulate::{
     Options, Row, RowSink, Simulation, simulate_rows, simulate_with_rows,
@@ -57,13 +57,13 @@ pub fn simulate<'py>(
     let asked = scene.get();
     let (run, rows, summary) = call::run(py, |call| {
         let (scene, found) = begun(asked, call, tolerance, steady, &options)?;
-        let mut rows = RowColumns::default();
+        let mut rows: Option<Table> = None;
         let mut run = simulate_with_rows(&scene, &with_stop(&options, call), &mut rows)?;
         run.summary.steady_state = found;
         let summary = report::json(&run.summary)?;
         Ok((run, rows, summary))
     })?;
-    let columns = match rows.into_table() {
+    let columns = match rows {
         Some(table) => arrays(py, table)?,
         None => PyDict::new(py),
     };
@@ -131,7 +131,7 @@ impl Run {
         py: Python<'py>,
         t: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let mut rows = RowColumns::default();
+        let mut rows: Option<Table> = None;
         for t in t.as_array() {
             let row = self.run.row(*t).ok_or_else(|| {
                 let last = self.run.summary.last.t_s;
@@ -142,7 +142,7 @@ impl Run {
             })?;
             rows.row(&row).map_err(raised)?;
         }
-        match rows.into_table() {
+        match rows {
             Some(table) => arrays(py, table),
             None => Ok(PyDict::new(py)),
         }

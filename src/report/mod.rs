@@ -52,7 +52,7 @@ pub use presentation::{Report, json};
 pub use reproduce::{
     ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
 };
-pub use rows::{Preview, RowColumns, RowWriter};
+pub use rows::{Preview, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
 pub use statics::{StaticsReport, calibration};
 pub use sweep::{

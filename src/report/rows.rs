@@ -1,4 +1,4 @@
-//! Sinks for the rows of a run: CSV writer, column table, and a preview of few rows.
+//! Sinks for the rows of a run: CSV writer, table of columns, and a preview of few rows.
 
 use super::Output;
 use super::csv::line;
@@ -85,22 +85,10 @@ impl RowSink for RowWriter {
     }
 }
 
-/// Table of all rows of `simulate`.
-#[derive(Debug, Default)]
-pub struct RowColumns {
-    table: Option<Table>,
-}
-
-impl RowColumns {
-    /// Returns the table; none without rows.
-    pub fn into_table(self) -> Option<Table> {
-        self.table
-    }
-}
-
-impl RowSink for RowColumns {
+/// Table of all rows of `simulate`; none without rows.
+impl RowSink for Option<Table> {
     fn row(&mut self, row: &Row) -> Result<(), Error> {
-        let table = self.table.get_or_insert_with(|| Table::new(&header(row)));
+        let table = self.get_or_insert_with(|| Table::new(&header(row)));
         table.push(cells(row));
         Ok(())
     }
