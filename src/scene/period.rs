@@ -148,34 +148,23 @@ impl From<Result<Period, WhyNot>> for Periodicity {
 }
 
 /// Reason why a load over the crank angle does not repeat.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum WhyNot {
     /// The table has no period.
+    #[error("its table over theta has no period")]
     NoPeriod,
     /// The closure states no period.
+    #[error("its code reads theta and states no period")]
     Unstated,
     /// The formula has the angle outside of periodic functions.
+    #[error("theta stands outside of sin, cos, tan and mod")]
     Outside,
     /// The period is no fraction of a turn to the precision of its digits.
+    #[error("its period is no fraction of a turn that its digits tell")]
     Incommensurable,
     /// The load repeats after this number of turns, more than a cycle may have.
+    #[error("it is the same again only after {0} turns")]
     TooLong(f64),
-}
-
-impl fmt::Display for WhyNot {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            WhyNot::NoPeriod => f.write_str("its table over theta has no period"),
-            WhyNot::Unstated => f.write_str("its code reads theta and states no period"),
-            WhyNot::Outside => f.write_str("theta stands outside of sin, cos, tan and mod"),
-            WhyNot::Incommensurable => {
-                f.write_str("its period is no fraction of a turn that its digits tell")
-            }
-            WhyNot::TooLong(turns) => {
-                write!(f, "it is the same again only after {turns} turns")
-            }
-        }
-    }
 }
 
 /// Returns the fraction of the least denominator between two positive numbers, by their continued fractions; none if

@@ -6,8 +6,6 @@ mod pattern;
 mod quantity;
 mod symbol;
 
-use std::fmt;
-
 #[cfg(feature = "cli")]
 use super::Every;
 use super::number;
@@ -17,18 +15,13 @@ pub use quantity::Quantity;
 pub(super) use symbol::Factor;
 
 /// Reason why a text is not the requested quantity.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}; {help}")]
 pub struct UnitError {
     /// Fault, in words.
     pub what: String,
     /// Remedy, in words.
     pub help: String,
-}
-
-impl fmt::Display for UnitError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}; {}", self.what, self.help)
-    }
 }
 
 /// Reads `text` as `quantity` and returns it in SI units and radians.
