@@ -3,7 +3,7 @@
 //! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
 //! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
-use super::prior::{POWERS, Prior, State, Unknown, powers_of};
+use super::prior::{Prior, State, Unknown, powers_of};
 use super::repeating::Repeating;
 use super::transition::exponential;
 use crate::mechanism::{Equation, Terms};
@@ -151,7 +151,7 @@ pub(super) struct Linearised {
     /// Mean ∂θ̈/∂u of the step.
     pub lever: f64,
     /// Mean rates of ω, rad/s², and of ω|ω|, rad²/s³: those at which g₁ and g₂ add to u.
-    pub tilt: [f64; POWERS],
+    pub tilt: [f64; 2],
     /// Intensity of the process noise over the usual one.
     pub intensity: f64,
 }

@@ -6,11 +6,8 @@ pub(super) const ORDERS: usize = 3;
 /// State: θ, ω, u, then the derivatives of u, or g₁ and g₂.
 pub(super) type State = [f64; 2 + ORDERS];
 
-/// Most powers of the speed.
-pub(super) const POWERS: usize = 2;
-
 /// Returns ω and ω|ω|.
-pub(super) fn powers_of(omega: f64) -> [f64; POWERS] {
+pub(super) fn powers_of(omega: f64) -> [f64; 2] {
     [omega, omega * omega.abs()]
 }
 
@@ -136,7 +133,7 @@ pub(super) const FOLLOWING: Prior = Prior {
 
 /// A torque with parts in proportion to the speed and to its square, and a Wiener process.
 pub(super) const QUADRATIC: Prior = Prior {
-    powers: POWERS,
+    powers: 2,
     ..TORQUE
 };
 

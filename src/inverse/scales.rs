@@ -1,6 +1,6 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use super::prior::{POWERS, State};
+use super::prior::State;
 use super::regression::Spectrum;
 
 /// Typical magnitudes along a record.
@@ -17,7 +17,7 @@ pub(super) struct Scales {
     /// Root mean squares of θ̈, rad/s², and its rate, rad/s³: spread of the prior before the first sample.
     pub motion: [f64; 2],
     /// Standard deviations of ω, rad/s, and of ω|ω|, rad²/s², along the record.
-    pub powers: [f64; POWERS],
+    pub powers: [f64; 2],
     /// Root mean square of u along the record, in σ: what a power of the speed that varies by its standard deviation adds to u has
     /// this one.
     pub torque: f64,

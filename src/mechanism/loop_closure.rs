@@ -15,8 +15,9 @@ pub struct Closure {
 
 impl Linkage {
     /// Solves r cos θ − l cos θ₃ − x = 0, e + r sin θ − l sin θ₃ = 0 (Gupta (2), (3)) for θ₃ and x from a guess, until
-    /// the norm of the two is at most `tolerance` (m). The solution may lie on either branch, on the left one where cos θ₃ > 0; none where the Jacobian
-    /// is singular, with the rod guessed normal to the guide, or after a hundred steps without convergence.
+    /// the norm of the two is at most `tolerance` (m). The solution may lie on either branch, on the left one where
+    /// cos θ₃ > 0; none where the Jacobian is singular, with the rod guessed normal to the guide, or after a hundred
+    /// steps without convergence.
     pub fn close_loop(&self, theta: f64, guess: (f64, f64), tolerance: f64) -> Option<Closure> {
         let Linkage { r, l, e, .. } = *self;
         let (mut theta3, mut x) = guess;

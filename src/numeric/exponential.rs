@@ -4,12 +4,6 @@ use std::f64::consts::LOG2_E;
 
 use multiversion::multiversion;
 
-/// ln 2 in two parts (fdlibm, e_exp.c): products of the first with small whole numbers are exact.
-const LN_2: [f64; 2] = [
-    f64::from_bits(0x3FE6_2E42_FEE0_0000),
-    f64::from_bits(0x3DEA_39EF_3579_3C76),
-];
-
 /// Minimax coefficients of r (eʳ + 1)/(eʳ − 1) − 2 in r² on ±½ ln 2 (fdlibm, e_exp.c).
 const SLOPE: [f64; 5] = [
     1.666_666_666_666_660_2e-1,
@@ -42,7 +36,9 @@ fn near_one(exponent: f64) -> f64 {
     let shift = 1.5 / f64::EPSILON;
     let shifted = exponent * LOG2_E + shift;
     let (twos, bits) = (shifted - shift, shifted.to_bits());
-    let (high, low) = (exponent - twos * LN_2[0], twos * LN_2[1]);
+    // ln 2 in two parts (fdlibm, e_exp.c): products of the first with small whole numbers are exact.
+    let ln_2 = [0x3FE6_2E42_FEE0_0000, 0x3DEA_39EF_3579_3C76].map(f64::from_bits);
+    let (high, low) = (exponent - twos * ln_2[0], twos * ln_2[1]);
     let r = high - low;
     let z = r * r;
     let [p1, p2, p3, p4, p5] = SLOPE;
