@@ -178,7 +178,7 @@ mod tests {
             prior: QUADRATIC,
             origin: 0.0,
         };
-        let (g, rest, first) = ([-0.3, -0.004], 4.0, [0.7, 20.0]);
+        let (g, rest, first) = ([-0.3, -0.002], 4.0, [0.7, 20.0]);
         let driven = |omega: f64| rest + g[0] * omega + g[1] * omega * omega.abs();
         let rates = |[theta, omega]: [f64; 2]| {
             [
@@ -214,7 +214,7 @@ mod tests {
                 assert!((unit * defect[k]).abs() < 1e-9, "{h}: {defect:?}");
             }
         }
-        let (defect, stated) = left(0.015);
+        let (defect, stated) = left(0.01);
         for (left, stated) in defect.iter().zip(stated) {
             assert!(
                 (left + stated).abs() < 0.1 * stated.abs(),
