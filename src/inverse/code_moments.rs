@@ -238,4 +238,4 @@ struct OfCodes {
 
 /// Maximum number of priors that are compared by the probability of the codes, and half of those tried for one that
 /// keeps the steps.
-const CANDIDATES: usize = 3;
+const CANDIDATES: usize = 4;
