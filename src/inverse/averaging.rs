@@ -21,8 +21,13 @@ struct Weighed {
     log: f64,
 }
 
-/// Mean squares of the deviations from the likeliest motion at all nodes, with the posterior probability of a model.
-type Squares = (f64, Vec<[f64; 6]>);
+/// What a prior with one intensity makes of the motion.
+struct Model {
+    /// Posterior probability, up to a constant.
+    weight: f64,
+    /// Mean squares of its deviations from the likeliest motion at all nodes, as a covariance has them.
+    squares: Vec<[f64; 6]>,
+}
 
 impl Problem<'_> {
     /// Returns a smoothed motion with its band over all priors and intensities of the process noise. A long record tells its
@@ -32,17 +37,17 @@ impl Problem<'_> {
             return smoothed;
         }
         let mut models = self.over_intensities(&smoothed, &smoothed, 0.0);
-        for (other, log) in smoothed.contenders() {
+        for other in smoothed.contenders() {
             let path = self.path_of(other.prior, &smoothed, self.all());
             let found = self.completed(other.unsmoothed(), path, false);
             if found.converged && found.is_finite() {
-                models.extend(self.over_intensities(&found, &smoothed, log));
+                models.extend(self.over_intensities(&found, &smoothed, smoothed.log_odds(other)));
             }
         }
-        let total: f64 = models.iter().map(|(weight, _)| weight).sum();
+        let total: f64 = models.iter().map(|model| model.weight).sum();
         for (node, estimate) in smoothed.estimates.iter_mut().enumerate() {
             estimate.covariance = [0.0; 6];
-            for (weight, squares) in &models {
+            for Model { weight, squares } in &models {
                 let pairs = estimate.covariance.iter_mut().zip(squares[node]);
                 pairs.for_each(|(sum, square)| *sum += weight / total * square);
             }
@@ -50,10 +55,9 @@ impl Problem<'_> {
         smoothed
     }
 
-    /// Returns what the intensities of a prior make of the motion, against the likeliest one; ln of their probabilities adds to
-    /// `log`.
-    fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log: f64) -> Vec<Squares> {
-        let weighed = self.posterior(of, LEAST_LOG_ODDS - log);
+    /// Returns the models of the intensities of a prior, whose weights add to its odds to the likeliest one.
+    fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log_odds: f64) -> Vec<Model> {
+        let weighed = self.posterior(of, LEAST_LOG_ODDS - log_odds);
         let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
         let motion = self.motion(of.prior);
         parallel::map(weighed.iter(), |one| {
@@ -65,7 +69,10 @@ impl Problem<'_> {
             let pairs = found.iter().zip(&likeliest.estimates);
             let squares = pairs
                 .map(|(found, likeliest)| found.estimated().about(likeliest.motion()).covariance);
-            ((log + one.log).exp() / total, squares.collect())
+            Model {
+                weight: (log_odds + one.log).exp() / total,
+                squares: squares.collect(),
+            }
         })
     }
 
@@ -110,18 +117,19 @@ impl Problem<'_> {
 }
 
 impl Smoothed {
-    /// Returns the priors that count beside its own, with ln of their odds to it. A part that repeats has harmonics enough for
-    /// what others might add.
-    fn contenders(&self) -> Vec<(Candidate, f64)> {
-        let own = self.compared.iter().find(|one| one.prior == self.prior);
-        let likelihood = own.map_or(f64::INFINITY, |own| own.noise.likelihood);
+    /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others might add.
+    fn contenders(&self) -> impl Iterator<Item = &Candidate> {
         let others = self
             .compared
             .iter()
-            .filter(|other| other.prior != self.prior);
-        others
-            .map(|other| (*other, (other.noise.likelihood - likelihood).min(0.0)))
-            .filter(|(other, log)| other.prior.cycle == 0 && *log > LEAST_LOG_ODDS)
-            .collect()
+            .filter(|other| other.prior != self.prior && other.prior.cycle == 0);
+        others.filter(|other| self.log_odds(other) > LEAST_LOG_ODDS)
+    }
+
+    /// Returns ln of the odds of a prior to its own, about the path by which both were compared; at most 0.
+    fn log_odds(&self, other: &Candidate) -> f64 {
+        let own = self.compared.iter().find(|one| one.prior == self.prior);
+        let odds = own.map(|own| other.noise.likelihood - own.noise.likelihood);
+        odds.map_or(f64::NEG_INFINITY, |odds| odds.min(0.0))
     }
 }
