@@ -99,11 +99,12 @@ impl Problem<'_> {
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
         let motion = self.motion(prior);
         let path = self.path_of(prior, from, self.sampled());
-        let mut scales = self.scales(&motion, &path, from.scales.slope, from.scales.motion);
-        scales.torque /= from.noise.sigma;
         About {
             prior,
-            scales,
+            scales: Scales {
+                motion: from.scales.motion,
+                ..self.scales(&motion, &path, from.scales.slope, from.noise.sigma)
+            },
             stretches: self.stretches(&motion, &path, from.noise.sigma),
             corner: from.noise.corner,
             path,

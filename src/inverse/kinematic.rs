@@ -12,8 +12,7 @@ impl Problem<'_> {
     pub fn kinematic(&self, first: Path, sigma: f64) -> Smoothed {
         let motion = self.motion(KINEMATIC);
         let path = first.along(self.sampled());
-        // The start of this prior is compared with others only once the motion is known.
-        let scales = self.scales(&motion, &path, self.slope(&first), [1.0; 2]);
+        let scales = self.scales(&motion, &path, self.slope(&first), sigma);
         let linear = Linear {
             stretches: &self.stretches(&motion, &path, sigma),
             prior: KINEMATIC,

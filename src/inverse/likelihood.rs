@@ -26,7 +26,7 @@ impl Linear<'_> {
             spread[2] = 0.0;
         }
         for k in 0..self.prior.powers {
-            spread[2 + self.prior.order + k] = self.scales.torque / self.scales.powers[k];
+            spread[self.prior.diffuse() + k] = self.scales.torque / self.scales.powers[k];
         }
         spread
     }
@@ -132,7 +132,7 @@ impl Linear<'_> {
         // The spreads of θ and ω are the same for all priors.
         let mut start = (spread[0] * spread[1]).ln();
         let mut prior = alpha / lever;
-        for spread in &spread[2..2 + self.prior.order] {
+        for spread in &spread[2..self.prior.diffuse()] {
             if *spread > 0.0 {
                 start += (spread / prior).ln();
             }

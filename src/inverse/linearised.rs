@@ -120,7 +120,7 @@ impl Motion<'_> {
         if self.prior.powers > 0 {
             for row in &mut top {
                 let ramp = row[3];
-                let columns = row.iter_mut().skip(2 + self.prior.order).zip(tilt);
+                let columns = row.iter_mut().skip(self.prior.diffuse()).zip(tilt);
                 columns.for_each(|(value, tilt)| *value = ramp * tilt);
             }
         }
@@ -162,8 +162,8 @@ mod tests {
     use crate::inverse::prior::QUADRATIC;
     use crate::scene::{Crank, Scene, Slider};
 
-    /// A loss by the speed and its square and a constant torque on an offset slider-crank: along the motion by 2000 steps of the midpoint rule
-    /// a step of the model leaves h⁷ of the motion's series, as it states, and the error of that rule.
+    /// A loss by the speed and its square and a constant torque on an offset slider-crank: along the motion by 2000 steps of
+    /// the midpoint rule a step of the model leaves h⁷ of the motion's series, as it states, and the error of that rule.
     #[test]
     fn a_step_follows_the_equation_of_motion() {
         let scene = Scene::new(0.05, 0.15)

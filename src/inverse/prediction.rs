@@ -10,7 +10,7 @@ impl Motion<'_> {
     /// Returns a state whose entries from the first on, each the derivative of the one before, are advanced by a time h, s.
     fn later(&self, first: usize, h: f64, from: &State) -> State {
         let mut state = *from;
-        let last = 2 + self.prior.order;
+        let last = self.prior.diffuse();
         for (i, value) in state[..last].iter_mut().enumerate().skip(first) {
             let mut factor = 1.0;
             for (k, derivative) in from[..last].iter().enumerate().skip(i + 1) {

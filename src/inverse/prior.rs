@@ -70,12 +70,12 @@ impl Prior {
 
     /// Number of states.
     pub fn states(self) -> usize {
-        2 + self.order + self.powers
+        self.diffuse() + self.powers
     }
 
     /// Returns the part of u, N m, that follows a speed, rad/s, with the constants of a state, and its derivative by the speed.
     pub fn of_speed(self, state: &State, omega: f64) -> [f64; 2] {
-        let constants = state.iter().skip(2 + self.order).take(self.powers);
+        let constants = state.iter().skip(self.diffuse()).take(self.powers);
         let terms = constants
             .zip(powers_of(omega))
             .zip([1.0, 2.0 * omega.abs()]);

@@ -49,7 +49,8 @@ pub(super) struct Stretch {
     pub observed: Vec<Observed>,
 }
 
-/// Linear model of the deviations from a nominal path; N is 2 + order, one more with each power of the speed, one more with correlated noise.
+/// Linear model of the deviations from a nominal path; N is 2 + order, one more with each power of the speed, one more with
+/// correlated noise.
 #[derive(Clone, Debug)]
 pub(super) struct Deviations<'a> {
     pub stretch: &'a Stretch,
@@ -90,7 +91,7 @@ impl Deviations<'_> {
             transition[3][4] = step.h;
         }
         for k in 0..self.prior.powers {
-            transition[2][2 + self.prior.order + k] = step.h * step.tilt[k];
+            transition[2][self.prior.diffuse() + k] = step.h * step.tilt[k];
         }
         let mut noise = self.process_noise(node);
         if let Some(decay) = self.correlated {
@@ -159,7 +160,7 @@ impl Deviations<'_> {
             }
         }
         if self.speed_noise > 0.0 {
-            let states = [0, 1, 2, 2 + self.prior.order];
+            let states = [0, 1, 2, self.prior.diffuse()];
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
             add(noise, states, &response, time * self.speed_noise);
         }

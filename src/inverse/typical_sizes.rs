@@ -28,8 +28,8 @@ impl Problem<'_> {
         way.abs() / std::f64::consts::TAU
     }
 
-    /// Returns the typical magnitudes along a path with a prior.
-    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, shape: [f64; 2]) -> Scales {
+    /// Returns the typical magnitudes along a path with a prior, for samples of a slope and a standard deviation σ.
+    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, sigma: f64) -> Scales {
         let times = &self.grid.times;
         let duration = times[times.len() - 1] - times[0];
         let samples = self.record.times.len() as f64;
@@ -48,12 +48,13 @@ impl Problem<'_> {
             duration,
             slope,
             lever: (lever / count).sqrt(),
-            motion: shape,
+            // The start of the first prior is compared with others only once the motion is known.
+            motion: [1.0; 2],
             powers: std::array::from_fn(|k| {
                 let states = path.states.iter().step_by(stride);
                 spread(states.map(|state| powers_of(state[1])[k]))
             }),
-            torque: f64::sqrt(torque / count),
+            torque: f64::sqrt(torque / count) / sigma,
             floor: self.record.floor,
             known: self.record.codes.map(Codes::spread),
             identified: None,

@@ -58,7 +58,8 @@ impl<'a> Search<'a> {
         let motion = problem.motion(TORQUE);
         let scales = Scales {
             identified: Some(count),
-            ..problem.scales(&motion, &path, smooth.scales.slope, smooth.scales.motion)
+            motion: smooth.scales.motion,
+            ..problem.scales(&motion, &path, smooth.scales.slope, smooth.noise.sigma)
         };
         let trials = Trials {
             scene_at,
