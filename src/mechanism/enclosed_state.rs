@@ -75,7 +75,7 @@ pub(super) struct PoseRanges {
 }
 
 impl Linkage {
-    /// Encloses φ, φ', x and x' over crank angles.
+    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles.
     pub(super) fn enclose(&self, theta: Interval) -> PoseRanges {
         let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
@@ -85,11 +85,36 @@ impl Linkage {
         let cos_phi = Interval::new(squared.low.max(0.0), squared.high.max(0.0)).rising(f64::sqrt);
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
+        let dx = if self.margin() > 0.0 {
+            -(point(self.r) * self.sine_of_dead_centre(theta) * per)
+        } else {
+            -(point(self.r) * sin) - point(self.s) * along * sin_phi * per
+        };
         PoseRanges {
             angle: sin_phi.rising(f64::asin),
             dangle: along * point(1.0 / self.l) * per,
             x: along + point(self.s * self.l) * cos_phi,
-            dx: -(point(self.r) * sin) - point(self.s) * along * sin_phi * per,
+            dx,
+        }
+    }
+
+    /// Encloses sin(θ + sφ), zero at dead centres, for a crank that turns fully: θ + sφ rises with θ, and the sine keeps
+    /// its sign between dead centres, whose angles are rounded.
+    fn sine_of_dead_centre(&self, theta: Interval) -> Interval {
+        let from_line = |theta: f64| theta + self.s * self.pose(theta).phi();
+        let (low, high) = (from_line(theta.low), from_line(theta.high));
+        let sin = Interval::new(low, high).sin();
+        let half_turns = (0.5 * (low + high) / PI).floor();
+        let rounding = |theta: f64| {
+            let condition = 1.0 + self.pose(theta).dphi.abs();
+            4.0 * f64::EPSILON * theta.abs().max(1.0) * condition
+        };
+        let begins = low >= half_turns * PI - rounding(theta.low);
+        let ends = high <= (half_turns + 1.0) * PI + rounding(theta.high);
+        match begins && ends {
+            true if half_turns.rem_euclid(2.0) == 0.0 => sin.rising(|bound| bound.max(0.0)),
+            true => sin.rising(|bound| bound.min(0.0)),
+            false => sin,
         }
     }
 

@@ -189,7 +189,28 @@ fn dead_centres_are_passed_at_the_times_of_the_closed_solution() {
     }
 }
 
-/// Crank alone under a time-dependent torque: I θ̈ = A sin(wt).
+/// Between dead centres the slider keeps its direction: v |v| is as smooth there as v³, up to the ends.
+#[test]
+fn a_drag_by_the_square_of_the_speed_costs_about_as_much_as_one_by_the_cube() {
+    for (direction, left) in [(1.0, false), (-1.0, false), (1.0, true)] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let evaluations = |drag: &str| {
+                let scene = machine([0.05, 0.15, 0.01], left, [8.0, 0.2, 0.5], 0.0)
+                    .force(Load::Expression(Expression::parse(drag).unwrap()))
+                    .start(0.3, 40.0 * direction)
+                    .revolutions(5.0)
+                    .tolerance(tolerance);
+                run(&scene, Method::Angle).summary.evaluations
+            };
+            let [square, cube] = ["-0.5*v*abs(v)", "-0.5*v^3"].map(evaluations);
+            assert!(
+                5 * square <= 6 * cube,
+                "{direction} {left} {tolerance:e}: {square} {cube}"
+            );
+        }
+    }
+}
+
 /// v |v| is not analytic where the slider reverses: panels end there, and no more are needed than two in half a turn.
 #[test]
 fn panels_end_where_a_load_has_a_kink_at_the_dead_centres() {
@@ -203,6 +224,7 @@ fn panels_end_where_a_load_has_a_kink_at_the_dead_centres() {
     assert!(summary.steps <= 4 * 10, "{}", summary.steps);
 }
 
+/// Crank alone under a time-dependent torque: I θ̈ = A sin(wt).
 #[test]
 fn loads_in_time_are_followed() {
     let (inertia, amplitude, w, speed) = (0.02, 3.0, 17.0, 60.0);

@@ -1,5 +1,7 @@
 //! Enclosures of positions contain every position in their interval, on each kind of configuration curve.
 
+use std::f64::consts::TAU;
+
 use slider_crank::mechanism::{Class, Curve, Limits, Linkage};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::numeric::enclosure::{Interval, MotionPiece};
@@ -60,4 +62,35 @@ fn every_position_lies_in_its_enclosure() {
         }
     }
     assert_eq!(kinds.len(), 4, "{kinds:?}");
+}
+
+#[test]
+fn between_dead_centres_the_slider_keeps_its_direction() {
+    for offset in [-0.06, -0.01, 0.0, 0.03, 0.0999999] {
+        for branch in [Branch::Right, Branch::Left] {
+            let geometry = Geometry {
+                crank: 0.05,
+                rod: 0.15,
+                offset,
+                branch,
+            };
+            let linkage = Linkage::new(&geometry);
+            let found = Limits::new(&linkage, 0.3).dead_centres;
+            let [one, other] = [found[0].theta, found[1].theta];
+            for turn in [-3.0, 0.0, 1.0, 20.0] {
+                let ends = [one, other, one + TAU].map(|theta| theta + turn * TAU);
+                for [low, high] in [[ends[0], ends[1]], [ends[1], ends[2]]] {
+                    let reach = MotionPiece {
+                        t: Interval::point(0.0),
+                        angle: Interval::new(low, high),
+                        speed: Interval::new(3.0, 5.0),
+                    };
+                    let v = linkage.enclosed_state(&reach, true).v;
+                    let middle = linkage.pose(0.5 * (low + high)).dx;
+                    assert!(v.low >= 0.0 || v.high <= 0.0, "{v:?} {offset} {turn}");
+                    assert!(v.contains(3.0 * middle), "{v:?} {middle}");
+                }
+            }
+        }
+    }
 }
