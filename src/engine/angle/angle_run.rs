@@ -1,5 +1,6 @@
 //! Run over the angle: goal, resolution and result.
 
+use super::cycle_panels::PanelShape;
 use super::solution::NonConservativeForce;
 use super::{Errors, Guide};
 use crate::engine::WorkLimit;
@@ -20,6 +21,8 @@ pub enum Goal {
 pub struct AngleRun {
     /// Motion, with time zero at its start.
     pub orbit: Orbit,
+    /// Panels of a cycle; empty for a run by the Poincaré map.
+    pub(super) shapes: Vec<PanelShape>,
     /// Last time, s.
     pub end: f64,
     /// Work of the non-conservative loads up to the end, J.
@@ -37,6 +40,7 @@ impl AngleRun {
     pub fn whole(orbit: Orbit, end: f64, work: f64) -> AngleRun {
         AngleRun {
             orbit,
+            shapes: Vec::new(),
             end,
             work,
             errors: Errors::at(0.0, 0.0),
@@ -62,7 +66,7 @@ pub struct EarlyEnd {
 pub struct Resolution<'a> {
     /// Largest tail of a resolved series.
     pub tail: f64,
-    /// True for a second run: panels that end elsewhere than in the first, and the roundoff of both runs.
+    /// True for a second run: panels unlike those of the first, and the roundoff of both runs.
     pub is_second: bool,
     /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,

@@ -7,7 +7,7 @@ use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use crate::engine::energy::NotApplicable;
 use crate::engine::energy::piece::HALF_TURN;
 use crate::numeric::angle::{Angle, in_turns};
-use crate::numeric::chebyshev::MAX_DEGREE;
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule};
 
 /// Panels of a cycle in the order of motion, and the position of a run among them.
 pub(super) struct CyclePanels<P> {
@@ -89,7 +89,7 @@ impl<P: Copy> CyclePanels<P> {
     ) -> Result<(), NotApplicable> {
         let mut all = Vec::with_capacity(2 * self.panels.len());
         for panel in std::mem::take(&mut self.panels) {
-            let parts = panel.failed.then(|| panel.parts(dynamics, 0.5, fine));
+            let parts = panel.failed.then(|| panel.parts(dynamics, fine.cut, fine));
             match parts.transpose()?.flatten() {
                 Some(parts) => all.extend(parts),
                 None => all.push(panel),
@@ -125,14 +125,71 @@ impl<P: Copy> CyclePanels<P> {
     }
 }
 
+/// Ends and degree of a panel of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PanelShape {
+    turns: f64,
+    ends: [f64; 2],
+    degree: usize,
+}
+
+impl PanelShape {
+    /// True if a run from an angle begins with this panel.
+    pub fn begins_at(&self, angle: Angle) -> bool {
+        (self.turns, self.ends[0]) == (angle.turns, angle.rest)
+    }
+}
+
+impl<P: Copy> CyclePanels<P> {
+    /// Returns the shapes of the panels.
+    pub fn shapes(&self) -> Vec<PanelShape> {
+        let shape = |panel: &PanelTable<P>| PanelShape {
+            turns: panel.turns,
+            ends: [panel.piece.from, panel.piece.to],
+            degree: panel.rule.degree(),
+        };
+        self.panels.iter().map(shape).collect()
+    }
+}
+
+/// Makes finer panels than those of another run: of the next higher degree or, beyond the largest, in two parts.
+pub(super) fn finer_panels<D: Dynamics>(
+    dynamics: &D,
+    shapes: &[PanelShape],
+    fine: Fineness,
+) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
+    let mut list = Vec::with_capacity(2 * shapes.len());
+    let mut add = |turns, ends, degree| {
+        let mut panel = PanelTable::empty(turns, ends, Rule::of(degree), 1.0);
+        panel.tabulate(dynamics)?;
+        list.push(panel);
+        Ok(())
+    };
+    for &PanelShape {
+        turns,
+        ends,
+        degree,
+    } in shapes
+    {
+        let [from, to] = ends;
+        let cut = from + fine.cut * (to - from);
+        if let Some(next) = Rule::next_degree(degree) {
+            add(turns, ends, next)?;
+        } else {
+            add(turns, [from, cut], FIRST_DEGREE)?;
+            add(turns, [cut, to], FIRST_DEGREE)?;
+        }
+    }
+    Ok(list)
+}
+
 /// Makes the panels of one cycle. They end at the corners, and beside branch points too near for the series of half a
 /// turn to decay (Trefethen, theorem 8.1): shorter panels grade towards a point at an end. Between these ends they are
-/// equally long, but for the first, which has the fraction `first` of the length.
+/// equally long, but for the ends in a second run.
 pub(super) fn panels<D: Dynamics>(
     dynamics: &D,
     start: Angle,
     fine: Fineness,
-    first: f64,
 ) -> Result<Vec<PanelTable<D::Place>>, NotApplicable> {
     let is_near = |[_, height]: &[f64; 2]| {
         let scaled = 2.0 * height / HALF_TURN;
@@ -164,7 +221,7 @@ pub(super) fn panels<D: Dynamics>(
             let parts = ((to - from) / HALF_TURN).ceil();
             let begin = from;
             for part in 0..=parts as u32 {
-                let share = (f64::from(part) + first) / parts;
+                let share = (f64::from(part) + 2.0 * fine.cut) / parts;
                 let until = if share < 1.0 {
                     begin + share * (to - begin)
                 } else {

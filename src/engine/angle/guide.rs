@@ -2,9 +2,11 @@
 
 use std::cmp::Ordering;
 
+use super::super::energy::panel::Panel;
 use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
-use super::super::energy::{Orbit, panel::Panel};
+use super::AngleRun;
+use super::cycle_panels::PanelShape;
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
@@ -13,17 +15,25 @@ use crate::numeric::chebyshev::Values;
 #[derive(Clone, Copy, Debug)]
 pub struct Guide<'a> {
     segment: &'a Segment,
+    shapes: &'a [PanelShape],
     /// Index of the panel of the last request.
     index: usize,
 }
 
 impl<'a> Guide<'a> {
     /// Makes a guide from a motion in one direction.
-    pub fn new(orbit: &'a Orbit) -> Guide<'a> {
+    pub fn new(run: &'a AngleRun) -> Guide<'a> {
         Guide {
-            segment: orbit.last_segment(),
+            segment: run.orbit.last_segment(),
+            shapes: &run.shapes,
             index: 0,
         }
+    }
+
+    /// Returns the shapes of the panels of a cycle, if the run began at this angle.
+    pub(super) fn shapes_from(&self, angle: Angle) -> Option<&'a [PanelShape]> {
+        let first = self.shapes.first()?;
+        first.begins_at(angle).then_some(self.shapes)
     }
 
     /// Returns the kinetic energy (J) of the guide at the points of a panel after `turns` whole turns, shifted to

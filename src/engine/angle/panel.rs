@@ -67,6 +67,8 @@ pub(super) struct Fineness {
     pub tail: f64,
     /// Typical crank speed, rad/s.
     pub speed: f64,
+    /// Share at which panels are cut that are too long: another in a second run, for the same panels have the same error.
+    pub cut: f64,
 }
 
 /// Length of the shortest panel, rad; a corner or switching as near to an end of a panel counts as at the end, and a
@@ -224,10 +226,10 @@ impl<P: Copy> PanelTable<P> {
 
     /// Raises the degree to the next; false if there is none.
     pub fn raise(&mut self, dynamics: &impl Dynamics<Place = P>) -> Result<bool, NotApplicable> {
-        let Some(next) = Rule::DEGREES.iter().find(|d| **d > self.rule.degree()) else {
+        let Some(next) = Rule::next_degree(self.rule.degree()) else {
             return Ok(false);
         };
-        self.rule = Rule::of(*next);
+        self.rule = Rule::of(next);
         self.past.forget();
         self.tabulate(dynamics)?;
         Ok(true)

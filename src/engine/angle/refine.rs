@@ -22,7 +22,7 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         if self.gives_up && why == Unsolved::Stops && slows {
             return Err(NotApplicable::TooSlow);
         }
-        let Some(parts) = panel.parts(self.dynamics, 0.5, self.fine)? else {
+        let Some(parts) = panel.parts(self.dynamics, self.fine.cut, self.fine)? else {
             // The crank is near rest below this fraction of the largest kinetic energy, and where the forces may have
             // produced its energy within so many radians.
             let small = 1e-2;

@@ -67,8 +67,8 @@ pub fn run<D: Dynamics>(
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
             let work = stepper.progress.work - work + work_until(orbit.last_segment(), end, &force);
-            stepper.leave_panels();
             return Ok(AngleRun {
+                shapes: stepper.leave_panels(),
                 orbit,
                 end,
                 work,
@@ -104,9 +104,9 @@ fn ended<D: Dynamics>(
     segment: Segment,
     why: NotApplicable,
 ) -> AngleRun {
-    stepper.leave_panels();
     let MotionState { angle, speed, .. } = stepper.start;
     AngleRun {
+        shapes: stepper.leave_panels(),
         early_end: segment.last_angle(angle.turns).map(|angle| EarlyEnd {
             why,
             angle,

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::Piece;
-use super::cycle_panels::{self, CyclePanels};
+use super::cycle_panels::{self, CyclePanels, PanelShape};
 use super::guide::Guide;
 use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable};
@@ -51,16 +51,20 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         resolution: Resolution<'a>,
     ) -> Result<PanelStepper<'a, D>, NotApplicable> {
         let angle = from.angle.reduced();
+        let shapes = resolution.guide.and_then(|guide| guide.shapes_from(angle));
         let fine = Fineness {
             tail: resolution.tail,
             speed: from.speed,
+            cut: if resolution.is_second { 0.37 } else { 0.5 },
         };
         let positions = dynamics.positions();
-        let first = if resolution.is_second { 0.37 } else { 1.0 };
         let shared = dynamics.shared().filter(|_| !resolution.is_second);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
-            panels = cycle_panels::panels(dynamics, angle, fine, first)?;
+            panels = match shapes {
+                Some(shapes) => cycle_panels::finer_panels(dynamics, shapes, fine)?,
+                None => cycle_panels::panels(dynamics, angle, fine)?,
+            };
         }
         let kinetic = 0.5 * panels[0].table.inertia[0] * from.speed * from.speed;
         if !kinetic.is_finite() {
@@ -97,11 +101,13 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         self.gives_up = gives_up;
     }
 
-    /// Leaves the panels to the next run, if they are shared.
-    pub fn leave_panels(&mut self) {
+    /// Leaves the panels to the next run, if they are shared, and returns their shapes.
+    pub fn leave_panels(&mut self) -> Vec<PanelShape> {
+        let shapes = self.panels.shapes();
         if let Some(shared) = self.shared {
             shared.replace(Panels(std::mem::take(&mut self.panels.panels)));
         }
+        shapes
     }
 
     /// Returns the number of load evaluations and tabulated positions.

@@ -35,6 +35,11 @@ impl Rule {
     /// Available degrees.
     pub const DEGREES: [usize; 5] = [12, 16, 20, 24, 32];
 
+    /// Returns the least of the degrees above one; none beyond the largest.
+    pub fn next_degree(degree: usize) -> Option<usize> {
+        Rule::DEGREES.into_iter().find(|next| *next > degree)
+    }
+
     /// Returns the rule of one of the degrees [`Self::DEGREES`]; the rule of the largest for any other.
     pub fn of(degree: usize) -> &'static Rule {
         static RULES: [OnceLock<Box<Rule>>; Rule::DEGREES.len()] =

@@ -46,7 +46,7 @@ pub(super) fn estimate(
         return Some(by_energy(pass.task, &piece.run, result, wants_rows));
     }
     let begun = Instant::now();
-    let guide = piece.map(|piece| Guide::new(&piece.run.orbit));
+    let guide = piece.map(|piece| Guide::new(&piece.run));
     let first_engine = match result.pieces_over_angle {
         0 => Engine::Time,
         _ => Engine::Angle,

@@ -146,7 +146,8 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     }
 }
 
-/// Returns a finer resolution, with panels cut at other angles: two runs on the same panels would have the same error.
+/// Returns the resolution of a second run, finer by far: its panels have higher degrees than those of the guide, or end
+/// elsewhere, as two runs on the same panels would have the same error.
 pub(super) fn second_run_resolution(tail: f64, guide: Option<Guide<'_>>) -> Resolution<'_> {
     // The series decay further than to the tail, as the degrees are few.
     let ratio = 1e4;

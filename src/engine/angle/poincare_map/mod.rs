@@ -84,6 +84,7 @@ pub(super) fn run<D: Dynamics>(
     };
     Ok(AngleRun {
         orbit,
+        shapes: Vec::new(),
         end,
         work,
         // Errors grow as in the first turns.
