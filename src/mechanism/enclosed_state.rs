@@ -98,8 +98,8 @@ impl Linkage {
         }
     }
 
-    /// Encloses sin(θ + sφ), zero at dead centres, for a crank that turns fully: θ + sφ rises with θ, and the sine keeps
-    /// its sign between dead centres, whose angles are rounded.
+    /// Encloses sin(θ + sφ) for a crank that turns fully: θ + sφ rises with θ, and the sine keeps its sign between dead
+    /// centres, whose angles are rounded. The zeros there, and what rounding makes of them, are left out.
     fn sine_of_dead_centre(&self, theta: Interval) -> Interval {
         let from_line = |theta: f64| theta + self.s * self.pose(theta).phi();
         let (low, high) = (from_line(theta.low), from_line(theta.high));
@@ -112,8 +112,8 @@ impl Linkage {
         let begins = low >= half_turns * PI - rounding(theta.low);
         let ends = high <= (half_turns + 1.0) * PI + rounding(theta.high);
         match begins && ends {
-            true if half_turns.rem_euclid(2.0) == 0.0 => sin.rising(|bound| bound.max(0.0)),
-            true => sin.rising(|bound| bound.min(0.0)),
+            true if half_turns.rem_euclid(2.0) == 0.0 => sin.rising(|x| x.max(f64::EPSILON)),
+            true => sin.rising(|x| x.min(-f64::EPSILON)),
             false => sin,
         }
     }

@@ -69,20 +69,23 @@ fn rule<const N: usize>() -> [(f64, f64); N] {
 }
 
 /// Integrates f over [from, to], bisecting where the halves together differ from the whole by more than `tolerance` and
-/// by more than rounding of f and of its argument; the worst part first, at most a thousand times.
+/// by more than rounding of f, at its mean size over all, and of its argument; the worst part first, at most a thousand
+/// times.
 pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
+    let (first, rounding_of_all) = by_rule(f, from, to);
     let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
         let (left, left_rounding) = by_rule(f, a, middle);
         let (right, right_rounding) = by_rule(f, middle, b);
-        let rounding = left_rounding + right_rounding;
+        let share = (b - a) / (to - from);
+        let rounding = (left_rounding + right_rounding).max(share * rounding_of_all);
         Part {
             ends: [a, middle, b],
             halves: [left, right],
             excess: (left + right - whole).abs() - tolerance.max(rounding),
         }
     };
-    let mut parts = vec![part(from, to, by_rule(f, from, to).0)];
+    let mut parts = vec![part(from, to, first)];
     for _ in 0..1000 {
         let open = parts.iter().enumerate();
         let open = open.filter(|(_, part)| part.excess > 0.0 && part.excess.is_finite());

@@ -74,6 +74,13 @@ impl PanelPlace {
     }
 }
 
+/// Returns the sign of x' on a panel between two dead centres from x' at its nodes, at the ends of which it may be
+/// rounding.
+pub(super) fn sign_between_dead_centres(dx: &[f64]) -> f64 {
+    let larger = |a: f64, b: &f64| if a.abs() < b.abs() { *b } else { a };
+    dx.iter().fold(0.0, larger).signum()
+}
+
 impl GuideFriction {
     /// Makes the guide of a scene; none without friction.
     pub fn new(scene: &Scene, equation: &Equation) -> Option<GuideFriction> {
@@ -95,8 +102,7 @@ impl GuideFriction {
         of_place: &[LoadValue],
         table: &mut Table<PanelPlace>,
     ) {
-        // At the ends of a panel x' is rounding: the middle gives the sign.
-        let c = -self.mu * signs * dx[dx.len() / 2].signum();
+        let c = -self.mu * signs * sign_between_dead_centres(dx);
         let [torque, force] = loads.dampings();
         let mut switch = table.switch.take().unwrap_or_default();
         for (i, normal) in normals.iter().enumerate() {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::support::machines::machine;
 use proptest::prelude::*;
 use slider_crank::plan::Method;
-use slider_crank::scene::{Crank, Every, Expression, Gravity, Load, Scene, Variables};
+use slider_crank::scene::{Branch, Crank, Every, Expression, Gravity, Load, Scene, Variables};
 use slider_crank::simulate::{Options, Row, Simulation, simulate, simulate_rows};
 
 fn run(scene: &Scene, method: Method) -> Simulation {
@@ -206,6 +206,45 @@ fn a_drag_by_the_square_of_the_speed_costs_about_as_much_as_one_by_the_cube() {
             assert!(
                 5 * square <= 6 * cube,
                 "{direction} {left} {tolerance:e}: {square} {cube}"
+            );
+        }
+    }
+}
+
+/// A dry force written as a formula: over a turn the slider goes to and fro, and the energy falls by twice the stroke
+/// times the force. M is the same at the end of each turn.
+#[test]
+fn a_force_against_the_direction_of_the_slider_takes_its_work() {
+    let ([crank, rod, offset], inertia, force) = ([0.05, 0.15f64, 0.01f64], 0.02, 3.0);
+    let reach = |length: f64| (length * length - offset * offset).sqrt();
+    let stroke = reach(rod + crank) - reach(rod - crank);
+    let turns = 5.0;
+    for (direction, branch) in [
+        (1.0, Branch::Right),
+        (-1.0, Branch::Right),
+        (1.0, Branch::Left),
+    ] {
+        for of_direction in ["sign(v)", "(2*step(v) - 1)", "v/sqrt(v^2)"] {
+            let friction = Expression::parse(&format!("-{force}*{of_direction}")).unwrap();
+            let scene = Scene::new(crank, rod)
+                .offset(offset)
+                .branch(branch)
+                .crank(Crank {
+                    inertia,
+                    ..Crank::default()
+                })
+                .force(Load::Expression(friction))
+                .start(0.7, 40.0 * direction)
+                .revolutions(turns);
+            let summary = run(&scene, Method::Auto).summary;
+            assert_eq!(summary.engine, "angle");
+            let lost = 2.0 * turns * stroke * force;
+            let omega = direction * (1600.0 - 2.0 * lost / inertia).sqrt();
+            let off = (summary.last.omega_rad_per_s - omega).abs();
+            let stated = summary.error_estimate.expect("an estimate").omega_rad_per_s;
+            assert!(
+                off <= 2.0 * stated && stated < 1e-11,
+                "{of_direction}: {off:e} {stated:e}"
             );
         }
     }

@@ -217,6 +217,8 @@ mod student {
 }
 
 mod gauss {
+    use std::cell::Cell;
+
     use slider_crank::numeric::gauss::{adaptive, composite, legendre};
 
     #[test]
@@ -242,6 +244,18 @@ mod gauss {
         assert!(adaptive(&wave, 2e4 - 1.0, 2e4 + 1.0, 0.0).abs() < 1e-11);
         assert!(calls.get() < 500, "{}", calls.get());
         assert!((composite(|x| x.powi(5), 0.0, 2.0, 3) - 64.0 / 6.0).abs() < 1e-13);
+    }
+
+    /// Beside its zero the integrand is rounding of the argument, which no bisection removes.
+    #[test]
+    fn an_adaptive_rule_ends_where_the_integrand_is_rounding() {
+        let calls = Cell::new(0);
+        let ramp = |x: f64| {
+            calls.set(calls.get() + 1);
+            ((1.0 + x) - 1.0).max(0.0)
+        };
+        assert!((adaptive(&ramp, 0.0, 1.0, 0.0) - 0.5).abs() < 1e-15);
+        assert!(calls.get() < 1000, "{}", calls.get());
     }
 }
 

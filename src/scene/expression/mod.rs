@@ -77,7 +77,7 @@ impl Expression {
         let ops = Parser::parse(text, symbols)?;
         let (mut reads, mut jumps) = (Variables::NONE, false);
         let (mut depth, mut deepest) = (0usize, 0);
-        for op in &ops {
+        for (at, op) in ops.iter().enumerate() {
             match *op {
                 Op::Number(_) => depth += 1,
                 Op::Variable(variable) => {
@@ -85,7 +85,12 @@ impl Expression {
                     depth += 1;
                 }
                 Op::Negate => {}
-                Op::Call1(f) => jumps |= JUMPING.contains(&FUNCTIONS_1[f].0),
+                Op::Call1(f) => {
+                    let of_direction =
+                        matches!(ops[at - 1], Op::Variable(Variable::Omega | Variable::V));
+                    let name = FUNCTIONS_1[f].0;
+                    jumps |= JUMPING.contains(&name) && !(of_direction && name != "floor");
+                }
                 binary => {
                     depth -= 1;
                     jumps |= matches!(binary, Op::Call2(f) if JUMPING.contains(&FUNCTIONS_2[f].0));
@@ -122,7 +127,8 @@ impl Expression {
         self.reads
     }
 
-    /// Whether a function with jumps occurs in the expression: floor, sign, step or mod.
+    /// Whether the value may jump elsewhere than where crank or slider reverses: floor, sign, step or mod occurs in the
+    /// expression, other than the sign or step of omega or v.
     pub fn jumps(&self) -> bool {
         self.jumps
     }

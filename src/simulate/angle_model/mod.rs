@@ -7,7 +7,10 @@ mod work;
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
-use super::guide_friction::{GuideFriction, GuideLoadEffect, NEARBY_ANGLE, PanelPlace};
+use super::guide_friction::{
+    DEAD_CENTRE_WIDTH, GuideFriction, GuideLoadEffect, NEARBY_ANGLE, PanelPlace,
+    sign_between_dead_centres,
+};
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Dynamics, Panels, State, StateVariable, Table};
@@ -180,6 +183,8 @@ impl Dynamics for AngleModel<'_> {
             }
         };
         table.places.clear();
+        let sign = sign_between_dead_centres(&at.dx[..count]);
+        let least_dx = DEAD_CENTRE_WIDTH * self.equation.linkage().r;
         let mut of_place = [LoadValue::default(); MAX_DEGREE + 1];
         for (i, angle) in angles.iter().enumerate().take(count) {
             let (x, dx) = (at.x[i], at.dx[i]);
@@ -192,6 +197,12 @@ impl Dynamics for AngleModel<'_> {
             of_place[i] = stored.plus(placed);
             if driven {
                 let load_effect = GuideLoadEffect::default();
+                // A load that jumps where the slider reverses has its value on the panel also at the ends.
+                let dx = if dx.abs() < least_dx {
+                    (f64::EPSILON * least_dx).copysign(sign)
+                } else {
+                    dx
+                };
                 table.places.push(PanelPlace { x, dx, load_effect });
             }
         }
