@@ -22,7 +22,7 @@ pub struct Loads {
     /// Dry loads, which oppose motion.
     pub(super) dry: NonlinearLoads,
     reads: Variables,
-    /// Variables that the timed and mixed loads depend on.
+    /// Variables that the timed, mixed and dry loads depend on.
     reads_of_states: Variables,
     on_slider: bool,
 }
@@ -95,16 +95,14 @@ impl Loads {
     fn class(&mut self, load: &Load, on_slider: bool) -> &mut NonlinearLoads {
         let reads = load.reads(on_slider);
         let position = Variables::THETA.or(Variables::X);
-        if matches!(load, Load::Dry(_)) {
-            &mut self.dry
-        } else if reads.or(position) == position {
-            &mut self.placed
-        } else {
-            self.reads_of_states = self.reads_of_states.or(reads);
-            match reads == Variables::T {
-                true => &mut self.timed,
-                false => &mut self.mixed,
-            }
+        if reads.or(position) == position {
+            return &mut self.placed;
+        }
+        self.reads_of_states = self.reads_of_states.or(reads);
+        match load {
+            Load::Dry(_) => &mut self.dry,
+            _ if reads == Variables::T => &mut self.timed,
+            _ => &mut self.mixed,
         }
     }
 
@@ -235,9 +233,9 @@ impl Loads {
         [self.damping.torque, self.damping.force]
     }
 
-    /// Returns torque and force of the nonlinear loads of speed or time, without dry loads, at some instants.
+    /// Returns torque and force of the nonlinear loads of speed or time at some instants.
     pub fn of_states<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
-        NonlinearLoads::sums([&self.timed, &self.mixed], now)
+        NonlinearLoads::sums([&self.timed, &self.mixed, &self.dry], now)
     }
 
     /// Returns torque and force of the nonlinear loads, but for those of time alone, at some instants.

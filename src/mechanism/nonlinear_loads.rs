@@ -112,11 +112,7 @@ pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f
         v: now.v.abs(),
         ..*now
     };
-    let magnitude = match load {
-        Load::Dry(magnitude) => magnitude,
-        other => other,
-    };
-    single(magnitude, on_slider, &now)
+    single(load.magnitude(), on_slider, &now)
 }
 
 /// Returns the value of one load, as a torque (N m) or as a force on the slider (N).

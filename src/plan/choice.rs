@@ -3,20 +3,15 @@
 use super::cycle::{cycle_over_angle, non_zero};
 use super::{Candidate, Engine, Method};
 use crate::error::Error;
-use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
+use crate::mechanism::{Class, Curve, CurveEquation, Linkage};
 use crate::numeric::{dip, maximum};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// Returns the engines that take over where the chosen engine cannot start or continue, in this order.
-pub(super) fn successors(
-    first: Engine,
-    method: Method,
-    loads: &Loads,
-    scene: &Scene,
-) -> Vec<Candidate> {
+pub(super) fn successors(first: Engine, method: Method, scene: &Scene) -> Vec<Candidate> {
     match (first, method) {
         (Engine::Energy, Method::Auto) => {
-            let angle = choose(Method::Angle, loads, scene).ok().map(|_| {
+            let angle = choose(Method::Angle, scene).ok().map(|_| {
                 Candidate::new(
                     Engine::Angle,
                     "if the crank comes too near to rest for the energy alone, or its turns differ and are too many to be kept",
@@ -40,7 +35,7 @@ const METHODS_IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
 const METHODS_WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
 
 /// Selects the first engine that serves a scene without parts of zero strength, or the engine that `method` asks for.
-pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Candidate, Error> {
+pub(super) fn choose(method: Method, scene: &Scene) -> Result<Candidate, Error> {
     if scene.clearance.is_some() {
         return only_if(
             method,
@@ -88,17 +83,6 @@ pub(super) fn choose(method: Method, loads: &Loads, scene: &Scene) -> Result<Can
                 "a change point: integration in time along the configuration curve",
             ),
             "the lengths of a change point, which it passes onto the other branch",
-            METHODS_IN_TIME,
-        ),
-        // Dry loads change sign where the crank or the slider reverses.
-        _ if loads.are_dry() => only_if(
-            method,
-            &[Method::Auto],
-            Candidate::new(
-                Engine::Time,
-                "a load opposes motion: integration in time, piece by piece between the places where crank or slider turn back or rest",
-            ),
-            "a load of kind \"dry\", which turns round with the motion",
             METHODS_IN_TIME,
         ),
         _ => energy_angle_or_time(method, scene, class),
@@ -188,7 +172,8 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
 /// unknown corners or no cycle to tabulate; with friction also: the crank cannot turn fully, or the guide jams.
 fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     let has_friction = scene.friction.is_some();
-    if has_friction && class != Class::RotatingCrank {
+    let may_stick = has_friction || scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
+    if may_stick && class != Class::RotatingCrank {
         return Some("the crank cannot turn fully".to_owned());
     }
     if scene.motion.speed == 0.0 {
@@ -221,7 +206,7 @@ fn jams(scene: &Scene) -> bool {
 
 /// Returns the first load whose corners are not known as crank angles, and why.
 fn why_corners_are_unknown(scene: &Scene) -> Option<String> {
-    non_zero(scene).find_map(|of| match of.load {
+    non_zero(scene).find_map(|of| match of.load.magnitude() {
         Load::Table(table) if table.of() != Variable::Theta => {
             let rows_over = table.of().name();
             Some(format!(

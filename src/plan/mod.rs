@@ -124,12 +124,12 @@ impl Plan {
     fn of_modelled(scene: &Scene, reduced: Scene, method: Method) -> Result<Plan, Error> {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
-        let Candidate { engine, reason } = choose(method, &loads, &reduced)?;
+        let Candidate { engine, reason } = choose(method, &reduced)?;
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
             engine,
             reason,
-            then: successors(engine, method, &loads, &reduced),
+            then: successors(engine, method, &reduced),
             stepper: (engine == Engine::Time).then_some(match method {
                 Method::Dop853 => Stepper::Dop853,
                 Method::Dopri5 => Stepper::Dopri5,
@@ -138,7 +138,7 @@ impl Plan {
             coordinate: coordinate(engine, &reduced, &linkage),
             state: state(engine, &reduced, &loads),
             cycle: Cycle::of(scene),
-            events: events(engine, &reduced),
+            events: events(engine, &reduced, &loads),
             kept,
             left_out,
         })
@@ -197,7 +197,7 @@ fn state(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
     }
 }
 
-fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
+fn events(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
     let mut events = vec!["dead-centre"];
     if engine == Engine::Contact {
         events.extend(["impact", "separation"]);
@@ -208,8 +208,8 @@ fn events(engine: Engine, scene: &Scene) -> Vec<&'static str> {
     if engine == Engine::Time && is_limited(scene) {
         events.push("limit");
     }
-    let dry = engine == Engine::Time && Loads::new(scene).are_dry();
-    if engine != Engine::ClosedForm && scene.friction.is_some() || dry {
+    let may_stick = scene.friction.is_some() || loads.are_dry();
+    if engine != Engine::ClosedForm && may_stick {
         events.extend(["stick", "slip"]);
         if engine != Engine::Contact {
             events.push("rest");

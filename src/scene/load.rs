@@ -205,6 +205,14 @@ impl Load {
         }
     }
 
+    /// Returns the magnitude of a dry load, or the load itself.
+    pub(crate) fn magnitude(&self) -> &Load {
+        match self {
+            Load::Dry(magnitude) => magnitude,
+            other => other,
+        }
+    }
+
     /// Returns the table of the load, if the load has one.
     pub(crate) fn table(&self) -> Option<&Table> {
         match self {

@@ -224,8 +224,11 @@ fn a_force_against_the_direction_of_the_slider_takes_its_work() {
         (-1.0, Branch::Right),
         (1.0, Branch::Left),
     ] {
-        for of_direction in ["sign(v)", "(2*step(v) - 1)", "v/sqrt(v^2)"] {
-            let friction = Expression::parse(&format!("-{force}*{of_direction}")).unwrap();
+        let formulas = ["sign(v)", "(2*step(v) - 1)", "v/sqrt(v^2)"].map(|of_direction| {
+            let formula = format!("-{force}*{of_direction}");
+            Load::Expression(Expression::parse(&formula).unwrap())
+        });
+        for friction in formulas.into_iter().chain([Load::dry(force)]) {
             let scene = Scene::new(crank, rod)
                 .offset(offset)
                 .branch(branch)
@@ -233,7 +236,7 @@ fn a_force_against_the_direction_of_the_slider_takes_its_work() {
                     inertia,
                     ..Crank::default()
                 })
-                .force(Load::Expression(friction))
+                .force(friction.clone())
                 .start(0.7, 40.0 * direction)
                 .revolutions(turns);
             let summary = run(&scene, Method::Auto).summary;
@@ -244,7 +247,7 @@ fn a_force_against_the_direction_of_the_slider_takes_its_work() {
             let stated = summary.error_estimate.expect("an estimate").omega_rad_per_s;
             assert!(
                 off <= 2.0 * stated && stated < 1e-11,
-                "{of_direction}: {off:e} {stated:e}"
+                "{friction}: {off:e} {stated:e}"
             );
         }
     }

@@ -189,7 +189,12 @@ fn a_refusal_names_the_load_that_is_the_cause() {
             "does not repeat",
             "rows",
         ),
-        (base().torque(Load::dry(0.1)), Method::Angle, "dry", "rest"),
+        (
+            base().torque(Load::dry(0.1)),
+            Method::Energy,
+            "torque[2] (opposes motion, magnitude constant 0.1) depends on omega",
+            "rest",
+        ),
     ] {
         let options = Options {
             method,

@@ -281,8 +281,10 @@ impl Dynamics for AngleModel<'_> {
     }
 
     fn corners(&self) -> &[f64] {
-        // Friction changes sign at the dead centres.
-        if self.guide.is_some() || self.inertia_vanishes || self.has_kinks_at_dead_centres() {
+        // Friction and dry loads change sign at the dead centres.
+        let [_, dry_on_slider] = self.equation.loads().dry_on();
+        let reverses = self.guide.is_some() || dry_on_slider;
+        if reverses || self.inertia_vanishes || self.has_kinks_at_dead_centres() {
             &self.cycle_corners
         } else {
             &self.load_corners
