@@ -85,16 +85,33 @@ impl Linkage {
         let cos_phi = Interval::new(squared.low.max(0.0), squared.high.max(0.0)).rising(f64::sqrt);
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
-        let dx = if self.margin() > 0.0 {
-            -(point(self.r) * self.sine_of_dead_centre(theta) * per)
-        } else {
-            -(point(self.r) * sin) - point(self.s) * along * sin_phi * per
+        let x = along + point(self.s * self.l) * cos_phi;
+        let dx = -(point(self.r) * sin) - point(self.s) * along * sin_phi * per;
+        let (x, dx) = match self.margin() > 0.0 {
+            true => self.between_dead_centres(theta, x, per),
+            false => (x, dx),
         };
         PoseRanges {
             angle: sin_phi.rising(f64::asin),
             dangle: along * point(1.0 / self.l) * per,
-            x: along + point(self.s * self.l) * cos_phi,
+            x,
             dx,
+        }
+    }
+
+    /// Encloses x and x' for a crank that turns fully, from an enclosure of x and of 1/cos φ. Between dead centres the
+    /// ends of the range hold all of x.
+    fn between_dead_centres(
+        &self,
+        theta: Interval,
+        x: Interval,
+        per: Interval,
+    ) -> (Interval, Interval) {
+        let dx = -(Interval::point(self.r) * self.sine_of_dead_centre(theta) * per);
+        let [low, high] = [theta.low, theta.high].map(|theta| self.pose(theta).x);
+        match dx.contains(0.0) {
+            true => (x, dx),
+            false => (Interval::between(low, high), dx),
         }
     }
 

@@ -207,7 +207,7 @@ fn jams(scene: &Scene) -> bool {
 /// Returns the first load whose corners are not known as crank angles, and why.
 fn why_corners_are_unknown(scene: &Scene) -> Option<String> {
     non_zero(scene).find_map(|of| match of.load.magnitude() {
-        Load::Table(table) if table.of() != Variable::Theta => {
+        Load::Table(table) if !matches!(table.of(), Variable::Theta | Variable::X) => {
             let rows_over = table.of().name();
             Some(format!(
                 "{of} has its rows over {rows_over}, not over theta"

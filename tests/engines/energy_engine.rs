@@ -8,8 +8,8 @@ use proptest::prelude::*;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{
-    Crank, Gravity, InertiaAbout, Interpolation, Load, Period, Rod, RodModel, Scene, Slider, Table,
-    Variable, Variables,
+    Crank, Expression, Gravity, InertiaAbout, Interpolation, Load, Period, Rod, RodModel, Scene,
+    Slider, Table, Variable, Variables,
 };
 use slider_crank::simulate::{Options, Simulation, simulate};
 
@@ -630,5 +630,46 @@ fn extreme_speeds_are_those_until_the_end() {
                 "{torque} {turns}: {found} {exact}"
             );
         }
+    }
+}
+
+/// A buffer and a table over the slider position have corners at other angles than rows. Reference: the time as the
+/// integral of dθ/ω between the corners, with 30 digits.
+#[test]
+fn loads_with_corners_over_the_slider_position_are_resolved() {
+    let rows = [0.08, 0.1, 0.12, 0.15, 0.18, 0.21];
+    let forces = [30.0, 10.0, -20.0, -25.0, 5.0, 40.0];
+    let table = Table::new(Variable::X, &rows, &forces, Interpolation::Linear, None);
+    let buffer = Expression::parse("max(0, 0.1 - x)*-500").unwrap();
+    for (load, theta, omega) in [
+        (
+            Load::Expression(buffer),
+            36.915_609_286_469_91,
+            34.959_658_231_845_3,
+        ),
+        (
+            Load::Table(table.unwrap()),
+            39.283_529_804_546_4,
+            35.886_336_688_941_02,
+        ),
+    ] {
+        let scene = Scene::new(0.05, 0.15)
+            .offset(0.01)
+            .crank(Crank {
+                inertia: 0.002,
+                ..Crank::default()
+            })
+            .slider(Slider { mass: 0.6 })
+            .force(load)
+            .start(0.3, 40.0)
+            .duration(1.0);
+        let summary = by_energy(&scene).summary;
+        let stated = summary.error_estimate.expect("an estimate");
+        let off = [
+            (summary.last.theta_rad - theta).abs() / stated.theta_rad,
+            (summary.last.omega_rad_per_s - omega).abs() / stated.omega_rad_per_s,
+        ];
+        assert!(off.iter().all(|off| *off < 2.0), "{off:?} {stated:?}");
+        assert!(stated.theta_rad < 1e-12);
     }
 }
