@@ -169,7 +169,7 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
 }
 
 /// Returns why the crank angle cannot be the independent variable from the start: the crank is at rest, a load has
-/// unknown corners or no cycle to tabulate; with friction also: the crank cannot turn fully, or the guide jams.
+/// unknown corners or no cycle to tabulate; where it may stick also: the crank cannot turn fully, or the guide jams.
 fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     let has_friction = scene.friction.is_some();
     let may_stick = has_friction || scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
@@ -210,7 +210,7 @@ fn why_corners_are_unknown(scene: &Scene) -> Option<String> {
         Load::Table(table) if !matches!(table.of(), Variable::Theta | Variable::X) => {
             let rows_over = table.of().name();
             Some(format!(
-                "{of} has its rows over {rows_over}, not over theta"
+                "{of} has its rows over {rows_over}, not over theta or x"
             ))
         }
         Load::Expression(expression) if expression.jumps() => Some(format!(
