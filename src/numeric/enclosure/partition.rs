@@ -1,6 +1,6 @@
 //! Partition of an interval into panels whose nodes resolve a function, by bisection.
 
-use super::{CORNER_SHARE, Interval, Variation, ellipses, resolved};
+use super::{Interval, Variation, ellipses, resolved};
 
 /// Required resolution of the panels.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,8 @@ pub fn partition(
     let width = over.high - over.low;
     let is_corner = |part: Interval| {
         let share = (part.high - part.low) / width;
-        real(part).change * share <= CORNER_SHARE * allowed || share < 0.5f64.powi(HALVINGS as i32)
+        // The node at an end of a panel may lie behind a corner by as much as the piece is long.
+        real(part).change <= allowed || share < 0.5f64.powi(HALVINGS as i32)
     };
     let mut left = vec![over];
     let mut pieces: Vec<(Interval, bool)> = Vec::new();
