@@ -673,3 +673,27 @@ fn loads_with_corners_over_the_slider_position_are_resolved() {
         assert!(stated.theta_rad < 1e-12);
     }
 }
+
+/// The torque |sin θ| has a corner where a turn begins and ends, too. Reference: as above.
+#[test]
+fn a_corner_where_a_turn_begins_is_one() {
+    let torque = Expression::parse("0.01*abs(sin(theta))").unwrap();
+    let scene = Scene::new(0.05, 0.15)
+        .offset(0.01)
+        .crank(Crank {
+            inertia: 0.002,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.6 })
+        .torque(Load::Expression(torque))
+        .start(1e-4, -12.0)
+        .duration(5.0);
+    let summary = by_energy(&scene).summary;
+    let stated = summary.error_estimate.expect("an estimate");
+    let off = summary.last.theta_rad + 22.534_939_369_445_263;
+    assert!(off.abs() < stated.theta_rad, "{off:e} {stated:?}");
+    assert!(stated.theta_rad < 1e-13);
+    assert!(summary.energy_residual.abs() < 1e-15);
+    // Panels are not cut in vain: a smooth torque takes 19 panels of 33 nodes.
+    assert!(summary.evaluations < 1000, "{}", summary.evaluations);
+}

@@ -36,7 +36,7 @@ pub(in crate::engine) struct Panel {
 
 /// Outcome of an attempted panel.
 pub(in crate::engine) enum Attempt {
-    /// Resolved panel, and the error of the kinetic energy gained on it due to rounded angles, J.
+    /// Resolved panel, and the error of the kinetic energy gained on it, J.
     Done(Box<Panel>, f64),
     /// Coefficients not decayed: a shorter panel is needed.
     Unresolved,
@@ -137,7 +137,8 @@ impl Panel {
             },
             ..Panel::from_slopes(piece, rule, &slopes, slope, rounding, kinetic_at_end)
         };
-        Ok(Attempt::Done(Box::new(panel), sensitivity.energy))
+        let gained_error = sensitivity.energy + energy.truncation_error();
+        Ok(Attempt::Done(Box::new(panel), gained_error))
     }
 
     /// Makes a panel from dt/dx at the points of a rule and its series; `rounding` is the relative error of dt/dx

@@ -72,7 +72,7 @@ impl<'a> AngleModel<'a> {
         };
         let cycle = known_cycle.unwrap_or(1);
         let length = f64::from(cycle) * TAU;
-        let ends_in_cycle = known_cycle.map(|_| panel_ends.between(0.0, length));
+        let ends_in_cycle = known_cycle.map(|_| panel_ends.in_cycle(length));
         let ends_in_cycle = ends_in_cycle.unwrap_or_default();
         let tables = loads.called().flat_map(Load::angle_corners);
         let in_turn = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));

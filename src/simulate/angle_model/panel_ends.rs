@@ -46,6 +46,18 @@ impl<'a> PanelEnds<'a> {
         partition(variation, Interval::new(low, high), RESOLUTION, unit)
     }
 
+    /// Returns the panel ends in [0, length), rad, for loads that repeat after that length. A corner at the start, which
+    /// no search within the length sees, lies between the last end of a cycle and the first of the next.
+    pub fn in_cycle(&self, length: f64) -> Vec<f64> {
+        let mut ends = self.between(0.0, length);
+        let last = ends.last().unwrap_or(&(0.5 * length)) - length;
+        let first = *ends.first().unwrap_or(&(0.5 * length));
+        if !self.between(last, first).is_empty() {
+            ends.insert(0, 0.0);
+        }
+        ends
+    }
+
     /// Returns the first panel end after `from` on the way to `to`, in either direction, rad.
     pub fn next(&self, from: f64, to: f64) -> Option<f64> {
         if !self.equation.loads().vary_with_position_between_nodes() {
