@@ -38,7 +38,7 @@ pub(super) fn areas(
     let largest = sizes.fold(0.0, f64::max);
     // Allowed error of an area, as a part of the largest value times the length.
     let tolerance = 1e-12;
-    move |f, from, to| gauss::adaptive(f, from, to, tolerance * largest * (to - from))
+    move |f, from, to| gauss::adaptive(f, &[from, to], tolerance * largest * (to - from))
 }
 
 impl ForceAnalysis {

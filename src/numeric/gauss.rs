@@ -68,17 +68,33 @@ fn rule<const N: usize>() -> [(f64, f64); N] {
     std::array::from_fn(|i| legendre(N as u32, i))
 }
 
-/// Integrates f over [from, to], bisecting where the halves together differ from the whole by more than `tolerance` and
-/// by more than rounding of f, at its mean size over all, and of its argument; the worst part first, at most a thousand
-/// times.
-pub fn adaptive(f: &dyn Fn(f64) -> f64, from: f64, to: f64, tolerance: f64) -> f64 {
-    let (first, rounding_of_all) = by_rule(f, from, to);
+/// Integrates f over the pieces between ends in rising or falling order, bisecting where the halves together differ from
+/// the whole by more than `tolerance` and by more than rounding of f, at its mean size over all pieces, and of its
+/// argument; in each piece the worst part first, at most a thousand times.
+pub fn adaptive(f: &dyn Fn(f64) -> f64, ends: &[f64], tolerance: f64) -> f64 {
+    let pieces = ends.windows(2).map(|ends| by_rule(f, ends[0], ends[1]));
+    let pieces: Vec<(f64, f64)> = pieces.collect();
+    let rounding: f64 = pieces.iter().map(|(_, rounding)| rounding).sum();
+    let length: f64 = ends.windows(2).map(|ends| (ends[1] - ends[0]).abs()).sum();
+    let integral = |(ends, (whole, _)): (&[f64], (f64, f64))| {
+        bisected(f, [ends[0], ends[1]], whole, tolerance, rounding / length)
+    };
+    ends.windows(2).zip(pieces).map(integral).sum()
+}
+
+/// Integrates f over [from, to] from its integral by one rule; `rounding` is that of the integral over a unit of length.
+fn bisected(
+    f: &dyn Fn(f64) -> f64,
+    [from, to]: [f64; 2],
+    first: f64,
+    tolerance: f64,
+    rounding: f64,
+) -> f64 {
     let part = |a: f64, b: f64, whole: f64| {
         let middle = 0.5 * (a + b);
         let (left, left_rounding) = by_rule(f, a, middle);
         let (right, right_rounding) = by_rule(f, middle, b);
-        let share = (b - a) / (to - from);
-        let rounding = (left_rounding + right_rounding).max(share * rounding_of_all);
+        let rounding = (left_rounding + right_rounding).max(rounding * (b - a).abs());
         Part {
             ends: [a, middle, b],
             halves: [left, right],

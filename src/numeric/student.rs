@@ -17,7 +17,7 @@ pub fn half_band(freedom: f64) -> f64 {
     let density = |angle: f64| angle.cos().powf(freedom - 1.0);
     // The power takes digits from the density: the tolerance is that of the digits left.
     let rounding = 0.005 * f64::EPSILON * freedom.sqrt();
-    let beyond = |angle: f64| gauss::adaptive(&density, angle, end, rounding);
+    let beyond = |angle: f64| gauss::adaptive(&density, &[angle, end], rounding);
     let all = beyond(0.0);
     let angle = root::bracketed(|angle| beyond(angle) - 0.05 * all, 0.0, end);
     freedom.sqrt() * angle.unwrap_or(end).tan()

@@ -233,7 +233,7 @@ mod gauss {
                 "{degree}"
             );
         }
-        let peak = adaptive(&|x| 1e-3 / (x * x + 1e-6), 0.0, 1.0, 1e-13);
+        let peak = adaptive(&|x| 1e-3 / (x * x + 1e-6), &[0.0, 1.0], 1e-13);
         assert!((peak - 1e3f64.atan()).abs() < 1e-12, "{peak}");
         // Positive and negative parts cancel, far from zero.
         let calls = std::cell::Cell::new(0);
@@ -241,7 +241,7 @@ mod gauss {
             calls.set(calls.get() + 1);
             (x - 2e4).sin()
         };
-        assert!(adaptive(&wave, 2e4 - 1.0, 2e4 + 1.0, 0.0).abs() < 1e-11);
+        assert!(adaptive(&wave, &[2e4 - 1.0, 2e4 + 1.0], 0.0).abs() < 1e-11);
         assert!(calls.get() < 500, "{}", calls.get());
         assert!((composite(|x| x.powi(5), 0.0, 2.0, 3) - 64.0 / 6.0).abs() < 1e-13);
     }
@@ -254,8 +254,48 @@ mod gauss {
             calls.set(calls.get() + 1);
             ((1.0 + x) - 1.0).max(0.0)
         };
-        assert!((adaptive(&ramp, 0.0, 1.0, 0.0) - 0.5).abs() < 1e-15);
+        assert!((adaptive(&ramp, &[0.0, 1.0], 0.0) - 0.5).abs() < 1e-15);
         assert!(calls.get() < 1000, "{}", calls.get());
+        // So is a piece on which it is hardly there.
+        calls.set(0);
+        let step = |x: f64| {
+            calls.set(calls.get() + 1);
+            let hardly = (1.0 + 1e-13 * x) - 1.0;
+            if x < 1.0 { 1.0 } else { hardly }
+        };
+        assert!((adaptive(&step, &[0.0, 1.0, 2.0], 0.0) - 1.0).abs() < 1e-12);
+        assert!(calls.get() < 200, "{}", calls.get());
+    }
+}
+
+mod partition {
+    use std::cell::Cell;
+
+    use slider_crank::numeric::enclosure::{
+        Enclosed, Interval, PanelResolution, Variation, partition,
+    };
+
+    /// Far from zero an interval has few halvings until its middle is one of its ends.
+    #[test]
+    fn a_corner_is_located_to_the_last_place_far_from_zero() {
+        let calls = Cell::new(0);
+        for from in [0.0, 5.7, -3e3, 1e6] {
+            let corner = from + 0.3;
+            let variation = |part: Interval, ellipse: f64| {
+                calls.set(calls.get() + 1);
+                let distance = Enclosed::variable(part, ellipse) - Enclosed::point(corner);
+                Variation::of(distance.abs())
+            };
+            let wanted = PanelResolution {
+                nodes: 24,
+                part: 1e-20,
+            };
+            let ends = partition(variation, Interval::new(from, from + 0.5), wanted, 0.0);
+            let nearest = ends.iter().map(|end| (end - corner).abs());
+            let off = nearest.fold(f64::INFINITY, f64::min);
+            assert!(off <= 2.0 * f64::EPSILON * from.abs().max(1.0), "{ends:?}");
+            assert!(ends.len() < 5 && calls.get() < 2000, "{}", calls.get());
+        }
     }
 }
 

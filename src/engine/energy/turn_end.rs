@@ -35,7 +35,7 @@ impl<'a> TurnEnd<'a> {
     /// Computes the energy integral, J; not positive where the crank does not arrive.
     fn energy(&self, theta: f64) -> f64 {
         let force = |theta: f64| self.force(theta);
-        self.kinetic - gauss::adaptive(&force, theta, self.angle, 0.0)
+        self.kinetic - gauss::adaptive(&force, &[theta, self.angle], 0.0)
     }
 
     fn is_near(&self, theta: f64) -> bool {

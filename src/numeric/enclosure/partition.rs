@@ -38,8 +38,10 @@ pub fn partition(
     let width = over.high - over.low;
     let is_corner = |part: Interval| {
         let share = (part.high - part.low) / width;
+        let middle = part.middle();
+        let is_point = middle <= part.low || middle >= part.high;
         // The node at an end of a panel may lie behind a corner by as much as the piece is long.
-        real(part).change <= allowed || share < 0.5f64.powi(HALVINGS as i32)
+        is_point || share < 0.5f64.powi(HALVINGS as i32) || real(part).change <= allowed
     };
     let mut left = vec![over];
     let mut pieces: Vec<(Interval, bool)> = Vec::new();

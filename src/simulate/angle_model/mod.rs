@@ -65,7 +65,7 @@ impl<'a> AngleModel<'a> {
         let loads = equation.loads();
         let dead_centres = task.dead_centres();
         let inertia_vanishes = task.inertia_vanishes();
-        let panel_ends = PanelEnds::new(equation, start, task.speed);
+        let panel_ends = PanelEnds::new(task);
         let known_cycle = match task.plan.engine {
             Engine::Time => None,
             _ => cycle_over_angle(task.scene).ok(),

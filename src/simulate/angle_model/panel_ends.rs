@@ -1,7 +1,9 @@
 //! Crank angles at which panels must end to resolve the loads of the position alone, from enclosures of these loads.
 
 use std::cell::RefCell;
+use std::f64::consts::TAU;
 
+use super::super::run_setup::RunSetup;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{Interval, PanelResolution, partition};
@@ -17,17 +19,20 @@ pub(super) struct PanelEnds<'a> {
     equation: &'a Equation,
     /// Crank angle and speed (rad/s) at the start of the run.
     start: (Angle, f64),
+    /// Crank angles in reach, rad, from and to; empty: all.
+    reach: &'a [[f64; 2]],
     /// Interval of the last search, rad, and the panel ends found in it.
     last: RefCell<(Interval, Vec<f64>)>,
 }
 
 impl<'a> PanelEnds<'a> {
-    /// Makes an empty set for a motion from an angle and a speed, rad/s.
-    pub fn new(equation: &'a Equation, start: Angle, speed: f64) -> PanelEnds<'a> {
+    /// Makes an empty set for a run.
+    pub fn new(task: &'a RunSetup<'_>) -> PanelEnds<'a> {
         let nowhere = Interval::new(f64::INFINITY, f64::NEG_INFINITY);
         PanelEnds {
-            equation,
-            start: (start, speed),
+            equation: task.equation(),
+            start: (task.start(), task.speed),
+            reach: &task.limits.reach,
             last: RefCell::new((nowhere, Vec::new())),
         }
     }
@@ -43,7 +48,29 @@ impl<'a> PanelEnds<'a> {
         // Energy of the start and work of its forces over a radian, J: unit beside which small details are negligible.
         let unit = self.equation.kinetic_energy(start.rest, speed)
             + self.equation.size_of_terms(0.0, start, speed);
-        partition(variation, Interval::new(low, high), RESOLUTION, unit)
+        let parts = self.in_reach(low, high);
+        let ends = |part| partition(variation, part, RESOLUTION, unit);
+        parts.into_iter().flat_map(ends).collect()
+    }
+
+    /// Returns the parts of an interval, rad, that the crank reaches, in rising order.
+    fn in_reach(&self, low: f64, high: f64) -> Vec<Interval> {
+        if self.reach.is_empty() {
+            return vec![Interval::new(low, high)];
+        }
+        let turns = (low / TAU).floor() as i64 - 1..=(high / TAU).ceil() as i64;
+        let part = |[from, to]: [f64; 2], turn: i64| {
+            let before = turn as f64 * TAU;
+            let part = Interval::new(low.max(from + before), high.min(to + before));
+            (part.low < part.high).then_some(part)
+        };
+        turns
+            .flat_map(|turn| {
+                self.reach
+                    .iter()
+                    .filter_map(move |reach| part(*reach, turn))
+            })
+            .collect()
     }
 
     /// Returns the panel ends in [0, length), rad, for loads that repeat after that length. A corner at the start, which

@@ -71,8 +71,7 @@ impl AngleModel<'_> {
         }
         cuts.push(high);
         cuts.sort_by(f64::total_cmp);
-        let piece = |w: &[f64]| gauss::adaptive(&force, w[0], w[1], 0.0);
-        let work: f64 = cuts.windows(2).map(piece).sum();
+        let work = gauss::adaptive(&force, &cuts, 0.0);
         if to < from { -work } else { work }
     }
 }

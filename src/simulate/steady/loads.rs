@@ -96,7 +96,7 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit)
         // A load may be steep on a part of the piece only.
         let open = open(from).min(open(0.5 * (from + to))).min(open(to));
         let tolerance = (1e-15 * found.cycle.largest_kinetic).max(open * (to - from));
-        gauss::adaptive(&force, from, to, tolerance)
+        gauss::adaptive(&force, ends, tolerance)
     };
     cuts.windows(2).map(piece).sum()
 }
