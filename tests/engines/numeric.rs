@@ -279,21 +279,22 @@ mod partition {
     #[test]
     fn a_corner_is_located_to_the_last_place_far_from_zero() {
         let calls = Cell::new(0);
-        for from in [0.0, 5.7, -3e3, 1e6] {
-            let corner = from + 0.3;
+        for begin in [0.0, 5.7, -3e3, 1e6] {
+            let corner = begin + 0.3;
+            let [from, beyond] = [begin, 0.3].map(Enclosed::point);
             let variation = |part: Interval, ellipse: f64| {
                 calls.set(calls.get() + 1);
-                let distance = Enclosed::variable(part, ellipse) - Enclosed::point(corner);
+                let distance = Enclosed::variable(part, ellipse) - from - beyond;
                 Variation::of(distance.abs())
             };
             let wanted = PanelResolution {
                 nodes: 24,
                 part: 1e-20,
             };
-            let ends = partition(variation, Interval::new(from, from + 0.5), wanted, 0.0);
+            let ends = partition(variation, Interval::new(begin, begin + 0.5), wanted, 0.0);
             let nearest = ends.iter().map(|end| (end - corner).abs());
             let off = nearest.fold(f64::INFINITY, f64::min);
-            assert!(off <= 2.0 * f64::EPSILON * from.abs().max(1.0), "{ends:?}");
+            assert!(off <= 2.0 * f64::EPSILON * begin.abs().max(1.0), "{ends:?}");
             assert!(ends.len() < 5 && calls.get() < 2000, "{}", calls.get());
         }
     }
