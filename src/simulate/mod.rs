@@ -26,6 +26,7 @@ mod row_writer;
 mod run;
 mod run_end;
 mod run_setup;
+mod saltation;
 mod schedule;
 mod second_run;
 mod simulation;

@@ -1,5 +1,6 @@
 //! Roundoff propagation: standard deviations of angle and speed, carried along a motion in time by state transitions.
 
+use super::saltation::saltation;
 use super::state_transition::{AccelerationSlopes, StateTransition};
 use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
@@ -17,8 +18,15 @@ pub(super) struct RoundoffPropagation {
     rounds_states: bool,
     /// Number of evaluations for slopes on the configuration curve.
     pub evaluations: u64,
-    /// Acceleration at the end of the last step on the curve, and the phase of that step.
-    before: Option<(f64, StickSlipPhase)>,
+    before: Option<StepEnd>,
+}
+
+/// End of the last step.
+#[derive(Clone, Copy, Debug)]
+struct StepEnd {
+    /// Acceleration, rad/s².
+    alpha: f64,
+    phase: StickSlipPhase,
 }
 
 impl RoundoffPropagation {
@@ -45,6 +53,14 @@ impl RoundoffPropagation {
         let slopes = AccelerationSlopes::of(motion, step);
         let transition = slopes.transition(step);
         let end = &step.end;
+        let phase = StickSlipPhase::FREE;
+        let last = StepEnd {
+            alpha: end.alpha,
+            phase,
+        };
+        if let Some(before) = self.before.replace(last) {
+            self.pass_jump(motion, step, before.alpha);
+        }
         let place = ROUNDING_DEVIATION * end.theta.abs() * slopes.by_angle();
         let mut size = end.alpha.abs();
         // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as
@@ -70,25 +86,32 @@ impl RoundoffPropagation {
     pub fn step_on_curve(&mut self, motion: CurveMotion<'_>, step: &Step) {
         let phase = motion.phase;
         let before = self.before.take();
+        let motion = Counted::new(&motion);
         if phase == StickSlipPhase::Sticking {
             // At rest an error of the speed is lost.
             self.covariance = self.covariance.with_speed_times(0.0);
             return;
         }
-        let mut covariance = self.covariance;
         let (start, end) = (&step.start, &step.end);
         let turned = start.omega == 0.0;
-        if let Some((before, _)) = before.filter(|(before, _)| turned && *before != 0.0) {
+        match before {
             // An early or late turning point: the acceleration before and after it differs by the friction.
-            covariance = covariance.with_speed_times(start.alpha / before);
+            Some(StepEnd { alpha, .. }) if turned && alpha != 0.0 => {
+                self.covariance = self.covariance.with_speed_times(start.alpha / alpha);
+            }
+            Some(before) if before.phase == phase => self.pass_jump(&motion, step, before.alpha),
+            _ => {}
         }
-        if turned || before.is_none_or(|(_, before)| before != phase) {
+        if turned || before.is_none_or(|before| before.phase != phase) {
             // A piece begins at a rounded time.
             let late = ROUNDING_DEVIATION * start.t.abs();
-            covariance = covariance.plus_error(late * start.omega, late * start.alpha);
+            let [angle, speed] = [start.omega, start.alpha].map(|rate| late * rate);
+            self.covariance = self.covariance.plus_error(angle, speed);
         }
-        self.before = Some((end.alpha, phase));
-        let motion = Counted::new(&motion);
+        self.before = Some(StepEnd {
+            alpha: end.alpha,
+            phase,
+        });
         let slopes = AccelerationSlopes::of(&motion, step);
         self.evaluations += motion.evaluations();
         let transition = slopes.transition(step);
@@ -98,9 +121,16 @@ impl RoundoffPropagation {
         let within = place.abs() + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
-        let carried = covariance.propagated(&transition);
+        let carried = self.covariance.propagated(&transition);
         let pushed = carried.plus_acceleration_error(within, &transition, step.length());
         self.covariance = pushed.plus_independent(angle, speed);
+    }
+
+    /// Carries the covariance over a jump of the acceleration at the start of a step, from that `before`, rad/s².
+    fn pass_jump(&mut self, motion: &dyn Motion, step: &Step, before: f64) {
+        if let Some(saltation) = saltation(motion, step, before) {
+            self.covariance = self.covariance.propagated(&saltation);
+        }
     }
 }
 
