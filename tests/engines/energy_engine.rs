@@ -690,7 +690,7 @@ fn a_corner_where_a_turn_begins_is_one() {
         .duration(5.0);
     let summary = by_energy(&scene).summary;
     let stated = summary.error_estimate.expect("an estimate");
-    let off = summary.last.theta_rad + 22.534_939_369_445_263;
+    let off = summary.last.theta_rad + 22.534_939_369_445_26;
     assert!(off.abs() < stated.theta_rad, "{off:e} {stated:?}");
     assert!(stated.theta_rad < 1e-13);
     assert!(summary.energy_residual.abs() < 1e-15);
