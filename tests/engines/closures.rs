@@ -1,9 +1,11 @@
 //! Pulses of closures that state their finest scale, compared with closed forms: all inertia is on the crank.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use slider_crank::plan::{Cycle, Method};
-use slider_crank::scene::{Crank, Load, Scene, Variable, Variables};
+use slider_crank::scene::{Crank, Instant, Load, Period, Scene, Variable, Variables};
 use slider_crank::simulate::{Options, simulate};
 
 const INERTIA: f64 = 0.02;
@@ -87,4 +89,22 @@ fn a_closure_that_states_no_scale_is_said_to_be_sampled() {
     assert!(said(load().with_finest_scale(Variable::Theta, 0.5)).is_some());
     assert!(said(load().with_finest_scale(Variable::T, 0.0)).is_some());
     assert_eq!(said(Load::Constant(1.0)), None);
+}
+
+/// A gas at ambient pressure pushes by what rounding leaves of the difference, which no bisection of a quadrature removes.
+#[test]
+fn a_load_that_is_rounding_over_most_of_a_turn_costs_no_more() {
+    let calls = Arc::new(AtomicU64::new(0));
+    let counted = calls.clone();
+    let gauge_pressure = move |now: &Instant| {
+        counted.fetch_add(1, Ordering::Relaxed);
+        let pressure = 1e5 + 2e6 * (-20.0 * (1.0 - (now.theta - 1.0).cos())).exp();
+        1e-6 * (pressure - 1e5)
+    };
+    let load = Load::function(Variables::THETA, gauge_pressure).with_period(Period::TURN);
+    let scene = crank(load.with_finest_scale(Variable::Theta, 0.2)).start(3.0, 1.0);
+    let summary = simulate(&scene.duration(7.5), &Options::default()).unwrap();
+    assert_eq!(summary.summary.engine, "energy");
+    let calls = calls.load(Ordering::Relaxed);
+    assert!(calls < 20_000, "{calls}");
 }

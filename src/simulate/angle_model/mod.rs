@@ -108,7 +108,8 @@ impl<'a> AngleModel<'a> {
             limit: task.options.limit(),
             shared: None,
         };
-        if model.panel_ends_are_corners && task.plan.engine == Engine::Energy {
+        let by_energy = task.plan.engine == Engine::Energy;
+        if by_energy && model.panel_ends_are_corners && task.turns_fully() {
             model.work_of_turn = Some(model.work_of_one_turn());
         }
         model

@@ -22,7 +22,7 @@ impl AngleModel<'_> {
         let torque = TAU * self.equation.loads().constant_torque();
         let (mut work, mut size) = (torque, torque.abs());
         if !self.equation.loads().have_potential() {
-            work += self.work_between(0.0, TAU);
+            work += self.work_between(0.0, TAU, 0.0);
             size += gauss::composite(|theta| self.push(theta).abs(), 0.0, TAU, 64);
         }
         (work, f64::EPSILON * size)
@@ -34,15 +34,16 @@ impl AngleModel<'_> {
             return 0.0;
         }
         let turns = to.turns - from.turns;
-        if self.work_of_turn.is_none() {
-            return self.work_between(from.rest, to.rest + turns * TAU);
-        }
+        let Some((_, error)) = self.work_of_turn else {
+            return self.work_between(from.rest, to.rest + turns * TAU, 0.0);
+        };
         let whole = if turns == 0.0 {
             0.0
         } else {
-            turns * self.work_between(0.0, TAU)
+            turns * self.work_between(0.0, TAU, 0.0)
         };
-        whole + self.work_between(from.rest, to.rest)
+        // A part of a turn on which the loads are rounding, as a gas at ambient pressure, is not resolved.
+        whole + self.work_between(from.rest, to.rest, error)
     }
 
     /// Returns the generalized force (N m) of the loads without potential at an angle, rad.
@@ -53,7 +54,8 @@ impl AngleModel<'_> {
         load.generalized(pose.dx)
     }
 
-    fn work_between(&self, from: f64, to: f64) -> f64 {
+    /// Integrates the force between two angles, rad; `tolerance`, J.
+    fn work_between(&self, from: f64, to: f64, tolerance: f64) -> f64 {
         let force = |theta: f64| self.push(theta);
         let (low, high) = (from.min(to), from.max(to));
         let [first, last] = [low, high].map(|end| (end / TAU).floor() as i64);
@@ -71,7 +73,7 @@ impl AngleModel<'_> {
         }
         cuts.push(high);
         cuts.sort_by(f64::total_cmp);
-        let work = gauss::adaptive(&force, &cuts, 0.0);
+        let work = gauss::adaptive(&force, &cuts, tolerance);
         if to < from { -work } else { work }
     }
 }
