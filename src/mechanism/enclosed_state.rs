@@ -86,10 +86,12 @@ impl Linkage {
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
         let x = along + point(self.s * self.l) * cos_phi;
-        let dx = -(point(self.r) * sin) - point(self.s) * along * sin_phi * per;
         let (x, dx) = match self.margin() > 0.0 {
             true => self.between_dead_centres(theta, x, per),
-            false => (x, dx),
+            false => {
+                let of_rod = point(self.s) * along * sin_phi * per;
+                (x, -(point(self.r) * sin) - of_rod)
+            }
         };
         PoseRanges {
             angle: sin_phi.rising(f64::asin),

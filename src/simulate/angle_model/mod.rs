@@ -184,7 +184,10 @@ impl Dynamics for AngleModel<'_> {
             }
         };
         table.places.clear();
-        let sign = sign_between_dead_centres(&at.dx[..count]);
+        let sign = match driven {
+            true => sign_between_dead_centres(&at.dx[..count]),
+            false => 1.0,
+        };
         let least_dx = DEAD_CENTRE_WIDTH * self.equation.linkage().r;
         let mut of_place = [LoadValue::default(); MAX_DEGREE + 1];
         for (i, angle) in angles.iter().enumerate().take(count) {
