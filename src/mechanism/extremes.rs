@@ -101,7 +101,7 @@ fn range(
         }
         let known = |theta: f64| Ok::<f64, Infallible>(slope(theta));
         let ends = [(grid[i - 1], before), (grid[i], after)];
-        let Ok(Some(theta)) = root::between(known, ends) else {
+        let Ok(Some(theta)) = root::between(known, ends, 0.0) else {
             continue;
         };
         let here = Extreme {

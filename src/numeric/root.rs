@@ -14,13 +14,14 @@ pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Opti
     brent(f, ends, width)
 }
 
-/// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known.
+/// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known, to a width.
 ///
 /// # Errors
 /// The first error of f.
 pub fn between<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     ends: [(f64, f64); 2],
+    width: f64,
 ) -> Result<Option<f64>, E> {
     let mut failed = None;
     let known = |at: f64| {
@@ -29,7 +30,7 @@ pub fn between<E>(
             f64::NAN
         })
     };
-    let root = brent(known, ends, 0.0);
+    let root = brent(known, ends, width);
     failed.map_or(Ok(root), Err)
 }
 

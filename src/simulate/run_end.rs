@@ -149,6 +149,7 @@ impl RunEnd {
         Simulation {
             summary,
             trajectory: record.trajectory,
+            work: None,
             maker: (self.engine != Engine::Contact).then(|| task.maker.clone()),
             curve: record.curve,
             phases: record.phases,

@@ -15,6 +15,8 @@ pub struct Simulation {
     pub summary: Summary,
     /// Dense motion, if it was recorded.
     pub trajectory: Option<Trajectory>,
+    /// Work of friction and of the loads without potential, J, if the motion was integrated.
+    pub(super) work: Option<f64>,
     /// Maker of rows; none with a loose joint.
     pub(super) maker: Option<RowMaker>,
     /// Configuration curve, if the whole run follows its coordinate.

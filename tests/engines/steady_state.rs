@@ -472,3 +472,19 @@ fn a_flywheel_that_cannot_be_is_refused_with_the_reason() {
         .start(0.0, 3.0);
     refused(&even, Some(0.02), &["constant"]);
 }
+
+/// What a turn gains is told by the work of the loads, not by the difference of energies beside which it is rounding.
+#[test]
+fn a_loss_that_is_nothing_beside_the_energy_is_still_a_loss() {
+    let light = |scale: f64| {
+        crank(0.02)
+            .torque(Load::Viscous(1e-2 * scale))
+            .start(0.0, 3.0)
+    };
+    refused(&light(1e-4), None, &["at every speed a cycle loses energy"]);
+    for scale in [1e-4, 1e-9, 1e-13] {
+        let driven = light(scale).torque(Load::Constant(scale));
+        let Estimated { value, error } = steady(&driven).omega_mean_rad_per_s;
+        assert!((value - 100.0).abs() <= error, "{scale:e}: {value} {error}");
+    }
+}

@@ -66,7 +66,9 @@ pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCy
     let (low, high, approached) = bracket(map, first, step)?;
     // Close to the root rounding may change a sign: the values that made the bracket are kept.
     let ends = [low, high].map(|end| (end.kinetic, end.gain));
-    let kinetic = root::between(|kinetic| map.gain(kinetic), ends)?;
+    // An error of the gain moves the fixed point by no less.
+    let width = map.noise() * low.kinetic;
+    let kinetic = root::between(|kinetic| map.gain(kinetic), ends, width)?;
     let kinetic = kinetic.ok_or(NotApplicable::NotSmooth)?;
     let (slope, slope_error) = slope(map, kinetic)?;
     Ok(FixedPoint {

@@ -69,6 +69,7 @@ pub(super) fn run(
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
     }
     let (at, over_angle) = (result.state, result.pieces_over_angle > 0);
+    let work = Some(result.work);
     let end = RunEnd {
         at,
         // An engine over the angle names the run, if any piece was over the angle.
@@ -91,7 +92,10 @@ pub(super) fn run(
         true => end.with_bounded_speeds(task),
         false => end,
     };
-    Ok(end.conclude(task))
+    Ok(Simulation {
+        work,
+        ..end.conclude(task)
+    })
 }
 
 fn energy_balance(task: &RunSetup<'_>, result: &PassResult, record: &Record) -> EnergyBalance {

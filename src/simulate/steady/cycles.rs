@@ -134,6 +134,15 @@ impl<'a> SceneCycleMap<'a> {
         Ok(run)
     }
 
+    /// Returns the energy gained by a cycle, J: the work of its loads, which keeps its digits, and its sign, where it is
+    /// nothing beside the energy.
+    fn gained(&self, run: &Simulation) -> f64 {
+        let rotation = self.task.extent.angle().unwrap_or_default();
+        let torque = self.task.equation().loads().constant_torque();
+        let by_torque = torque * rotation.copysign(self.task.speed);
+        run.work.unwrap_or(f64::NAN) + by_torque
+    }
+
     /// Runs the cycle that begins with a kinetic energy, J.
     pub fn cycle(&mut self, kinetic: f64) -> Result<CycleRun, NotApplicable> {
         let run = self.run(kinetic, true)?;
@@ -148,7 +157,7 @@ impl<'a> SceneCycleMap<'a> {
         Ok(CycleRun {
             period: summary.last.t_s,
             speed: self.speed(kinetic),
-            gain: self.energy(last) - kinetic,
+            gain: self.gained(&run),
             largest_kinetic: self.largest_kinetic,
             relative_error: self.noise * self.largest_kinetic / self.energy(slowest),
             trajectory: run.trajectory.ok_or(NotApplicable::NotFinite)?,
@@ -163,7 +172,7 @@ impl CycleMap for SceneCycleMap<'_> {
 
     fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {
         let run = self.run(kinetic, false)?;
-        Ok(self.energy(run.summary.last.omega_rad_per_s) - kinetic)
+        Ok(self.gained(&run))
     }
 
     fn largest_kinetic(&self) -> f64 {

@@ -37,7 +37,7 @@ pub(super) fn size(
         true => heavier(scene, now, &excess)?,
         false => lighter(scene, wanted, now, &excess)?,
     };
-    let Some(added) = root::between(excess, ends)? else {
+    let Some(added) = root::between(excess, ends, 0.0)? else {
         return Err(Error::refused(
             format!("no flywheel was found for a coefficient of fluctuation of {wanted}"),
             "ask for another coefficient",
