@@ -184,10 +184,7 @@ impl Dynamics for AngleModel<'_> {
             }
         };
         table.places.clear();
-        let sign = match driven {
-            true => sign_between_dead_centres(&at.dx[..count]),
-            false => 1.0,
-        };
+        let sign = driven.then(|| sign_between_dead_centres(&at.dx[..count]));
         let least_dx = DEAD_CENTRE_WIDTH * self.equation.linkage().r;
         let mut of_place = [LoadValue::default(); MAX_DEGREE + 1];
         for (i, angle) in angles.iter().enumerate().take(count) {
@@ -203,7 +200,7 @@ impl Dynamics for AngleModel<'_> {
                 let load_effect = GuideLoadEffect::default();
                 // A load that jumps where the slider reverses has its value on the panel also at the ends.
                 let dx = if dx.abs() < least_dx {
-                    (f64::EPSILON * least_dx).copysign(sign)
+                    (f64::EPSILON * least_dx).copysign(sign.unwrap_or_default())
                 } else {
                     dx
                 };
