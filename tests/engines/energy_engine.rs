@@ -633,6 +633,17 @@ fn extreme_speeds_are_those_until_the_end() {
     }
 }
 
+/// Crank and slider of the 30-digit references.
+fn with_offset() -> Scene {
+    Scene::new(0.05, 0.15)
+        .offset(0.01)
+        .crank(Crank {
+            inertia: 0.002,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.6 })
+}
+
 /// A buffer and a table over the slider position have corners at other angles than rows. Reference: the time as the
 /// integral of dθ/ω between the corners, with 30 digits.
 #[test]
@@ -653,16 +664,7 @@ fn loads_with_corners_over_the_slider_position_are_resolved() {
             35.886_336_688_941_02,
         ),
     ] {
-        let scene = Scene::new(0.05, 0.15)
-            .offset(0.01)
-            .crank(Crank {
-                inertia: 0.002,
-                ..Crank::default()
-            })
-            .slider(Slider { mass: 0.6 })
-            .force(load)
-            .start(0.3, 40.0)
-            .duration(1.0);
+        let scene = with_offset().force(load).start(0.3, 40.0).duration(1.0);
         let summary = by_energy(&scene).summary;
         let stated = summary.error_estimate.expect("an estimate");
         let off = [
@@ -678,13 +680,7 @@ fn loads_with_corners_over_the_slider_position_are_resolved() {
 #[test]
 fn a_corner_where_a_turn_begins_is_one() {
     let torque = Expression::parse("0.01*abs(sin(theta))").unwrap();
-    let scene = Scene::new(0.05, 0.15)
-        .offset(0.01)
-        .crank(Crank {
-            inertia: 0.002,
-            ..Crank::default()
-        })
-        .slider(Slider { mass: 0.6 })
+    let scene = with_offset()
         .torque(Load::Expression(torque))
         .start(1e-4, -12.0)
         .duration(5.0);
