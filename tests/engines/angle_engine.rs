@@ -124,6 +124,34 @@ fn viscous_loss_alone_takes_two_sweeps() {
     assert!(evaluations <= 3 * 13 * 16, "{evaluations}");
 }
 
+/// A panel whose degree is too low or that is too long is solved again from the motion found on it, with the degree at
+/// which its series will have decayed: the attempts cost little beside the solution. The torque A sin(ωt) on a crank
+/// alone has the closed solution θ̇ = θ̇₀ + A (1 − cos ωt)/Jω.
+#[test]
+fn attempts_at_a_panel_are_not_lost() {
+    let (inertia, torque, rate, speed, t_end) = (0.02, 40.0, 90.0, 60.0f64, 0.4);
+    let formula = format!("{torque}*sin({rate}*t)");
+    let scene = Scene::new(0.05, 0.2)
+        .crank(Crank {
+            inertia,
+            ..Crank::default()
+        })
+        .torque(Load::Expression(Expression::parse(&formula).unwrap()))
+        .start(0.4, speed)
+        .duration(t_end);
+    let options = Options {
+        method: Method::Angle,
+        estimate: false,
+        ..Options::default()
+    };
+    let run = simulate(&scene, &options).unwrap();
+    let push = torque / (inertia * rate);
+    let angle = 0.4 + (speed + push) * t_end - push / rate * (rate * t_end).sin();
+    assert!((run.summary.last.theta_rad - angle).abs() < 1e-11);
+    let evaluations = run.summary.evaluations;
+    assert!(evaluations < 4_200, "{evaluations}");
+}
+
 /// A crank alone, braked by viscous torque, passes each dead centre after turning by the angle to it, both in the first
 /// turns and in mapped ones, although panels do not end there.
 #[test]

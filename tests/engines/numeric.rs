@@ -63,6 +63,35 @@ mod chebyshev {
         }
     }
 
+    /// The coefficients of 1/(a − x) fall by the factor ρ = a + √(a² − 1) from each to the next (Trefethen, ch. 8).
+    #[test]
+    fn the_degree_of_a_tail_is_foretold() {
+        for a in [1.1f64, 1.3, 2.0] {
+            let rho = a + (a * a - 1.0).sqrt();
+            let series = Rule::of(16).series(&Rule::of(16).values(|x| 1.0 / (a - x)));
+            for tail in [1e-12, 1e-20] {
+                let exact = -f64::ln(tail) / rho.ln();
+                let foretold = series.degree_of_tail(tail);
+                assert!(
+                    (foretold / exact - 1.0).abs() < 0.15,
+                    "{a} {tail}: {foretold} {exact}"
+                );
+            }
+        }
+        let rule = Rule::of(24);
+        assert_eq!(
+            rule.series(&rule.values(|x| (0.1 * x).exp()))
+                .degree_of_tail(1e-10),
+            24.0
+        );
+        // The terms of |x - 0.1| fall with the square of their index alone.
+        assert!(
+            rule.series(&rule.values(|x| (x - 0.1).abs()))
+                .degree_of_tail(1e-10)
+                > 100.0
+        );
+    }
+
     #[test]
     fn a_corner_is_not_taken_for_smooth() {
         let rule = Rule::of(32);

@@ -89,7 +89,9 @@ impl<P: Copy> CyclePanels<P> {
     ) -> Result<(), NotApplicable> {
         let mut all = Vec::with_capacity(2 * self.panels.len());
         for panel in std::mem::take(&mut self.panels) {
-            let parts = panel.failed.then(|| panel.parts(dynamics, fine.cut, fine));
+            let parts = panel
+                .failed
+                .then(|| panel.parts(dynamics, fine.cut, fine, None));
             match parts.transpose()?.flatten() {
                 Some(parts) => all.extend(parts),
                 None => all.push(panel),

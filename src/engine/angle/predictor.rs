@@ -7,44 +7,54 @@ use crate::numeric::chebyshev::Values;
 /// Number of profiles kept: one more than the degree of the polynomial through them.
 const PROFILES_KEPT: usize = 5;
 
-/// Kinetic energy profiles at the points of a panel in the last turns, the latest first.
-pub(super) struct Predictor(VecDeque<Values>);
+/// Kinetic energy profiles at the points of a panel.
+pub(super) struct Predictor {
+    /// Profiles in the last turns, the latest first.
+    profiles: VecDeque<Values>,
+    /// Profile of an attempt with another panel, until there is a solution.
+    attempt: Option<Values>,
+}
 
 impl Predictor {
     pub fn new() -> Predictor {
-        Predictor(VecDeque::with_capacity(PROFILES_KEPT))
+        Predictor {
+            profiles: VecDeque::with_capacity(PROFILES_KEPT),
+            attempt: None,
+        }
     }
 
-    pub fn forget(&mut self) {
-        self.0.clear();
+    /// Forgets all profiles, and begins with that of an attempt, if any.
+    pub fn restart(&mut self, attempt: Option<Values>) {
+        self.profiles.clear();
+        self.attempt = attempt;
     }
 
     /// Stores the kinetic energy (J) at the points.
     pub fn remember(&mut self, kinetic: &Values) {
-        self.0.truncate(PROFILES_KEPT - 1);
-        self.0.push_front(*kinetic);
+        self.profiles.truncate(PROFILES_KEPT - 1);
+        self.profiles.push_front(*kinetic);
     }
 
     /// Returns the latest profile.
     pub fn last(&self) -> Option<&Values> {
-        self.0.front()
+        self.profiles.front()
     }
 
     /// Computes the profile that starts with a kinetic energy (J), for turns that depend on this energy alone: the
     /// polynomial in it through the last `most` profiles, or through fewer if they are too close together. None without
     /// profiles.
     pub fn carry_on(&self, start: f64, most: usize, kinetic: &mut Values) -> Option<()> {
-        let most = self.0.len().min(most);
+        let most = self.profiles.len().min(most);
         let Some((count, shares)) = (2..=most)
             .rev()
             .find_map(|count| Some((count, self.shares(start, count)?)))
         else {
-            let last = self.last()?;
+            let last = self.last().or(self.attempt.as_ref())?;
             *kinetic = last.map(|kinetic| kinetic + (start - last[0]));
             return Some(());
         };
-        *kinetic = self.0[0].map(|kinetic| shares[0] * kinetic);
-        for (share, profile) in shares.iter().zip(&self.0).take(count).skip(1) {
+        *kinetic = self.profiles[0].map(|kinetic| shares[0] * kinetic);
+        for (share, profile) in shares.iter().zip(&self.profiles).take(count).skip(1) {
             for (sum, kinetic) in kinetic.iter_mut().zip(profile) {
                 *sum += share * kinetic;
             }
@@ -59,7 +69,7 @@ impl Predictor {
         let variable = |kinetic: f64| if count > 2 { kinetic.sqrt() } else { kinetic };
         let here = variable(start);
         let mut at = [0.0; PROFILES_KEPT];
-        for (at, profile) in at.iter_mut().zip(&self.0).take(count) {
+        for (at, profile) in at.iter_mut().zip(&self.profiles).take(count) {
             *at = variable(profile[0]);
         }
         let mut shares = [0.0; PROFILES_KEPT];

@@ -12,8 +12,12 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         let (kinetic, fastest) = (self.progress.kinetic, self.progress.fastest);
         let has_parts = self.panels.has_parts();
         let panel = self.panels.next_mut();
-        if panel.raise(self.dynamics)? {
-            return Ok(());
+        let attempt = self.solution.attempt(panel.rule);
+        let attempt = attempt.as_ref();
+        if why == Unsolved::TooLong
+            && let Some(degree) = self.solution.degree_needed(panel, self.fine.tail)
+        {
+            return panel.raise(self.dynamics, degree, attempt);
         }
         // Below this fraction of the largest kinetic energy, and this half length, rad, a crank that seems to stop on
         // the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
@@ -22,7 +26,7 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         if self.gives_up && why == Unsolved::Stops && slows {
             return Err(NotApplicable::TooSlow);
         }
-        let Some(parts) = panel.parts(self.dynamics, self.fine.cut, self.fine)? else {
+        let Some(parts) = panel.parts(self.dynamics, self.fine.cut, self.fine, attempt)? else {
             // The crank is near rest below this fraction of the largest kinetic energy, and where the forces may have
             // produced its energy within so many radians.
             let small = 1e-2;

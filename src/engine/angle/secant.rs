@@ -49,10 +49,16 @@ impl PanelSolution {
         &mut self,
         panel: &PanelTable<P>,
         [before, now]: [&Secant; 2],
+        of_table: bool,
         change: &mut Values,
     ) -> f64 {
         let (count, half) = (panel.rule.degree() + 1, panel.half());
         let slopes = before.slopes(now, count);
+        let rates = if of_table {
+            self.forces.rates_of_table(panel)
+        } else {
+            [0.0; MAX_DEGREE + 1]
+        };
         let sweep = *change;
         let mut more = [0.0; MAX_DEGREE + 1];
         let first = largest(&sweep[..count]);
@@ -68,7 +74,7 @@ impl PanelSolution {
                 StateVariable::Time => self.delay(panel, change),
             };
             for j in 0..count {
-                more[j] = slopes[j] * by[j];
+                more[j] = slopes[j] * by[j] + rates[j] * change[j];
             }
             let work = panel.rule.integrals(&more);
             let mut moved = [0.0; MAX_DEGREE + 1];

@@ -1,6 +1,7 @@
 //! Motion on a solved panel.
 
 use super::forces::Forces;
+use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
 /// Non-conservative force on a panel, or on its first part.
@@ -41,6 +42,10 @@ pub(super) struct PanelSolution {
     pub share: f64,
     /// Evaluations of the loads.
     pub evaluations: u64,
+    /// Largest change of the kinetic energy by the first sweep, relative to it.
+    pub first_change: f64,
+    /// Largest change by the last sweep.
+    pub last_change: f64,
 }
 
 impl PanelSolution {
@@ -56,6 +61,8 @@ impl PanelSolution {
             end: 0.0,
             share: 1.0,
             evaluations: 0,
+            first_change: 0.0,
+            last_change: 0.0,
         }
     }
 
@@ -65,6 +72,25 @@ impl PanelSolution {
             values: self.forces.non_conservative,
             share: self.share,
         }
+    }
+
+    /// Returns the series of the kinetic energy of an unsolved panel, J; none if the sweeps did not converge.
+    pub fn attempt(&self, rule: &Rule) -> Option<Series> {
+        (self.last_change <= self.first_change).then(|| rule.series(&self.kinetic))
+    }
+
+    /// Returns the next degree at which the forces on an unsolved panel are likely to decay to a tail; none if there is
+    /// none.
+    pub fn degree_needed<P: Copy>(&self, panel: &PanelTable<P>, tail: f64) -> Option<usize> {
+        let next = Rule::next_degree(panel.rule.degree())?;
+        let mut slopes = [0.0; MAX_DEGREE + 1];
+        self.forces.fill_slopes(panel, &mut slopes)?;
+        let series = [&slopes, &self.forces.total].map(|values| panel.rule.series(values));
+        let needed = series.map(|series| series.degree_of_tail(tail));
+        let needed = needed[0].max(needed[1]);
+        Rule::DEGREES
+            .into_iter()
+            .find(|degree| *degree >= next && *degree as f64 >= needed)
     }
 
     /// Returns the advance of the end time per error of the kinetic energy at the start, ∫ dt/2K, s/J.

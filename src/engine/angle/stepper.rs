@@ -28,7 +28,7 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     /// True for a second run, which states the roundoff of both.
     is_second: bool,
     /// Motion on the last panel.
-    solution: PanelSolution,
+    pub(super) solution: PanelSolution,
     /// Known run that supplies the first guess.
     guide: Option<Guide<'a>>,
     /// Start of the run, with an angle reduced to less than a turn.
@@ -180,7 +180,8 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             return Ok(false);
         }
         let end = unresolved_at(self.dynamics, panel, start, self.fine, solution);
-        let parts = end.map(|share| panel.parts(self.dynamics, share, self.fine));
+        let found = panel.rule.series(&solution.kinetic);
+        let parts = end.map(|share| panel.parts(self.dynamics, share, self.fine, Some(&found)));
         let Some(parts) = parts.transpose()?.flatten() else {
             return Ok(true);
         };

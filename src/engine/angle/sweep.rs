@@ -28,6 +28,7 @@ pub(super) fn sweep<D: Dynamics>(
 ) -> Result<(), Unsolved> {
     solution.evaluations = 0;
     solution.share = 1.0;
+    (solution.first_change, solution.last_change) = (0.0, f64::INFINITY);
     if panel.is_in_closed_form(dynamics) {
         return solution.take_undamped(dynamics, panel, start, tail);
     }
@@ -35,7 +36,7 @@ pub(super) fn sweep<D: Dynamics>(
     let has_state_loads = dynamics.has_state_loads();
     // Error that the sweeps may leave, as a fraction of the tail: it adds up over the turns. Tabulated forces alone are
     // evaluated once more, which is another sweep for the energy gain.
-    let error_share = if has_state_loads { 1e-3 } else { 1e-2 };
+    let error_share = 1e-2;
     // Rounding of the kinetic energy, relative to it: as a sum and as the work in it.
     let energy_rounding = 2.0 * f64::EPSILON;
     let largest_error = (error_share * tail).max(energy_rounding);
@@ -54,16 +55,17 @@ pub(super) fn sweep<D: Dynamics>(
     for _ in 0..most_sweeps {
         solution.evaluate(dynamics, panel, start)?;
         let mut change = solution.change(panel, start);
+        let contraction = *contraction.get_or_insert_with(|| solution.contraction(panel));
+        let linear = contraction > plain
+            || has_state_loads && variable.is_none() && panel.varies_with_speed();
         let now = variable.map(|variable| Secant::of(solution, variable));
         let left_out = match (newton, &secant, &now) {
             (false, Some(before), Some(now)) => {
-                solution.follow_state_loads(panel, [before, now], &mut change)
+                solution.follow_state_loads(panel, [before, now], !linear, &mut change)
             }
             _ => 1.0,
         };
         secant = now;
-        let contraction = *contraction.get_or_insert_with(|| solution.contraction(panel));
-        let linear = contraction > plain || has_state_loads && panel.varies_with_speed();
         newton = newton || linear && !solution.linearise(panel, &mut change);
         if newton {
             let rates = solution.forces.rates(dynamics, panel, start);
@@ -71,6 +73,10 @@ pub(super) fn sweep<D: Dynamics>(
             keep_positive(&solution.kinetic, &mut change);
         }
         let largest = add(&mut solution.kinetic, &mut change, panel.rule.degree() + 1)?;
+        solution.last_change = largest;
+        if before.is_infinite() {
+            solution.first_change = largest;
+        }
         // The forces are as accurate as the motion: more sweeps would not resolve them.
         if solution.forces_are_left_out(panel, start, tail, largest) {
             return Err(Unsolved::TooLong);
@@ -82,11 +88,9 @@ pub(super) fn sweep<D: Dynamics>(
             .then(|| (largest / before).max(least_factor));
         let factor = match measured {
             _ if !linear && !newton && !has_state_loads => contraction,
-            _ if linear && !newton && !has_state_loads => largest,
+            _ if linear && !newton && !has_state_loads => largest * quadratic(contraction),
             // The error of secants is of the order of the product of the last two.
-            Some(_) if !linear && earlier.is_finite() && left_out < 1.0 => {
-                left_out.max(largest / earlier)
-            }
+            Some(_) if earlier.is_finite() && left_out < 1.0 => left_out.max(largest / earlier),
             Some(measured) => measured,
             None => panel.factor,
         };
@@ -115,6 +119,13 @@ pub(super) fn sweep<D: Dynamics>(
         (earlier, before) = (before, largest);
     }
     Err(Unsolved::TooLong)
+}
+
+/// Returns a bound of C in the error C δ² that a Newton sweep leaves of a relative change δ, for forces that are linear
+/// in the speed: ½ ∂²F/∂K² = −r/4K with r = ∂F/∂K, whose integral the contraction bounds, as it bounds the logarithm of
+/// the integrating factor.
+fn quadratic(contraction: f64) -> f64 {
+    0.25 * contraction * contraction.exp()
 }
 
 /// Adds a change (J) at the first `count` points; returns the largest relative change.

@@ -153,6 +153,20 @@ impl Series {
         self.tail_at(self.degree)
     }
 
+    /// Returns the degree at which the coefficients would reach a tail if they decayed further as between half of the
+    /// degree and the degree: geometrically, for an analytic function (Trefethen, theorem 8.1). Infinite without decay.
+    pub fn degree_of_tail(&self, tail: f64) -> f64 {
+        let half = self.degree / 2;
+        // Odd and even terms may be of unlike size.
+        let at = |k: usize| largest(&self.coefficients[k - 2..=k]);
+        let (middle, end, allowed) = (at(half), at(self.degree), tail * self.largest());
+        if end <= allowed {
+            return self.degree as f64;
+        }
+        let decay = (middle / end).ln() / (self.degree - half) as f64;
+        self.degree as f64 + (end / allowed).ln() / decay.max(0.0)
+    }
+
     /// Returns the tail of the series cut at a smaller degree.
     pub fn tail_at(&self, degree: usize) -> f64 {
         let largest = self.largest();
