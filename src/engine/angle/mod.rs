@@ -18,6 +18,7 @@ mod fixed_point;
 mod forces;
 mod guide;
 mod load_resolution;
+mod newton;
 mod panel;
 mod poincare_map;
 mod predictor;

@@ -5,7 +5,7 @@ use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
 use super::{Dynamics, State, Table};
 use crate::numeric::angle::Angle;
-use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values, largest};
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values, largest};
 
 /// State at the start of a panel.
 #[derive(Clone, Copy, Debug)]
@@ -224,46 +224,6 @@ impl<P: Copy> PanelTable<P> {
         force
     }
 
-    /// Raises the degree; `attempt` is the kinetic energy found with the former one.
-    pub fn raise(
-        &mut self,
-        dynamics: &impl Dynamics<Place = P>,
-        degree: usize,
-        attempt: Option<&Series>,
-    ) -> Result<(), NotApplicable> {
-        self.rule = Rule::of(degree);
-        let attempt = attempt.and_then(|kinetic| on_part(kinetic, self.rule, [-1.0, 1.0]));
-        self.past.restart(attempt);
-        self.tabulate(dynamics)
-    }
-
-    /// Cuts the panel at the fraction `share`; none if it is too short. `attempt` is the kinetic energy found on all of
-    /// it.
-    pub fn parts(
-        &self,
-        dynamics: &impl Dynamics<Place = P>,
-        share: f64,
-        fine: Fineness,
-        attempt: Option<&Series>,
-    ) -> Result<Option<[Self; 2]>, NotApplicable> {
-        let Piece { from, to, .. } = self.piece;
-        if (to - from).abs() < SHORTEST_PANEL * from.abs().max(1.0) {
-            return Ok(None);
-        }
-        let middle = from + share * (to - from);
-        let part = |ends, of: [f64; 2]| {
-            let mut part = Self::new(dynamics, self.turns, ends, self.side, fine, FIRST_DEGREE)?;
-            let attempt = attempt.and_then(|kinetic| on_part(kinetic, part.rule, of));
-            part.past.restart(attempt);
-            Ok(part)
-        };
-        let cut = 2.0 * share - 1.0;
-        Ok(Some([
-            part([from, middle], [-1.0, cut])?,
-            part([middle, to], [cut, 1.0])?,
-        ]))
-    }
-
     /// Returns the state at point `j`, at a time (s) and speed (rad/s).
     #[inline]
     pub fn state(&self, turns: f64, j: usize, t: f64, speed: f64) -> State<'_, P> {
@@ -294,12 +254,4 @@ impl<P: Copy> PanelTable<P> {
     pub fn largest_work(&self) -> f64 {
         largest(&self.work[..=self.rule.degree()])
     }
-}
-
-/// Returns a series of the kinetic energy at the points of a rule on a part of its panel, J; none unless positive.
-fn on_part(kinetic: &Series, rule: &Rule, [from, to]: [f64; 2]) -> Option<Values> {
-    let count = rule.degree() + 1;
-    let mut values = rule.values(|x| from + 0.5 * (to - from) * (1.0 + x));
-    kinetic.values(&mut values[..count]);
-    values[..count].iter().all(|k| *k > 0.0).then_some(values)
 }

@@ -1,9 +1,12 @@
 //! Refinement of panels that were not solved: higher degree or cut.
 
 use super::Dynamics;
+use super::panel::{FIRST_DEGREE, Fineness, PanelTable, SHORTEST_PANEL};
 use super::stepper::PanelStepper;
 use super::sweep::Unsolved;
 use crate::engine::energy::NotApplicable;
+use crate::engine::energy::piece::Piece;
+use crate::numeric::chebyshev::{Rule, Series, Values};
 
 impl<D: Dynamics> PanelStepper<'_, D> {
     /// Raises the degree of the next panel, or cuts it: for this turn, or for all turns if the failure recurs or will.
@@ -51,4 +54,54 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         }
         Ok(())
     }
+}
+
+impl<P: Copy> PanelTable<P> {
+    /// Raises the degree; `attempt` is the kinetic energy found with the former one.
+    pub fn raise(
+        &mut self,
+        dynamics: &impl Dynamics<Place = P>,
+        degree: usize,
+        attempt: Option<&Series>,
+    ) -> Result<(), NotApplicable> {
+        self.rule = Rule::of(degree);
+        let attempt = attempt.and_then(|kinetic| on_part(kinetic, self.rule, [-1.0, 1.0]));
+        self.past.restart(attempt);
+        self.tabulate(dynamics)
+    }
+
+    /// Cuts the panel at the fraction `share`; none if it is too short. `attempt` is the kinetic energy found on all of
+    /// it.
+    pub fn parts(
+        &self,
+        dynamics: &impl Dynamics<Place = P>,
+        share: f64,
+        fine: Fineness,
+        attempt: Option<&Series>,
+    ) -> Result<Option<[Self; 2]>, NotApplicable> {
+        let Piece { from, to, .. } = self.piece;
+        if (to - from).abs() < SHORTEST_PANEL * from.abs().max(1.0) {
+            return Ok(None);
+        }
+        let middle = from + share * (to - from);
+        let part = |ends, of: [f64; 2]| {
+            let mut part = Self::new(dynamics, self.turns, ends, self.side, fine, FIRST_DEGREE)?;
+            let attempt = attempt.and_then(|kinetic| on_part(kinetic, part.rule, of));
+            part.past.restart(attempt);
+            Ok(part)
+        };
+        let cut = 2.0 * share - 1.0;
+        Ok(Some([
+            part([from, middle], [-1.0, cut])?,
+            part([middle, to], [cut, 1.0])?,
+        ]))
+    }
+}
+
+/// Returns a series of the kinetic energy at the points of a rule on a part of its panel, J; none unless positive.
+fn on_part(kinetic: &Series, rule: &Rule, [from, to]: [f64; 2]) -> Option<Values> {
+    let count = rule.degree() + 1;
+    let mut values = rule.values(|x| from + 0.5 * (to - from) * (1.0 + x));
+    kinetic.values(&mut values[..count]);
+    values[..count].iter().all(|k| *k > 0.0).then_some(values)
 }
