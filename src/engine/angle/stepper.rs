@@ -148,12 +148,12 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             // Still on the other side after two changes: the switch has no sign at the start.
             let has_sign = turned_over < 2;
             match switching(self.dynamics, panel, start, solution, has_sign) {
-                Switching::AtStart => {
+                Switching::AtStart if turned_over < 3 => {
                     turned_over += 1;
                     panel.turn_over(self.dynamics)?;
                     self.evaluations += self.solution.evaluations;
                 }
-                Switching::Never => {
+                Switching::AtStart | Switching::Never => {
                     panel.past.remember(&solution.kinetic);
                     self.panels.remember_rest();
                     return Ok(self.pass(start, piece, None));

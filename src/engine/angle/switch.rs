@@ -38,6 +38,13 @@ pub(super) fn switching<D: Dynamics>(
     if has_sign && values[0] < -threshold && rise(panel, &values) * length >= SHORTEST_PANEL {
         return Switching::AtStart;
     }
+    let at_zero = !has_sign || values[0].abs() <= threshold;
+    if at_zero && values[1] < -noise {
+        return match crest(panel, &values, noise) {
+            Some(x) => Switching::At(0.5 * (x + 1.0)),
+            None => Switching::AtStart,
+        };
+    }
     let Some(x) = first_below(panel, &values, noise) else {
         return Switching::Never;
     };
@@ -144,6 +151,15 @@ fn rise<P: Copy>(panel: &PanelTable<P>, values: &Values) -> f64 {
         true => 0.5 * (panel.rule.points()[1] + 1.0) * first / (first - second),
         false => f64::INFINITY,
     }
+}
+
+/// Returns the x at which values that are negative from the second point on fall below zero, if they are above it
+/// before: a panel that begins at a dip of the switch.
+fn crest<P: Copy>(panel: &PanelTable<P>, values: &Values, noise: f64) -> Option<f64> {
+    let series = panel.rule.series(values);
+    let (from, to) = (panel.rule.points()[0], panel.rule.points()[1]);
+    let (crest, height) = maximum::largest(|x| series.value(x), from, to);
+    (height > noise).then(|| root::bracketed(|x| series.value(x), crest, to))?
 }
 
 /// Returns the first x at which the values fall below zero, by more than `noise`. Values below zero from the start on
