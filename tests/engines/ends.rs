@@ -316,3 +316,32 @@ fn a_dead_centre_at_a_handover_is_listed_once() {
         assert_eq!(kinds, expected);
     }
 }
+
+/// A run that ends where a table over time has no more rows states the error of the motion up to there.
+#[test]
+fn the_end_of_a_table_leaves_the_motion_an_error() {
+    let torque = |kind| {
+        let (times, torques) = ([0.0, 0.1, 0.2, 0.3], [0.5, 1.0, -0.5, 0.8]);
+        Load::Table(Table::new(Variable::T, &times, &torques, kind, None).expect("a table"))
+    };
+    for kind in [Interpolation::Linear, Interpolation::Pchip] {
+        for tolerance in [1e-6, 1e-10] {
+            let scene = machine(0.05, 0.15, 0.6)
+                .torque(torque(kind))
+                .start(0.3, 40.0);
+            let until = |duration, tolerance| {
+                let scene = scene.clone().duration(duration).tolerance(tolerance);
+                run(&scene, &Options::default())
+            };
+            let (cut, whole) = (until(1.0, tolerance), until(0.3, 1e-14));
+            assert!(cut.stopped.is_some() && whole.stopped.is_none());
+            assert!((cut.last.t_s - 0.3).abs() < 1e-12, "{}", cut.last.t_s);
+            let error = (cut.last.theta_rad - whole.last.theta_rad).abs();
+            let stated = cut.error_estimate.expect("an estimate").theta_rad;
+            assert!(
+                error <= 2.0 * stated && stated <= 100.0 * tolerance,
+                "{error:e} {stated:e}"
+            );
+        }
+    }
+}

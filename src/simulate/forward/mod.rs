@@ -23,6 +23,7 @@ use super::row::RowSink;
 use super::run_end::RunEnd;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
+use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::Counted;
 use crate::engine::time::Finish;
@@ -64,7 +65,9 @@ pub(super) fn run(
     let of_curve = result.curve.as_ref();
     let mut warnings = Vec::from_iter(of_curve.and_then(|_| configuration_curve::warning(task)));
     let mut estimate = None;
-    if task.options.estimate && stopped.is_none() {
+    // Up to the end of a table the motion is as exact as any.
+    let is_exact = matches!(stopped, None | Some(Why::NoValue { .. }));
+    if task.options.estimate && is_exact {
         estimate = estimate::estimate(&pass, &result, &record, wants_rows);
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
     }
