@@ -180,9 +180,11 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             return Ok(false);
         }
         let end = unresolved_at(self.dynamics, panel, start, self.fine, solution);
+        let Some(share) = end else {
+            return Ok(true);
+        };
         let found = panel.rule.series(&solution.kinetic);
-        let parts = end.map(|share| panel.parts(self.dynamics, share, self.fine, Some(&found)));
-        let Some(parts) = parts.transpose()?.flatten() else {
+        let Some(parts) = panel.parts(self.dynamics, share, self.fine, Some(&found))? else {
             return Ok(true);
         };
         self.evaluations += self.solution.evaluations;
