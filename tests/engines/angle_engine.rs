@@ -120,8 +120,8 @@ fn viscous_loss_alone_takes_two_sweeps() {
         ..Options::default()
     };
     let evaluations = simulate(&scene, &options).unwrap().summary.evaluations;
-    // A panel is half a turn with 13 points at least; one more evaluation of the forces follows the sweeps.
-    assert!(evaluations <= 3 * 13 * 16, "{evaluations}");
+    // A panel is half a turn with 13 points at least.
+    assert!(evaluations <= 2 * 13 * 16, "{evaluations}");
 }
 
 /// A panel whose degree is too low or that is too long is solved again from the motion found on it, with the degree at

@@ -101,7 +101,8 @@ pub(super) fn sweep<D: Dynamics>(
                 return solution.finish(panel, start, tail);
             }
         } else if largest * factor <= largest_error || at_rounding {
-            if has_state_loads {
+            // A linearised sweep corrects the forces with the energy.
+            if has_state_loads || linear {
                 solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
                 solution.evaluate(dynamics, panel, start)?;
