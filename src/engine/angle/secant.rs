@@ -43,8 +43,8 @@ impl Secant {
 
 impl PanelSolution {
     /// Converts the change of the kinetic energy by a sweep, J, to that of linearised state loads, and their forces with
-    /// it. `before` and `now` are those of the last two sweeps. Returns the error that it leaves, as a part of the
-    /// change: 1 for a plain sweep, where the iteration diverges.
+    /// it; with those of the table, if `of_table`. `before` and `now` are those of the last two sweeps. Returns the error
+    /// that it leaves, as a part of the change: 1 for a plain sweep, where the iteration diverges.
     pub(super) fn follow_state_loads<P: Copy>(
         &mut self,
         panel: &PanelTable<P>,

@@ -40,10 +40,10 @@ pub(super) fn switching<D: Dynamics>(
     }
     let at_zero = !has_sign || values[0].abs() <= threshold;
     if at_zero && values[1] < -noise {
-        return match crest(panel, &values, noise) {
-            Some(x) => Switching::At(0.5 * (x + 1.0)),
-            None => Switching::AtStart,
-        };
+        let share = crest(panel, &values, noise).map(|x| 0.5 * (x + 1.0));
+        return share
+            .filter(|share| share * length >= SHORTEST_PANEL)
+            .map_or(Switching::AtStart, Switching::At);
     }
     let Some(x) = first_below(panel, &values, noise) else {
         return Switching::Never;
