@@ -345,3 +345,42 @@ fn the_end_of_a_table_leaves_the_motion_an_error() {
         }
     }
 }
+
+/// Runs that end with a table over the position end at one angle: the error is that of the time.
+#[test]
+fn the_end_of_a_table_over_the_position_leaves_the_motion_an_error() {
+    let theta = ([-20.0, 0.0, 20.0, 50.0, 93.3], [1.0, 0.5, -0.3, 0.4, 0.2]);
+    let x = (
+        [0.09, 0.1, 0.15, 0.17, 0.199],
+        [10.0, 0.0, -4.0, -9.0, 20.0],
+    );
+    for kind in [Interpolation::Linear, Interpolation::Pchip] {
+        let table = |of, (at, load): ([f64; 5], [f64; 5])| {
+            Load::Table(Table::new(of, &at, &load, kind, None).expect("a table"))
+        };
+        let machine = machine(0.05, 0.15, 0.6).start(1.1, 40.0).duration(5.0);
+        let scenes = [
+            machine.clone().torque(table(Variable::Theta, theta)),
+            machine.clone().force(table(Variable::X, x)),
+        ];
+        for (scene, viscous) in scenes
+            .iter()
+            .flat_map(|scene| [(scene, 0.0), (scene, 1e-3)])
+        {
+            let scene = scene.clone().torque(Load::Viscous(viscous));
+            let with = |tolerance| run(&scene.clone().tolerance(tolerance), &Options::default());
+            let reference = with(1e-14);
+            assert!(reference.stopped.is_some());
+            for tolerance in [1e-6, 1e-9, 1e-12] {
+                let cut = with(tolerance);
+                let lead = cut.last.t_s - reference.last.t_s;
+                let error = (cut.last.omega_rad_per_s * lead).abs();
+                let stated = cut.error_estimate.expect("an estimate").theta_rad;
+                assert!(
+                    error <= 2.0 * stated && stated <= 4.0 * error + 1e-13,
+                    "{error:e} {stated:e} at {tolerance:e}"
+                );
+            }
+        }
+    }
+}

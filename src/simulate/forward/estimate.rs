@@ -16,11 +16,13 @@ use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, finer, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
+use super::super::stop::Why;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
 };
 use super::over_angle::second_run_resolution;
+use super::stop_reason;
 use crate::engine::angle::{Errors, Guide};
 use crate::engine::step::Step;
 use crate::engine::time::{Method, MotionState, Settings};
@@ -51,6 +53,10 @@ pub(super) fn estimate(
         0 => Engine::Time,
         _ => Engine::Angle,
     };
+    let ends_at_load = |result: &PassResult| {
+        let why = stop_reason::reason(pass.task, result);
+        matches!(why, Some(Why::NoValue { .. }))
+    };
     let mut evaluations = 0;
     let second = |time_settings: Settings<'_>| {
         let finer = PassSettings {
@@ -77,8 +83,13 @@ pub(super) fn estimate(
             ),
             comparison: Comparison::with(&record.checkpoints),
         };
-        let best = finer.run(&motion, &mut observer).ok()?;
+        let mut best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
+        // Where a table over the position ends, the runs end at one angle, not at one time.
+        if ends_at_load(result) && ends_at_load(&best) {
+            best.state = extrapolated(&best.state, result.state.t, &motion)?;
+            best.end = EndReason::Done;
+        }
         let arrives = matches!(best.end, EndReason::Done);
         arrives.then_some((best, observer.rounding.covariance, observer.comparison))
     };
@@ -102,6 +113,17 @@ pub(super) fn estimate(
         error,
         rows_error: rows,
         cost: Some(cost),
+    })
+}
+
+/// Extrapolates a motion by its acceleration to a time (s) shortly after its end, if the acceleration is finite.
+fn extrapolated(from: &MotionState, t: f64, motion: &Counted<'_>) -> Option<MotionState> {
+    let gap = t - from.t;
+    let alpha = motion.acceleration(from.t, from.angle, from.speed);
+    alpha.is_finite().then(|| MotionState {
+        t,
+        angle: from.angle.plus(gap * (from.speed + 0.5 * alpha * gap)),
+        speed: from.speed + alpha * gap,
     })
 }
 
