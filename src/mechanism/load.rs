@@ -35,31 +35,34 @@ impl Loads {
             ..Loads::default()
         };
         for of in scene.loads() {
-            let (load, on_slider) = (of.load, of.key.on_slider);
-            loads.reads = loads.reads.or(load.reads(on_slider));
-            match load {
-                Load::Viscous(coefficient) => *loads.damping.on(on_slider) += coefficient,
-                Load::Motor {
-                    stall,
-                    no_load_speed,
-                } if !on_slider => {
-                    loads.constant.torque += stall;
-                    loads.damping.torque += stall / no_load_speed;
-                }
-                Load::Spring { stiffness, rest } if on_slider => {
-                    loads.stiffness += stiffness;
-                    loads.constant.force += stiffness * rest;
-                }
-                other => match other.fixed() {
-                    Some(value) => *loads.constant.on(on_slider) += value,
-                    None => {
-                        let class = loads.class(other, on_slider);
-                        class.0.push((other.clone(), on_slider));
-                    }
-                },
+            let on_slider = of.key.on_slider;
+            for part in of.load.parts(on_slider) {
+                loads.add(part, on_slider);
             }
         }
         loads
+    }
+
+    fn add(&mut self, load: Load, on_slider: bool) {
+        self.reads = self.reads.or(load.reads(on_slider));
+        match load {
+            Load::Viscous(coefficient) => *self.damping.on(on_slider) += coefficient,
+            Load::Motor {
+                stall,
+                no_load_speed,
+            } if !on_slider => {
+                self.constant.torque += stall;
+                self.damping.torque += stall / no_load_speed;
+            }
+            Load::Spring { stiffness, rest } if on_slider => {
+                self.stiffness += stiffness;
+                self.constant.force += stiffness * rest;
+            }
+            other => match other.fixed() {
+                Some(value) => *self.constant.on(on_slider) += value,
+                None => self.class(&other, on_slider).0.push((other, on_slider)),
+            },
+        }
     }
 
     /// Returns the variables that the loads depend on.

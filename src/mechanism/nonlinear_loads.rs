@@ -105,12 +105,15 @@ impl NonlinearLoads {
     }
 }
 
-/// Returns the magnitude of a load that opposes motion, N m or N, which depends on the size of the speed.
+/// Returns the magnitude of a load that opposes motion, N m or N; a table is read at the size of the speed.
 pub(super) fn single_magnitude(load: &Load, on_slider: bool, now: &Instant) -> f64 {
-    let now = Instant {
-        omega: now.omega.abs(),
-        v: now.v.abs(),
-        ..*now
+    let now = match load.magnitude() {
+        Load::Table(_) => Instant {
+            omega: now.omega.abs(),
+            v: now.v.abs(),
+            ..*now
+        },
+        _ => *now,
     };
     single(load.magnitude(), on_slider, &now)
 }

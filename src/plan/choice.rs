@@ -172,7 +172,7 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
 /// unknown corners or no cycle to tabulate; where it may stick also: the crank cannot turn fully, or the guide jams.
 fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
     let has_friction = scene.friction.is_some();
-    let may_stick = has_friction || scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
+    let may_stick = has_friction || scene.loads().any(|of| of.load.may_hold(of.key.on_slider));
     if may_stick && class != Class::RotatingCrank {
         return Some("the crank cannot turn fully".to_owned());
     }

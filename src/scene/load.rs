@@ -44,7 +44,8 @@ pub enum Load {
     /// Dry friction of a magnitude, N m or N, from another load: opposes the motion of the body it acts on; at rest it
     /// holds while all else stays below the magnitude. A magnitude over omega or v reads |omega| or |v|.
     Dry(Box<Load>),
-    /// Formula of time and state.
+    /// Formula of time and state. If it is linear in the sign of the speed of the body it acts on, it opposes motion and
+    /// holds at rest as [`Load::Dry`] does.
     Expression(Expression),
     /// Closure, with a statement of what it reads.
     Function {

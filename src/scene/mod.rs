@@ -16,6 +16,7 @@ mod load;
 mod measurement;
 mod model;
 mod number;
+mod opposing;
 mod parts;
 mod period;
 mod problem;

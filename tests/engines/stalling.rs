@@ -43,12 +43,14 @@ fn formula(text: &str) -> Load {
     Load::Expression(Expression::parse(text).expect("a formula"))
 }
 
-/// Formulas that reverse with the speed hold it at zero by chattering.
+/// Closures that reverse with the speed hold it at zero by chattering.
 #[test]
 fn motions_that_make_no_way_are_given_up() {
+    let chatter =
+        |push, drag: f64| Load::function(Variables::V, move |now| push - drag.copysign(now.v));
     for (scene, t) in [
-        (machine().force(formula("-5*sign(v)")), 0.04),
-        (rubbing(0.2, 0.3).force(formula("3 - 20*step(v)")), 0.05),
+        (machine().force(chatter(0.0, 5.0)), 0.04),
+        (rubbing(0.2, 0.3).force(chatter(-7.0, 10.0)), 0.05),
     ] {
         let summary = run(&scene);
         let why = summary.stopped.expect("given up").to_string();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::mechanism::{Curve, CurveEquation, Limits, Linkage};
 use crate::numeric::angle::Angle;
-use crate::scene::{Extent, Load, MotionKind, Problem, Scene, Variable};
+use crate::scene::{Extent, MotionKind, Problem, Scene, Variable};
 
 /// Adds problems of the extent; `scene` has no parts of zero strength, `starts` is true if its start has no problem.
 pub(super) fn problems(scene: &Scene, linkage: &Linkage, starts: bool, list: &mut Vec<Problem>) {
@@ -57,7 +57,7 @@ fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
 
 /// Whether a crank at rest starts in lasting equilibrium. False with friction or clearance, where only a run can tell.
 fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
-    let dry = scene.loads().any(|of| matches!(of.load, Load::Dry(_)));
+    let dry = scene.loads().any(|of| of.load.may_hold(of.key.on_slider));
     if scene.friction.is_some() || scene.clearance.is_some() || dry {
         return false;
     }

@@ -3,6 +3,7 @@
 //! Usual mathematical precedence: `-x^2` is −(x²), `2^3^2` is 2⁹; `1e-3` is a number.
 
 mod operand;
+mod opposing;
 mod parser;
 mod period;
 
@@ -11,6 +12,7 @@ use std::fmt;
 use super::{Instant, Variable, Variables};
 use crate::numeric::enclosure::Enclosed;
 use operand::{FUNCTIONS_1, FUNCTIONS_2, JUMPING, Op, Operand};
+pub(super) use opposing::OpposingPart;
 use parser::Parser;
 
 /// Depth of the evaluation stack, in values; deeper expressions are refused when they are read.
@@ -74,7 +76,11 @@ impl Expression {
         text: &str,
         symbols: &dyn Fn(&str) -> Option<Expression>,
     ) -> Result<Expression, ExpressionError> {
-        let ops = Parser::parse(text, symbols)?;
+        Expression::compiled(text, Parser::parse(text, symbols)?)
+    }
+
+    /// Makes the expression of operations in postfix order.
+    fn compiled(text: &str, ops: Vec<Op>) -> Result<Expression, ExpressionError> {
         let (mut reads, mut jumps) = (Variables::NONE, false);
         let (mut depth, mut deepest) = (0usize, 0);
         for (at, op) in ops.iter().enumerate() {

@@ -1,0 +1,168 @@
+//! Part of a formula that opposes motion, proved on its syntax tree: f = a − m sgn(w), with the speed w of the body.
+
+use super::operand::{FUNCTIONS_1, Op};
+use super::{Expression, Variable};
+use crate::numeric::enclosure::{Enclosed, Interval};
+
+/// Formula as the sum of a dry load, which opposes motion and holds at rest, and the rest.
+pub(crate) struct OpposingPart {
+    /// a; none if it is zero.
+    pub rest: Option<Expression>,
+    /// m, not negative at rest.
+    pub magnitude: Expression,
+}
+
+/// Subexpression a + b sgn(w), of two operands in postfix order; none: zero.
+#[derive(Default)]
+struct LinearInSign {
+    plain: Operand,
+    of_sign: Operand,
+}
+
+type Operand = Option<Vec<Op>>;
+
+impl Expression {
+    /// Splits the expression by the sign or step of a speed, omega or v; none if it is not linear in that sign, or if
+    /// the magnitude may be negative at rest or is zero there.
+    pub(crate) fn opposing(&self, speed: Variable) -> Option<OpposingPart> {
+        let LinearInSign { plain, of_sign } = self.linear_in_sign(speed)?;
+        let magnitude = self.of(negated(of_sign)?)?;
+        let at_rest = magnitude.enclose(|variable| match variable {
+            Variable::Omega | Variable::V => Enclosed::point(0.0),
+            _ => Enclosed::not_analytic(Interval::WHOLE),
+        });
+        let Interval { low, high } = at_rest.real;
+        (low >= 0.0 && high > 0.0).then_some(OpposingPart {
+            rest: match plain {
+                Some(ops) => Some(self.of(ops)?),
+                None => None,
+            },
+            magnitude,
+        })
+    }
+
+    /// Makes an expression of a part of this one, which keeps the text.
+    fn of(&self, ops: Vec<Op>) -> Option<Expression> {
+        Expression::compiled(&self.text, ops).ok()
+    }
+
+    fn linear_in_sign(&self, speed: Variable) -> Option<LinearInSign> {
+        let mut stack: Vec<LinearInSign> = Vec::new();
+        let mut ops = self.ops.iter().peekable();
+        while let Some(op) = ops.next() {
+            let part = match *op {
+                Op::Variable(variable) if variable == speed => {
+                    let sign = ops.next_if(|next| sign_of(next).is_some());
+                    sign.and_then(sign_of)
+                        .unwrap_or_else(|| LinearInSign::plain(vec![*op]))
+                }
+                Op::Number(_) | Op::Variable(_) => LinearInSign::plain(vec![*op]),
+                Op::Negate => {
+                    let LinearInSign { plain, of_sign } = stack.pop()?;
+                    LinearInSign {
+                        plain: negated(plain),
+                        of_sign: negated(of_sign),
+                    }
+                }
+                Op::Call1(_) => {
+                    let mut argument = stack.pop()?.without_sign()?;
+                    argument.push(*op);
+                    LinearInSign::plain(argument)
+                }
+                binary => {
+                    let (right, left) = (stack.pop()?, stack.pop()?);
+                    left.with(binary, right)?
+                }
+            };
+            stack.push(part);
+        }
+        stack.pop()
+    }
+}
+
+/// Returns the sign of a speed, or its step, (1 + sgn w)/2; none for another operation.
+fn sign_of(op: &Op) -> Option<LinearInSign> {
+    let Op::Call1(function) = op else { return None };
+    let number = |value| Some(vec![Op::Number(value)]);
+    Some(match FUNCTIONS_1[*function].0 {
+        "sign" => LinearInSign {
+            plain: None,
+            of_sign: number(1.0),
+        },
+        "step" => LinearInSign {
+            plain: number(0.5),
+            of_sign: number(0.5),
+        },
+        _ => return None,
+    })
+}
+
+impl LinearInSign {
+    fn plain(ops: Vec<Op>) -> LinearInSign {
+        LinearInSign {
+            plain: Some(ops),
+            of_sign: None,
+        }
+    }
+
+    fn without_sign(self) -> Option<Vec<Op>> {
+        self.of_sign.is_none().then_some(self.plain)?
+    }
+
+    fn with(self, op: Op, right: LinearInSign) -> Option<LinearInSign> {
+        let (a, b) = (self.plain, self.of_sign);
+        Some(match op {
+            Op::Add | Op::Subtract => LinearInSign {
+                plain: sum(a, op, right.plain),
+                of_sign: sum(b, op, right.of_sign),
+            },
+            // The square of a sign is one.
+            Op::Multiply => {
+                let (c, d) = (right.plain, right.of_sign);
+                LinearInSign {
+                    plain: sum(product(&a, &c), Op::Add, product(&b, &d)),
+                    of_sign: sum(product(&a, &d), Op::Add, product(&b, &c)),
+                }
+            }
+            Op::Divide => {
+                let divisor = right.without_sign();
+                LinearInSign {
+                    plain: joined(&a, &divisor, op),
+                    of_sign: joined(&b, &divisor, op),
+                }
+            }
+            _ => {
+                let left = LinearInSign {
+                    plain: a,
+                    of_sign: b,
+                }
+                .without_sign();
+                LinearInSign::plain(joined(&left, &right.without_sign(), op)?)
+            }
+        })
+    }
+}
+
+fn joined(left: &Operand, right: &Operand, op: Op) -> Operand {
+    let (left, right) = (left.as_ref()?, right.as_ref()?);
+    Some([left.as_slice(), right, &[op]].concat())
+}
+
+fn product(left: &Operand, right: &Operand) -> Operand {
+    joined(left, right, Op::Multiply)
+}
+
+fn sum(left: Operand, op: Op, right: Operand) -> Operand {
+    match (&left, &right) {
+        (Some(_), Some(_)) => joined(&left, &right, op),
+        (None, _) if op == Op::Subtract => negated(right),
+        (None, _) => right,
+        (_, None) => left,
+    }
+}
+
+fn negated(operand: Operand) -> Operand {
+    let mut ops = operand?;
+    ops.push(Op::Negate);
+    Some(ops)
+}
