@@ -155,6 +155,11 @@ pub enum Why {
 }
 
 impl Why {
+    /// Whether the motion is as exact up to the end as any, and ends at a place that it reaches.
+    pub(super) fn is_at_a_place(&self) -> bool {
+        matches!(self, Why::NoValue { .. } | Why::Jam { .. })
+    }
+
     /// Returns the advice for this reason, if there is any.
     fn cure(&self) -> Option<&'static str> {
         Some(match self {

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 
 use crate::support::close;
-use crate::support::machines::{leaning, rubbing};
+use crate::support::machines::{self, leaning, rubbing};
 use crate::support::random::{cases, magnitude};
 use proptest::prelude::*;
 use slider_crank::explain::explain;
@@ -646,4 +646,46 @@ fn a_jump_releases_the_slider_in_its_direction() {
     let kinds: Vec<_> = run.summary.events.iter().map(|event| event.kind).collect();
     assert_eq!(kinds, ["stick", "slip"]);
     close("release", run.summary.events[1].t_s, 0.3, 1.0, 1e-14);
+}
+
+/// A slider that jams ends its motion at a place, and the motion up to there has an error as any.
+#[test]
+fn the_motion_up_to_a_jam_has_an_error() {
+    for (lengths, mu, speed) in [
+        ([0.05, 0.06, 0.0], 1.2, 30.0),
+        ([0.05, 0.06, 0.008], 0.9, -45.0),
+        ([0.05, 0.0501, 0.0], 0.1, 20.0),
+        ([0.08, 0.07, 0.0], 0.7, 20.0),
+    ] {
+        for viscous in [0.0, 0.002] {
+            let scene = rubbing(
+                machines::machine(lengths, false, [0.5, 0.4, 0.8], 0.0),
+                mu,
+                mu,
+            )
+            .gravity(Gravity::standard())
+            .torque(Load::Viscous(viscous))
+            .start(0.1, speed)
+            .duration(1.0);
+            let with = |tolerance| {
+                let scene = scene.clone().tolerance(tolerance);
+                simulate(&scene, &Options::default())
+                    .expect("a run")
+                    .summary
+            };
+            let reference = with(1e-14);
+            let why = reference.stopped.expect("jams").to_string();
+            assert!(why.contains("jams"), "{why}");
+            for tolerance in [1e-5, 1e-8, 1e-11] {
+                let cut = with(tolerance);
+                let lead = reference.last.omega_rad_per_s * (cut.last.t_s - reference.last.t_s);
+                let error = (cut.last.theta_rad - reference.last.theta_rad - lead).abs();
+                let stated = cut.error_estimate.expect("an estimate").theta_rad;
+                assert!(
+                    error <= 2.0 * stated && stated <= 4.0 * error + 2e-12,
+                    "{error:e} {stated:e} at {tolerance:e}"
+                );
+            }
+        }
+    }
 }

@@ -16,7 +16,6 @@ use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, finer, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
-use super::super::stop::Why;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
@@ -53,10 +52,6 @@ pub(super) fn estimate(
         0 => Engine::Time,
         _ => Engine::Angle,
     };
-    let ends_at_load = |result: &PassResult| {
-        let why = stop_reason::reason(pass.task, result);
-        matches!(why, Some(Why::NoValue { .. }))
-    };
     let mut evaluations = 0;
     let second = |time_settings: Settings<'_>| {
         let finer = PassSettings {
@@ -85,13 +80,14 @@ pub(super) fn estimate(
         };
         let mut best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
-        // Where a table over the position ends, the runs end at one angle, not at one time.
-        if ends_at_load(result) && ends_at_load(&best) {
-            best.state = extrapolated(&best.state, result.state.t, &motion)?;
-            best.end = EndReason::Done;
+        let ends = [result, &best].map(|pass_result| stop_reason::reason(pass.task, pass_result));
+        match ends.map(|why| why.is_some_and(|why| why.is_at_a_place())) {
+            // The runs end at one angle, not at one time.
+            [true, true] => best.state = extrapolated(&best, result.state.t, &motion)?,
+            [_, ended] if ended || !matches!(best.end, EndReason::Done) => return None,
+            _ => {}
         }
-        let arrives = matches!(best.end, EndReason::Done);
-        arrives.then_some((best, observer.rounding.covariance, observer.comparison))
+        Some((best, observer.rounding.covariance, observer.comparison))
     };
     let mut settings = second_settings(pass, result, record).into_iter();
     let (best, covariance, comparison) = settings.find_map(second)?;
@@ -116,10 +112,17 @@ pub(super) fn estimate(
     })
 }
 
-/// Extrapolates a motion by its acceleration to a time (s) shortly after its end, if the acceleration is finite.
-fn extrapolated(from: &MotionState, t: f64, motion: &Counted<'_>) -> Option<MotionState> {
+/// Extrapolates a motion by its last acceleration to a time (s) shortly after its end, if the acceleration is finite.
+fn extrapolated(ended: &PassResult, t: f64, motion: &Counted<'_>) -> Option<MotionState> {
+    let from = &ended.state;
+    let alpha = match (&ended.last_step, &ended.curve) {
+        (Some(step), Some(curve)) => {
+            let place = curve.equation.curve().pose(step.end.theta);
+            place.dtheta * step.end.alpha + place.d2theta * step.end.omega.powi(2)
+        }
+        _ => motion.acceleration(from.t, from.angle, from.speed),
+    };
     let gap = t - from.t;
-    let alpha = motion.acceleration(from.t, from.angle, from.speed);
     alpha.is_finite().then(|| MotionState {
         t,
         angle: from.angle.plus(gap * (from.speed + 0.5 * alpha * gap)),

@@ -65,8 +65,7 @@ pub(super) fn run(
     let of_curve = result.curve.as_ref();
     let mut warnings = Vec::from_iter(of_curve.and_then(|_| configuration_curve::warning(task)));
     let mut estimate = None;
-    // Up to the end of a table the motion is as exact as any.
-    let is_exact = matches!(stopped, None | Some(Why::NoValue { .. }));
+    let is_exact = stopped.as_ref().is_none_or(Why::is_at_a_place);
     if task.options.estimate && is_exact {
         estimate = estimate::estimate(&pass, &result, &record, wants_rows);
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
