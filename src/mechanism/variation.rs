@@ -67,7 +67,11 @@ impl Around<'_> {
         }
     }
 
-    fn loads(&self, loads: &NonlinearLoads, effects: UnitLoadEffects) -> Variation {
+    fn loads<'l>(
+        &self,
+        loads: impl IntoIterator<Item = &'l (Load, bool)>,
+        effects: UnitLoadEffects,
+    ) -> Variation {
         let one = |(load, on_slider): &(Load, bool)| {
             let arm = if *on_slider {
                 effects.force
@@ -79,7 +83,7 @@ impl Around<'_> {
                 false => self.variation(load).times(arm.abs()),
             }
         };
-        let each = loads.0.iter().map(one);
+        let each = loads.into_iter().map(one);
         each.fold(Variation::NONE, Variation::plus)
     }
 }
@@ -97,13 +101,7 @@ impl Loads {
 
     /// Whether a load of the position alone may vary between nodes: a formula, a table over x, a closure with a scale.
     pub fn vary_with_position_between_nodes(&self) -> bool {
-        self.placed.loads().any(|load| match load {
-            Load::Expression(_) => true,
-            // Rows of tables over the crank angle are known corners.
-            Load::Table(table) => table.of() == Variable::X,
-            Load::Function { scales, .. } => !scales.is_empty(),
-            _ => false,
-        })
+        self.placed.loads().any(varies_with_position)
     }
 
     /// Whether the loads act on the slider or depend on its position or velocity.
@@ -121,7 +119,8 @@ impl Loads {
         Self::variation_of(&self.classes(), state, effects, ellipse)
     }
 
-    /// Returns the variation of the generalized force, N m, of the loads that depend on the position alone.
+    /// Returns the variation of the generalized force, N m, of the loads that depend on the position alone and may vary
+    /// between nodes.
     pub fn variation_with_position(
         &self,
         linkage: &Linkage,
@@ -134,8 +133,10 @@ impl Loads {
             angle,
             speed: none,
         };
-        let state = linkage.enclosed_state(&piece, self.meet_slider());
-        Self::variation_of(&[&self.placed], &state, state.unit_load_effects(), ellipse)
+        let state = &linkage.enclosed_state(&piece, self.meet_slider());
+        let varying = self.placed.0.iter();
+        let varying = varying.filter(|(load, _)| varies_with_position(load));
+        Around { state, ellipse }.loads(varying, state.unit_load_effects())
     }
 
     /// Returns the variation of the loads that depend on speed or time, without dry loads.
@@ -155,8 +156,18 @@ impl Loads {
         ellipse: f64,
     ) -> Variation {
         let around = Around { state, ellipse };
-        let variations = classes.iter().map(|loads| around.loads(loads, effects));
+        let variations = classes.iter().map(|loads| around.loads(&loads.0, effects));
         variations.fold(Variation::NONE, Variation::plus)
+    }
+}
+
+/// Whether a load of the position alone may vary between nodes: rows of tables over the crank angle are known corners.
+fn varies_with_position(load: &Load) -> bool {
+    match load {
+        Load::Expression(_) => true,
+        Load::Table(table) => table.of() == Variable::X,
+        Load::Function { scales, .. } => !scales.is_empty(),
+        _ => false,
     }
 }
 
