@@ -86,6 +86,35 @@ fn a_steep_loss_is_followed_in_few_steps() {
     }
 }
 
+/// J ω̇ = c − T tanh(ω/w) ends in a creep at w artanh(c/T): there the error limits the steps, not the sweeps.
+#[test]
+fn a_crank_that_creeps_takes_few_steps() {
+    let (drive, drag, width) = (0.05, 0.5, 1e-4);
+    let scene = Scene::new(0.05, 0.15)
+        .crank(Crank {
+            inertia: 0.02,
+            ..Crank::default()
+        })
+        .torque(formula(&format!("{drive} - {drag}*tanh(omega/{width})")))
+        .start(0.3, 20.0)
+        .duration(10.0);
+    for tolerance in [1e-6, 1e-10] {
+        let run = simulate(&scene.clone().tolerance(tolerance), &Options::default());
+        let run = run.expect("a run");
+        let Summary { last, .. } = run.summary;
+        let creep = width * f64::atanh(drive / drag);
+        assert!(
+            (last.omega_rad_per_s / creep - 1.0).abs() < tolerance,
+            "{last:?}"
+        );
+        let (before, _) = run.at(5.0).expect("inside the run");
+        let way = last.theta_rad - before;
+        assert!((way / (5.0 * creep) - 1.0).abs() < 1e2 * tolerance, "{way}");
+        let evaluations = run.summary.evaluations;
+        assert!(evaluations < 8_000, "{evaluations}");
+    }
+}
+
 /// Modelled as friction, the chattering case is a rest.
 #[test]
 fn dry_friction_comes_to_rest_at_once() {

@@ -54,11 +54,12 @@ impl Collocation<'_> {
         }
         batch.alpha = match (guided(self.guide, &batch.t), &self.last) {
             (Some(alpha), _) => alpha,
-            (None, None) => [self.alpha; NODES],
-            (None, Some((length, coefficients))) => {
+            (None, Some((length, coefficients))) if !self.steep => {
                 let ratio = 2.0 * h / length;
                 legendre_series(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
             }
+            // Steep accelerations carry errors of the speed, which an extrapolation would magnify.
+            _ => [self.alpha; NODES],
         };
         self.update(state, h);
     }

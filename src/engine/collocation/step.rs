@@ -27,7 +27,7 @@ pub struct Collocation<'a> {
     /// Acceleration at the start of the next step, rad/s².
     pub(super) alpha: f64,
     /// True if sweeps did not converge on the last step.
-    steep: bool,
+    pub(super) steep: bool,
     /// Rounding error of the acceleration due to rounded times, rad/s², where it was estimated for the step.
     pub(super) by_time: f64,
 }
@@ -121,6 +121,7 @@ impl<'a> Collocation<'a> {
         }
         // Sweeps of a step of suitable length.
         let few_sweeps = 9;
+        let limited_by_sweeps = sweeps >= few_sweeps && factor > 1.0;
         if sweeps > few_sweeps {
             factor = factor.min(0.9);
         } else if sweeps == few_sweeps {
@@ -131,7 +132,7 @@ impl<'a> Collocation<'a> {
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
-        self.steep = newton.is_some();
+        self.steep = newton.is_some() || limited_by_sweeps && self.is_steep_at(&next, h);
         let next = match newton {
             Some(newton) if !corners[1] => self.with_loss(next, &step, newton.loss),
             _ => next,
@@ -157,7 +158,7 @@ impl<'a> Collocation<'a> {
             if !self.batch.alpha.iter().sum::<f64>().is_finite() {
                 return Err(Rejection::NOT_FINITE);
             }
-            if self.steep && newton.is_none() {
+            if self.steep && newton.is_none() && sweeps <= 2 {
                 newton = Newton::new(self.motion, &self.batch, self.tableau, h);
             }
             if let Some(newton) = &newton {
@@ -200,6 +201,15 @@ impl<'a> Collocation<'a> {
             }
             before = change;
         }
+    }
+
+    /// True if the acceleration is so steep in the speed at a state that sweeps limit a step of length h (s).
+    fn is_steep_at(&self, state: &State, h: f64) -> bool {
+        let apart = f64::EPSILON.sqrt() * state.omega.abs().max(1.0);
+        let beside = self
+            .motion
+            .acceleration(state.t, state.angle(), state.omega + apart);
+        h * (beside - self.alpha).abs() > apart
     }
 
     /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
