@@ -101,7 +101,11 @@ impl AccelerationSlopes {
         if travel < shortest_travel || size(pushed) > most_pushed * size(along) {
             return magnus_transition;
         }
-        let found = self.with_exact_motion(&magnus_transition, along, then, h);
+        // In this time an angle becomes a speed by the slope by the angle: in a much shorter step an angle does not tell
+        // how late a motion is.
+        let turns = (h * h * self.by_angle().abs()).clamp(f64::EPSILON, 1.0);
+        let unit = h / turns.sqrt();
+        let found = self.with_exact_motion(&magnus_transition, along, then, [h, unit]);
         let finite = found.iter().flatten().all(|entry| entry.is_finite());
         if finite { found } else { magnus_transition }
     }
@@ -126,20 +130,20 @@ impl AccelerationSlopes {
         (transition, pushed)
     }
 
-    /// Computes the transition that takes `along` to `then` and has the right determinant; the rest comes from `other`.
-    /// The metric multiplies speeds by h.
+    /// Computes the transition that takes `along` to `then` and has the right determinant over a step of length h (s);
+    /// the rest comes from `other`. The metric multiplies speeds by a unit of time, s.
     fn with_exact_motion(
         &self,
         other: &StateTransition,
         along: [f64; 2],
         then: [f64; 2],
-        h: f64,
+        [h, unit]: [f64; 2],
     ) -> StateTransition {
-        let product = |x: [f64; 2], y: [f64; 2]| x[0] * y[0] + h * h * x[1] * y[1];
+        let product = |x: [f64; 2], y: [f64; 2]| x[0] * y[0] + unit * unit * x[1] * y[1];
         // Vector across the motion, with along ∧ across = 1.
         let across = |[speed, acceleration]: [f64; 2]| {
             let squared = product([speed, acceleration], [speed, acceleration]);
-            [-h * h * acceleration / squared, speed / squared]
+            [-unit * unit * acceleration / squared, speed / squared]
         };
         let [before, after] = [along, then].map(across);
         let image = other.map(|row| row[0] * before[0] + row[1] * before[1]);
@@ -150,7 +154,7 @@ impl AccelerationSlopes {
             let of_across = gained * then[i] + left * after[i];
             [
                 then[i] * along[0] / square - of_across * along[1],
-                then[i] * h * h * along[1] / square + of_across * along[0],
+                then[i] * unit * unit * along[1] / square + of_across * along[0],
             ]
         })
     }

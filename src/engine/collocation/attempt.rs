@@ -54,12 +54,13 @@ impl Collocation<'_> {
         }
         batch.alpha = match (guided(self.guide, &batch.t), &self.last) {
             (Some(alpha), _) => alpha,
-            (None, Some((length, coefficients))) if !self.steep => {
+            // A steep acceleration carries errors of the speed, magnified: the speed stays near to where it vanishes.
+            _ if self.steep => [0.0; NODES],
+            (None, None) => [self.alpha; NODES],
+            (None, Some((length, coefficients))) => {
                 let ratio = 2.0 * h / length;
                 legendre_series(coefficients, self.tableau.nodes.map(|c| 1.0 + ratio * c))
             }
-            // Steep accelerations carry errors of the speed, which an extrapolation would magnify.
-            _ => [self.alpha; NODES],
         };
         self.update(state, h);
     }

@@ -31,6 +31,11 @@ impl Newton {
         })
     }
 
+    /// Returns the number of time constants of the loss in a step of length h (s), at least one.
+    pub fn steepness(&self, h: f64) -> f64 {
+        (h * self.loss.abs()).max(1.0)
+    }
+
     /// Converts the change made by a sweep to the Newton correction.
     pub fn correct(&self, before: &[f64; NODES], alpha: &mut [f64; NODES]) {
         let change = SVector::<f64, NODES>::from_fn(|i, _| alpha[i] - before[i]);

@@ -106,8 +106,11 @@ impl<'a> Collocation<'a> {
         if !jumps.iter().sum::<f64>().is_finite() {
             return Err(Rejection::NOT_FINITE);
         }
+        // Under a steep loss the speed errs by jump/loss, and not by h jump/(2 NODES).
+        let steepness = newton.as_ref().map_or(1.0, |newton| newton.steepness(h));
+        let share = (2.0 * NODES as f64 / steepness).min(1.0);
         let ends = jumps.into_iter().zip(corners);
-        let jump = ends.filter_map(|(jump, at_corner)| (!at_corner).then_some(jump.abs()));
+        let jump = ends.filter_map(|(jump, at_corner)| (!at_corner).then_some(share * jump.abs()));
         let last_term = jump.fold(last_term(&coefficients), f64::max);
         let mut error = self.error(state, h, last_term, &coefficients);
         if error > 1.0 && self.motion.depends_on_time() {
@@ -121,7 +124,6 @@ impl<'a> Collocation<'a> {
         }
         // Sweeps of a step of suitable length.
         let few_sweeps = 9;
-        let limited_by_sweeps = sweeps >= few_sweeps && factor > 1.0;
         if sweeps > few_sweeps {
             factor = factor.min(0.9);
         } else if sweeps == few_sweeps {
@@ -132,7 +134,7 @@ impl<'a> Collocation<'a> {
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
-        self.steep = newton.is_some() || limited_by_sweeps && self.is_steep_at(&next, h);
+        self.steep = newton.is_some() || factor <= 1.0 && self.is_steep_at(&next, h);
         let next = match newton {
             Some(newton) if !corners[1] => self.with_loss(next, &step, newton.loss),
             _ => next,
@@ -166,10 +168,11 @@ impl<'a> Collocation<'a> {
             }
             let change = self.update(state, h);
             let rate = change / before;
-            // Change that the next sweep would make.
-            let left = change * rate.min(1.0);
+            // Change that the next sweep would make, in the speed at the end of the step: a steep loss magnifies it.
+            let steepness = newton.as_ref().map_or(1.0, |newton| newton.steepness(h));
+            let left = steepness * change * rate.min(1.0);
             // The next sweep would change little, or this one changed no more than the rounding.
-            if sweeps > 1 && left <= self.sweep_error && change < 1.0
+            if sweeps > 1 && left <= self.sweep_error && steepness * change < 1.0
                 || change <= state_rounding / self.tolerance
             {
                 return Ok((sweeps, newton));
@@ -203,7 +206,7 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// True if the acceleration is so steep in the speed at a state that sweeps limit a step of length h (s).
+    /// True if the acceleration is steep in the speed at a state, in steps of length h (s).
     fn is_steep_at(&self, state: &State, h: f64) -> bool {
         let apart = f64::EPSILON.sqrt() * state.omega.abs().max(1.0);
         let beside = self
