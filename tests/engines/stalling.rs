@@ -115,6 +115,39 @@ fn a_crank_that_creeps_takes_few_steps() {
     }
 }
 
+/// Regularised friction that sticks and slips, with a drag that falls with the speed (Stribeck): each reversal is a few
+/// microseconds long, and the stated errors are near the true ones.
+#[test]
+fn reversals_under_regularised_friction_leave_true_errors() {
+    let machine = machine()
+        .crank(Crank {
+            inertia: 0.02,
+            ..Crank::default()
+        })
+        .torque(formula("5*sin(2*t)"))
+        .start(0.3, 0.0)
+        .duration(8.0);
+    for drag in [
+        "-(2 + 1.5*exp(-(omega/0.5)^2))*tanh(omega/1e-4)",
+        "-3*tanh(omega/1e-6)",
+        "-3*2/pi*atan(omega/1e-5)",
+    ] {
+        let with = |tolerance| run(&machine.clone().torque(formula(drag)).tolerance(tolerance));
+        let reference = with(1e-13);
+        for tolerance in [1e-7, 1e-10] {
+            let summary = with(tolerance);
+            assert_eq!(summary.stopped, None);
+            let error = (summary.last.theta_rad - reference.last.theta_rad).abs();
+            let stated = summary.error_estimate.expect("an estimate").theta_rad;
+            assert!(
+                error <= 2.0 * stated && stated <= 4.0 * error + 1e-11,
+                "{drag} at {tolerance:e}: {error:e} {stated:e}"
+            );
+            assert!(summary.evaluations < 150_000, "{}", summary.evaluations);
+        }
+    }
+}
+
 /// Modelled as friction, the chattering case is a rest.
 #[test]
 fn dry_friction_comes_to_rest_at_once() {
