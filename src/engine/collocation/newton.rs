@@ -3,7 +3,10 @@
 
 use nalgebra::{Const, LU, SMatrix, SVector};
 
+use super::super::step::Step;
 use super::super::{Batch, Motion, NODES};
+use super::state::State;
+use super::step::Collocation;
 use super::tableau::Tableau;
 
 /// LU factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
@@ -42,6 +45,25 @@ impl Newton {
         if let Some(change) = self.factors.solve(&change) {
             *alpha = std::array::from_fn(|i| before[i] + change[i]);
         }
+    }
+}
+
+impl Collocation<'_> {
+    /// True if the acceleration is steep in the speed at a state, in steps of length h (s).
+    pub(super) fn is_steep_at(&self, state: &State, h: f64) -> bool {
+        let apart = f64::EPSILON.sqrt() * state.omega.abs().max(1.0);
+        let beside = self
+            .motion
+            .acceleration(state.t, state.angle(), state.omega + apart);
+        h * (beside - self.alpha).abs() > apart
+    }
+
+    /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
+    /// component that the loss would damp at once persists in Gauss methods (A-stable, not L-stable).
+    pub(super) fn with_loss(&mut self, next: State, step: &Step, loss: f64) -> State {
+        let next = next.faster((step.end.alpha - self.alpha) / loss);
+        self.alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
+        next
     }
 }
 

@@ -206,23 +206,6 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// True if the acceleration is steep in the speed at a state, in steps of length h (s).
-    fn is_steep_at(&self, state: &State, h: f64) -> bool {
-        let apart = f64::EPSILON.sqrt() * state.omega.abs().max(1.0);
-        let beside = self
-            .motion
-            .acceleration(state.t, state.angle(), state.omega + apart);
-        h * (beside - self.alpha).abs() > apart
-    }
-
-    /// Corrects the speed at the end of a step under a steep loss (1/s) by the residual of the acceleration there: a
-    /// component that the loss would damp at once persists in Gauss methods (A-stable, not L-stable).
-    fn with_loss(&mut self, next: State, step: &Step, loss: f64) -> State {
-        let next = next.faster((step.end.alpha - self.alpha) / loss);
-        self.alpha = self.motion.acceleration(next.t, next.angle(), next.omega);
-        next
-    }
-
     /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
     pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
