@@ -36,7 +36,12 @@ impl Loads {
         };
         for of in scene.loads() {
             let on_slider = of.key.on_slider;
-            for part in of.load.parts(on_slider) {
+            // With a loose joint nothing is held at rest.
+            let parts = match scene.clearance {
+                Some(_) => vec![of.load.clone()],
+                None => of.load.parts(on_slider),
+            };
+            for part in parts {
                 loads.add(part, on_slider);
             }
         }

@@ -391,6 +391,9 @@ fn other_formulas_with_the_sign_of_a_speed_do_not_hold() {
         "-sin(theta)*sign(omega)",
         "-exp(sign(omega))",
         "-2/sign(omega)",
+        "-2/sign(omega) - 3*sign(omega)",
+        "2^sign(omega) - 3*sign(omega)",
+        "min(sign(omega), 0.5) - 3*sign(omega)",
     ];
     for text in texts {
         let scene = wheel(0.02)

@@ -13,7 +13,6 @@ pub(crate) struct OpposingPart {
 }
 
 /// Subexpression a + b sgn(w), of two operands in postfix order; none: zero.
-#[derive(Default)]
 struct LinearInSign {
     plain: Operand,
     of_sign: Operand,
@@ -25,6 +24,9 @@ impl Expression {
     /// Splits the expression by the sign or step of a speed, omega or v; none if it is not linear in that sign, or if
     /// the magnitude may be negative at rest or is zero there.
     pub(crate) fn opposing(&self, speed: Variable) -> Option<OpposingPart> {
+        if !self.reads.has(speed) {
+            return None;
+        }
         let LinearInSign { plain, of_sign } = self.linear_in_sign(speed)?;
         let magnitude = self.of(negated(of_sign)?)?;
         let at_rest = magnitude.enclose(|variable| match variable {
@@ -125,7 +127,7 @@ impl LinearInSign {
                 }
             }
             Op::Divide => {
-                let divisor = right.without_sign();
+                let divisor = Some(right.without_sign()?);
                 LinearInSign {
                     plain: joined(&a, &divisor, op),
                     of_sign: joined(&b, &divisor, op),
