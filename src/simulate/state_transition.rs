@@ -95,16 +95,16 @@ impl AccelerationSlopes {
         let along = [step.start.omega, step.start.alpha];
         // The time changes the forces: this part of the state is no perturbation of the motion a little later.
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
-        let size = |[angle, speed]: [f64; 2]| angle.hypot(h * speed);
+        // In this time an angle becomes a speed by the slope by the angle: in a much shorter step an angle does not tell
+        // how late a motion is.
+        let turns = (h * h * self.by_angle().abs()).clamp(f64::EPSILON, 1.0);
+        let unit = h / turns.sqrt();
+        let size = |[angle, speed]: [f64; 2]| angle.hypot(unit * speed);
         // Rotation, rad, of which rounding leaves too little, and largest effect of the time beside the motion.
         let (shortest_travel, most_pushed) = (1e-11, 0.3);
         if travel < shortest_travel || size(pushed) > most_pushed * size(along) {
             return magnus_transition;
         }
-        // In this time an angle becomes a speed by the slope by the angle: in a much shorter step an angle does not tell
-        // how late a motion is.
-        let turns = (h * h * self.by_angle().abs()).clamp(f64::EPSILON, 1.0);
-        let unit = h / turns.sqrt();
         let found = self.with_exact_motion(&magnus_transition, along, then, [h, unit]);
         let finite = found.iter().flatten().all(|entry| entry.is_finite());
         if finite { found } else { magnus_transition }
