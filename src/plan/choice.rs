@@ -3,15 +3,20 @@
 use super::cycle::{cycle_over_angle, non_zero};
 use super::{Candidate, Engine, Method};
 use crate::error::Error;
-use crate::mechanism::{Class, Curve, CurveEquation, Linkage};
+use crate::mechanism::{Class, Curve, CurveEquation, Linkage, Loads};
 use crate::numeric::{dip, maximum};
 use crate::scene::{Load, MotionKind, Scene, Variable, Variables};
 
 /// Returns the engines that take over where the chosen engine cannot start or continue, in this order.
-pub(super) fn successors(first: Engine, method: Method, scene: &Scene) -> Vec<Candidate> {
+pub(super) fn successors(
+    first: Engine,
+    method: Method,
+    scene: &Scene,
+    loads: &Loads,
+) -> Vec<Candidate> {
     match (first, method) {
         (Engine::Energy, Method::Auto) => {
-            let angle = choose(Method::Angle, scene).ok().map(|_| {
+            let angle = choose(Method::Angle, scene, loads).ok().map(|_| {
                 Candidate::new(
                     Engine::Angle,
                     "if the crank comes too near to rest for the energy alone, or its turns differ and are too many to be kept",
@@ -35,7 +40,7 @@ const METHODS_IN_TIME: &str = "use --method auto, time, dop853 or dopri5";
 const METHODS_WITHOUT_ENERGY: &str = "use --method auto, angle, time, dop853 or dopri5";
 
 /// Selects the first engine that serves a scene without parts of zero strength, or the engine that `method` asks for.
-pub(super) fn choose(method: Method, scene: &Scene) -> Result<Candidate, Error> {
+pub(super) fn choose(method: Method, scene: &Scene, loads: &Loads) -> Result<Candidate, Error> {
     if scene.clearance.is_some() {
         return only_if(
             method,
@@ -85,7 +90,7 @@ pub(super) fn choose(method: Method, scene: &Scene) -> Result<Candidate, Error> 
             "the lengths of a change point, which it passes onto the other branch",
             METHODS_IN_TIME,
         ),
-        _ => energy_angle_or_time(method, scene, class),
+        _ => energy_angle_or_time(method, scene, loads, class),
     }
 }
 
@@ -108,7 +113,12 @@ fn cannot_serve(method: Method, what: &str, help: &str) -> Error {
 }
 
 /// Selects the energy integral, else the crank angle, else the time as the independent variable.
-fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<Candidate, Error> {
+fn energy_angle_or_time(
+    method: Method,
+    scene: &Scene,
+    loads: &Loads,
+    class: Class,
+) -> Result<Candidate, Error> {
     let has_friction = scene.friction.is_some();
     let without_energy = match has_friction {
         true => Some("Coulomb friction, whose work depends on the speed".to_owned()),
@@ -126,7 +136,7 @@ fn energy_angle_or_time(method: Method, scene: &Scene, class: Class) -> Result<C
         }
         _ => {}
     }
-    match why_not_angle(scene, class) {
+    match why_not_angle(scene, loads, class) {
         None => Ok(Candidate::new(
             Engine::Angle,
             match has_friction {
@@ -170,10 +180,9 @@ fn why_not_energy(scene: &Scene) -> Option<String> {
 
 /// Returns why the crank angle cannot be the independent variable from the start: the crank is at rest, a load has
 /// unknown corners or no cycle to tabulate; where it may stick also: the crank cannot turn fully, or the guide jams.
-fn why_not_angle(scene: &Scene, class: Class) -> Option<String> {
+fn why_not_angle(scene: &Scene, loads: &Loads, class: Class) -> Option<String> {
     let has_friction = scene.friction.is_some();
-    let may_stick = has_friction || scene.loads().any(|of| of.load.may_hold(of.key.on_slider));
-    if may_stick && class != Class::RotatingCrank {
+    if (has_friction || loads.are_dry()) && class != Class::RotatingCrank {
         return Some("the crank cannot turn fully".to_owned());
     }
     if scene.motion.speed == 0.0 {

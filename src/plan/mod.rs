@@ -124,12 +124,12 @@ impl Plan {
     fn of_modelled(scene: &Scene, reduced: Scene, method: Method) -> Result<Plan, Error> {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
-        let Candidate { engine, reason } = choose(method, &reduced)?;
+        let Candidate { engine, reason } = choose(method, &reduced, &loads)?;
         let (kept, left_out) = terms(scene, &reduced);
         Ok(Plan {
             engine,
             reason,
-            then: successors(engine, method, &reduced),
+            then: successors(engine, method, &reduced, &loads),
             stepper: (engine == Engine::Time).then_some(match method {
                 Method::Dop853 => Stepper::Dop853,
                 Method::Dopri5 => Stepper::Dopri5,

@@ -34,8 +34,15 @@ pub enum TermReason {
     Gravity([f64; 2]),
     /// Load of zero strength.
     NoLoad(Load),
-    /// Load and the variables it depends on.
-    Load(Load, Variables),
+    /// Load in the model.
+    Load {
+        /// The load.
+        load: Load,
+        /// Variables it depends on.
+        reads: Variables,
+        /// Whether it opposes motion and may hold its body at rest.
+        holds: bool,
+    },
     /// Friction of the guide.
     Friction(Friction),
     /// Clearance of a joint.
@@ -68,7 +75,10 @@ impl fmt::Display for TermReason {
             TermReason::Slider(mass) => write!(f, "{mass} kg"),
             TermReason::Gravity([gx, gy]) => write!(f, "({gx}, {gy}) m/s2"),
             TermReason::NoLoad(load) => write!(f, "{load}: {}", TermReason::Zero),
-            TermReason::Load(load, reads) => write!(f, "{load}; depends on {reads}"),
+            TermReason::Load { load, reads, holds } => {
+                let holds = if *holds { "; holds at rest" } else { "" };
+                write!(f, "{load}; depends on {reads}{holds}")
+            }
             TermReason::Friction(friction) => {
                 let (kinetic, held) = (friction.coefficient, friction.static_coefficient);
                 write!(f, "at the guide, coefficient {kinetic}, static {held}")
@@ -99,10 +109,11 @@ pub(super) fn terms(scene: &Scene, reduced: &Scene) -> (Vec<Term>, Vec<Term>) {
         part("slider inertia", slider, scene.slider.is_some()),
         part("gravity", gravity, scene.gravity.is_some()),
     ];
+    let is_loose = reduced.clearance.is_some();
     let (forces, torques): (Vec<_>, Vec<_>) = scene.loads().partition(|of| of.key.on_slider);
     for (word, loads) in [("torque", torques), ("force", forces)] {
         terms.extend(loads.is_empty().then(|| part(word, None, false)));
-        terms.extend(loads.iter().map(load));
+        terms.extend(loads.iter().map(|of| load(of, is_loose)));
     }
     terms.extend([
         part("Coulomb friction", friction, scene.friction.is_some()),
@@ -130,11 +141,17 @@ fn part(name: &'static str, kept: Option<TermReason>, is_given: bool) -> Reasone
     (name.into(), kept.ok_or(absent))
 }
 
-fn load(of: &LoadOf<'_>) -> Reasoned {
+/// Returns a load as kept or left out; with a loose joint nothing is held at rest.
+fn load(of: &LoadOf<'_>, is_loose: bool) -> Reasoned {
     let load = of.load.clone();
+    let is_dry = |part: &Load| matches!(part, Load::Dry(_));
     let reason = match load.is_zero() {
         true => Err(TermReason::NoLoad(load)),
-        false => Ok(TermReason::Load(load, of.reads())),
+        false => Ok(TermReason::Load {
+            holds: !is_loose && load.parts(of.key.on_slider).iter().any(is_dry),
+            load,
+            reads: of.reads(),
+        }),
     };
     (of.key.to_string().into(), reason)
 }

@@ -4,11 +4,6 @@ use super::expression::OpposingPart;
 use super::{Load, Variable};
 
 impl Load {
-    /// Whether the load opposes the motion of its body and may hold it at rest.
-    pub(crate) fn may_hold(&self, on_slider: bool) -> bool {
-        matches!(self, Load::Dry(_)) || self.opposing(on_slider).is_some()
-    }
-
     /// Returns the loads that the load is the sum of: a formula with the sign of the speed of its body is a dry load,
     /// which holds at rest as well, beside the rest of the formula.
     pub(crate) fn parts(&self, on_slider: bool) -> Vec<Load> {

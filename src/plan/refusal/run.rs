@@ -57,13 +57,15 @@ fn widest_turn(scene: &Scene, linkage: &Linkage) -> Option<f64> {
 
 /// Whether a crank at rest starts in lasting equilibrium. False with friction or clearance, where only a run can tell.
 fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
-    let dry = scene.loads().any(|of| of.load.may_hold(of.key.on_slider));
-    if scene.friction.is_some() || scene.clearance.is_some() || dry {
+    if scene.friction.is_some() || scene.clearance.is_some() {
         return false;
     }
     let theta = Angle::from(scene.motion.angle).reduced();
     Curve::through(linkage, theta).is_some_and(|(curve, q)| {
         let equation = CurveEquation::new(scene, curve);
-        !equation.loads().reads().has(Variable::T) && equation.free(0.0, q, 0.0).acceleration == 0.0
+        let loads = equation.loads();
+        !loads.are_dry()
+            && !loads.reads().has(Variable::T)
+            && equation.free(0.0, q, 0.0).acceleration == 0.0
     })
 }
