@@ -42,11 +42,16 @@ pub fn crossings(step: &Step, watched: &[f64], found: &mut Vec<(f64, Crossing)>)
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
 }
 
-/// Finds intervals in which the speed changes sign; none for the usual step whose speed stays clear of zero.
+/// Finds intervals in which the speed changes sign; none for the usual step whose speed stays clear of zero, and none
+/// where all of the step turns the crank by less than the rounding of its angle: the sign is rounding there, too.
 fn turning_brackets(step: &Step, mut bracket: impl FnMut(f64, f64)) {
     let (w0, w1) = (step.start.omega, step.end.omega);
     let change = step.length() * step.start.alpha.abs().max(step.end.alpha.abs());
     if w0 * w1 > 0.0 && w0.abs().min(w1.abs()) > 2.0 * change {
+        return;
+    }
+    let turned = |i| step.at(part(step, i, PIECES)).0 - step.start.theta;
+    if (1..=PIECES).all(|i| turned(i).abs() < ANGLE_ROUNDING) {
         return;
     }
     let mut before = SpeedAt::at(step, step.start.t);

@@ -104,6 +104,17 @@ impl<'a> Counted<'a> {
         self.singular_state.get()
     }
 
+    /// True if rounding hides what is left, s, to a pole of a load from a time (s), angle and speed (rad/s). The pole
+    /// becomes the last state without a finite acceleration.
+    pub fn reaches_pole(&self, left: f64, t: f64, angle: Angle, speed: f64) -> bool {
+        let pole = angle.plus(speed * left);
+        self.singular_state.set(Some((t + left, pole, speed)));
+        // Nearer, the roundings of time and angle leave too few places to find the pole again.
+        let least_roundings = 1e6;
+        let rounding = f64::EPSILON * t.abs().max((angle.radians() / speed).abs());
+        left <= least_roundings * rounding
+    }
+
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         self.evaluations.set(self.evaluations.get() + 1);
         self.remember(acceleration, t, angle, speed);

@@ -59,6 +59,8 @@ pub enum Finish {
     TooManyTurns,
     /// Step size below the resolution of the time: a singularity.
     StepTooSmall,
+    /// Pole of a load: there the motion has no finite acceleration.
+    NoValue,
     /// No finite acceleration at the start.
     NoStart,
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::collocation;
-use super::resolution::unresolved_at;
+use super::resolution::{Feature, unresolved_at};
 use super::runge_kutta;
 use super::runge_kutta::Call;
 use super::step::{Node, Step};
@@ -121,6 +121,13 @@ fn in_calls(
         match rejected {
             Some(Rejected::TooLong(shorter)) => first_step = shorter,
             Some(Rejected::Unresolved(until)) => resolved_until = until,
+            Some(Rejected::Pole(t)) => {
+                let left = t - node.t;
+                if motion.reaches_pole(left, node.t, angle, node.omega) {
+                    return (Finish::NoValue, last, steps);
+                }
+                resolved_until = node.t + 0.5 * left;
+            }
             None => {}
         }
     }
@@ -132,6 +139,8 @@ enum Rejected {
     TooLong(f64),
     /// Load not resolved by the step; the time at which the step has to end, s.
     Unresolved(f64),
+    /// Pole of a load at this time, s.
+    Pole(f64),
 }
 
 impl Rejected {
@@ -144,7 +153,11 @@ impl Rejected {
         if let Some(part) = step.part_of_one_turn() {
             return Some(Rejected::TooLong(part * step.length()));
         }
-        unresolved_at(motion, step, method.order(), tolerance).map(Rejected::Unresolved)
+        let (feature, t) = unresolved_at(motion, step, method.order(), tolerance)?;
+        Some(match feature {
+            Feature::Pole => Rejected::Pole(t),
+            _ => Rejected::Unresolved(t),
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 use super::branch_tracking::CrankAngles;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
+use super::prior::Unknown;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
@@ -31,6 +32,8 @@ pub(super) struct Fitted {
     pub patterned: bool,
     /// Whether the iterations converged.
     pub converged: bool,
+    /// Whether the equation has no finite value along the motion: no prior with mechanics has a likelihood.
+    pub without_equation: bool,
     /// Row of the outlier with the largest residual.
     pub farthest_outlier: Option<usize>,
     /// Turns per cycle of the periodic torque in the smoother's prior; 0 without a periodic torque.
@@ -147,6 +150,11 @@ impl Fitted {
             to_s: record.origin + span.to,
             factor: span.factor,
         });
+        let mut with_equation = (smoothed.compared.iter())
+            .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)
+            .peekable();
+        fitted.without_equation = with_equation.peek().is_some()
+            && with_equation.all(|candidate| candidate.noise.likelihood == f64::NEG_INFINITY);
         fitted.coded = record.codes.map(|codes| codes.step);
         let compared = smoothed.compared.iter();
         let compared = compared.map(|candidate| CandidateSummary {

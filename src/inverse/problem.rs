@@ -1,6 +1,6 @@
 //! The linear model of a record about a path, and its smoothed motion.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
@@ -81,6 +81,17 @@ impl<'a> Problem<'a> {
             intensities: self.intensities.clone(),
             stop: self.stop,
         }
+    }
+
+    /// Leaves out all but a range of nodes; returns the range of their samples.
+    pub fn keep(&mut self, nodes: RangeInclusive<usize>) -> Range<usize> {
+        let (begin, end) = nodes.into_inner();
+        let samples = self.grid.first[begin]..self.grid.first[end + 1];
+        self.record.keep(samples.clone());
+        self.grid.times = self.grid.times[begin..=end].to_vec();
+        let first = self.grid.first[begin..=end + 1].iter();
+        self.grid.first = first.map(|sample| sample - samples.start).collect();
+        samples
     }
 
     fn is_stopped(&self) -> bool {

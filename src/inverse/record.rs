@@ -56,7 +56,7 @@ impl Record<'_> {
     pub fn keep(&mut self, range: Range<usize>) {
         self.times = self.times[range.clone()].to_vec().into();
         self.values = self.values[range.clone()].to_vec();
-        self.weights.truncate(range.len());
+        self.weights = self.weights[range.clone()].to_vec();
         for sensor in &mut self.beside {
             sensor.values = sensor.values[range.clone()].to_vec().into();
         }

@@ -33,30 +33,31 @@ const MISTAKEN: f64 = 0.8 * TAU;
 /// Least number of rows per turn by the sampling theorem: the inertia of the mechanism varies twice per turn.
 const ROWS_IN_A_TURN: f64 = 4.0;
 
-/// Returns warnings of a motion over whole turns: against the scene's `[motion] speed`, or too few rows per turn.
+/// Returns warnings of a motion against the scene's `[motion] speed`, and of one over whole turns with too few rows.
 pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) -> Vec<String> {
     let (first, last) = (&rows[0], &rows[rows.len() - 1]);
     let turns = (last.theta - first.theta) / TAU;
-    if turns.abs() < 1.0 {
-        return Vec::new();
-    }
+    let rotates = turns.abs() >= 1.0;
     let mut warnings = Vec::new();
     let stated = scene.motion.speed;
-    if measured == Measured::Theta && turns * stated < 0.0 {
+    if rotates && measured == Measured::Theta && turns * stated < 0.0 {
         warnings.push(format!("the crank turns against the sense of the scene's [motion] speed: {turns:.2} turns, positive anticlockwise"));
     }
     let speeds = || rows.iter().map(|row| row.omega.abs());
     let fastest = speeds().fold(0.0, f64::max);
     let usual = median(speeds()).unwrap_or(fastest);
     let times = [usual, fastest].map(|speed| speed / stated.abs());
-    if stated != 0.0 && (times[0] > MISTAKEN || times[1] < 1.0 / MISTAKEN) {
+    // A swing has no speed that contradicts the scene.
+    let is_one_way = rotates || rows.iter().all(|row| row.omega * stated > 0.0);
+    let is_mistaken = rotates && times[0] > MISTAKEN || is_one_way && times[1] < 1.0 / MISTAKEN;
+    if stated != 0.0 && is_mistaken {
         warnings.push(format!(
-            "the crank turns at {usual:.4} rad/s, {:.3} times the scene's [motion] speed: check the units of the data (degrees taken for radians make it 57.3 times, milliseconds for seconds 0.001 times) or the scene",
+            "the crank turns at {usual:.4} rad/s, {:.3} times the scene's [motion] speed: check the units of the data (degrees taken for radians make it 57.3 times, radians for degrees 0.0175 times, milliseconds for seconds 0.001 times) or the scene",
             times[0]
         ));
     }
     let in_a_turn = (rows.len() - 1) as f64 / turns.abs();
-    if in_a_turn < ROWS_IN_A_TURN {
+    if rotates && in_a_turn < ROWS_IN_A_TURN {
         warnings.push(format!(
             "there are {in_a_turn:.1} rows in a turn: with fewer than {ROWS_IN_A_TURN} the samples do not show how the speed varies within a turn, and force and torque rest on the scene's inertia"
         ));
@@ -89,6 +90,12 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     if !fitted.converged {
         warnings.push(
             "the iterations did not settle: the motion between the samples is not certain"
+                .to_owned(),
+        );
+    }
+    if fitted.without_equation {
+        warnings.push(
+            "a load of the scene has no finite value along the motion, or the inertia vanishes: the motion is smoothed without the equation"
                 .to_owned(),
         );
     }

@@ -119,6 +119,16 @@ impl Loads {
         Self::variation_of(&self.classes(), state, effects, ellipse)
     }
 
+    /// Returns the first load that is unbounded on a piece of a motion.
+    pub fn unbounded(&self, state: &EnclosedState) -> Option<&Load> {
+        let around = Around {
+            state,
+            ellipse: 1.0,
+        };
+        let unbounded = |load: &&Load| around.variation(load).change.is_infinite();
+        self.called().find(unbounded)
+    }
+
     /// Returns the variation of the generalized force, N m, of the loads that depend on the position alone and may vary
     /// between nodes.
     pub fn variation_with_position(

@@ -10,6 +10,7 @@ use super::warning::NoRange;
 use crate::engine::time::MotionState;
 use crate::mechanism::Equation;
 use crate::numeric::angle::{self, Angle};
+use crate::numeric::enclosure::{Interval, MotionPiece, has_pole};
 use crate::numeric::{gauss, maximum};
 use crate::scene::Variable;
 
@@ -104,6 +105,22 @@ impl ConstantSpeedMotion<'_> {
         })
     }
 
+    /// Whether a load has a pole at a time, s, that is known to some roundings.
+    fn is_pole(&self, t: f64) -> bool {
+        let angle = self.angle(t);
+        let width = 1e-13
+            * t.abs()
+                .max(angle.radians().abs().max(1.0) / self.speed.abs());
+        let near = MotionPiece {
+            t: Interval::point(t).widened(width),
+            angle: Interval::point(angle.radians()).widened(width * self.speed.abs()),
+            speed: Interval::point(self.speed),
+        };
+        let (loads, linkage) = (self.equation().loads(), self.equation().linkage());
+        let state = linkage.enclosed_state(&near, loads.meet_slider());
+        loads.unbounded(&state).is_some() && has_pole(|aside| self.torque(t + aside), width)
+    }
+
     fn turn(&self) -> f64 {
         TAU / self.speed.abs()
     }
@@ -140,7 +157,11 @@ impl ConstantSpeedMotion<'_> {
         let times = angle::distinct(times);
         let pieces = load_resolution::unresolved(loads, &times, &|t| Some(self.row_at(t)))
             .ok_or(NoRange::TooQuick)?;
-        cuts.extend(pieces.iter().flat_map(|piece| [piece.from, piece.to]));
+        let ends = || pieces.iter().flat_map(|piece| [piece.from, piece.to]);
+        if let Some(t) = ends().find(|t| self.is_pole(*t)) {
+            return Err(self.not_finite(t));
+        }
+        cuts.extend(ends());
         Ok(Samples {
             times: load_resolution::with_pieces(times, &pieces),
             cuts,

@@ -7,6 +7,7 @@ use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::angle::Angle;
+use crate::numeric::enclosure::{Interval, MotionPiece};
 use crate::scene::Load;
 
 /// Output row: state of the mechanism at one time, in SI units and radians.
@@ -107,11 +108,19 @@ pub(super) struct RowMaker {
 }
 
 impl RowMaker {
-    /// Returns the load without a finite value at a state, if there is one.
+    /// Returns the load without a finite value at a state, or with a pole within its rounding, if there is one.
     pub fn without_value(&self, at: MotionState) -> Option<Load> {
-        let pose = self.equation.linkage().pose(at.angle.rest);
+        let (linkage, loads) = (self.equation.linkage(), self.equation.loads());
+        let pose = linkage.pose(at.angle.rest);
         let now = pose.instant(at.t, at.angle, at.speed);
-        self.equation.loads().without_value(&now).cloned()
+        let near = |value: f64| Interval::point(value).widened(1e-9 * value.abs().max(1.0));
+        let piece = MotionPiece {
+            t: near(at.t),
+            angle: near(at.angle.radians()),
+            speed: near(at.speed),
+        };
+        let unbounded = || loads.unbounded(&linkage.enclosed_state(&piece, loads.meet_slider()));
+        loads.without_value(&now).or_else(unbounded).cloned()
     }
 
     /// Returns the friction on the slider (N, along +x) in a prescribed motion; not a number where the guide locks.

@@ -116,6 +116,15 @@ fn a_motion_that_contradicts_the_scene_is_said() {
         slow.contains("0.050 times the scene's [motion] speed"),
         "{slow}"
     );
+    let radians = said(
+        "10 rad/s",
+        &record("t [s],theta [deg]", 300, 0.02, turning(10.0)),
+        &[],
+    );
+    assert!(
+        radians.contains("0.017 times the scene's [motion] speed"),
+        "{radians}"
+    );
     // 20 rows in 12 turns.
     let few = text("10 rad/s", 10.0, 20, 12.0 * TAU / 190.0);
     assert!(few.contains("1.6 rows in a turn"), "{few}");

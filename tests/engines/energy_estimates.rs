@@ -190,6 +190,10 @@ impl Profile for Ellipse {
         None
     }
 
+    fn has_pole(&self, _: f64) -> bool {
+        false
+    }
+
     fn is_spent(&self) -> bool {
         false
     }

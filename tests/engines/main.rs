@@ -27,6 +27,7 @@ mod numeric;
 mod ode_solvers_defects;
 mod on_the_way;
 mod peaks;
+mod poles;
 mod precision;
 mod pulses;
 mod pulses_guided;

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse};
-use slider_crank::scene::{Measurement, Reading, Scene};
+use slider_crank::scene::{Expression, Load, Measurement, Reading, Scene};
 
 fn hard(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -161,4 +161,59 @@ fn known_loads_need_times_that_doubles_tell_apart() {
     for part in ["data.csv:3:1", "let the time begin near 0"] {
         assert!(wrong.contains(part), "{wrong}");
     }
+}
+
+/// Times rounded to decimals are taken as even, which puts the last sample beyond its written time by up to half a digit:
+/// a torque known at the written times is known there, too.
+#[test]
+fn known_loads_of_rounded_times_reach_the_last_sample() {
+    let time = |i: usize| i as f64 / 799.0;
+    let angle = |t: f64| 0.3 + 50.0 * t + 0.02 * (9.0 * t).sin() + 1e-4 * (1e6 * t).sin();
+    let row = |i: usize| {
+        format!(
+            "{:.9},{:.9},{:.6}\n",
+            time(i),
+            angle(time(i)),
+            2.0 + time(i)
+        )
+    };
+    let rows: String = (0..800).map(row).collect();
+    let reading = Reading {
+        known: vec!["motor".to_owned()],
+        ..Reading::default()
+    };
+    let text = format!("t [s],theta [rad],motor [N m]\n{rows}");
+    let motion = Measurement::parse(Path::new("data.csv"), text, &reading).expect("samples");
+    let elapsed = motion.elapsed();
+    assert_ne!(elapsed[1], motion.times()[1], "even times");
+    assert!(elapsed[799] <= motion.times()[799]);
+    let scene = Scene::load(hard("12-polynomial.toml")).expect("a scene");
+    let found = inverse(&scene, &motion, &InverseOptions::default()).expect("a force");
+    for candidate in &found.summary.fit.candidates {
+        assert!(candidate.log_likelihood.is_finite(), "{candidate:?}");
+    }
+}
+
+/// A load without a value inside the record leaves the smoother without the equation, and that is said.
+#[test]
+fn a_smoother_without_the_equation_says_so() {
+    let row = |i: usize| {
+        let t = 0.01 * i as f64;
+        format!("{t},{}\n", 0.3 + 20.0 * t + 1e-3 * (1e5 * t).sin())
+    };
+    let rows: String = (0..300).map(row).collect();
+    let text = format!("t [s],theta [rad]\n{rows}");
+    let motion =
+        Measurement::parse(Path::new("data.csv"), text, &Reading::default()).expect("samples");
+    let undefined =
+        Expression::parse("0.1/(t-1.005)^2 + sqrt(abs(t-1.005)-0.004)").expect("a formula");
+    let scene = Scene::load(hard("12-polynomial.toml"))
+        .expect("a scene")
+        .torque(Load::Expression(undefined));
+    let found = inverse(&scene, &motion, &InverseOptions::default());
+    let said = match found {
+        Ok(found) => found.summary.warnings.join(" "),
+        Err(refused) => refused.to_string(),
+    };
+    assert!(said.contains("no finite value along the motion"), "{said}");
 }

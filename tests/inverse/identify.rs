@@ -107,6 +107,32 @@ fn friction_of_a_run_down_lies_within_its_band() {
     assert!(inside.iter().all(|count| *count >= 34), "{inside:?}");
 }
 
+/// A run-down to rest: what holds the crank there is not in the equation.
+#[test]
+fn friction_is_identified_beside_a_rest() {
+    let (c, d, inertia, speed) = (0.008, 0.35, 0.02, 20.0);
+    let down = run_down(inertia, c, d, speed);
+    let stop = inertia / c * (1.0 + c * speed / d).ln();
+    assert!(stop < 0.95, "{stop}");
+    let draft = flywheel(&VISCOUS_AND_DRY.replace("0.004", "0.006"), inertia);
+    let keys = ["torque[1].coefficient", "torque[2].value"];
+    for seed in 0..5 {
+        let motion = |t: f64| 0.4 + down(t.min(stop));
+        let found = identified(&draft, &keys, &sampled(motion, 3e-4, seed)).expect("told");
+        for (one, truth) in found.values.iter().zip([c, d]) {
+            let off = (one.value - truth).abs() / one.standard_error;
+            assert!(
+                off < 4.0 && one.standard_error < 0.1 * truth,
+                "{one:?}, not {truth}"
+            );
+        }
+        let [said] = found.warnings.as_slice() else {
+            panic!("{:?}", found.warnings);
+        };
+        assert!(said.contains("samples are left out"), "{said}");
+    }
+}
+
 /// Lengths and zero from a position of the slider: the motion has a closed form, for rod and slider have no mass. What wrong
 /// lengths leave is no correlated noise, and a zero of a twelfth of the crank leaves a turning crank one that turns.
 #[test]

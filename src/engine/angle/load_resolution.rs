@@ -3,8 +3,9 @@
 use super::panel::{Fineness, PanelStart, PanelTable};
 use super::solution::PanelSolution;
 use super::{Dynamics, State, Table};
+use crate::engine::energy::NotApplicable;
 use crate::engine::events::ANGLE_ROUNDING;
-use crate::engine::resolution::{ForceAlong, NodeCriterion, unresolved};
+use crate::engine::resolution::{Feature, ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, largest};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation, ellipses};
@@ -25,15 +26,18 @@ struct OnPanel<'a, D: Dynamics> {
 }
 
 /// Returns the fraction at which a solved panel has to end for its points to resolve the loads; none if they do.
+///
+/// # Errors
+/// [`NotApplicable::NotFinite`] for a panel with a pole of a load.
 pub(super) fn unresolved_at<D: Dynamics>(
     dynamics: &D,
     panel: &PanelTable<D::Place>,
     start: PanelStart,
     fine: Fineness,
     solution: &PanelSolution,
-) -> Option<f64> {
+) -> Result<Option<f64>, NotApplicable> {
     if !dynamics.varies_between_nodes() {
-        return None;
+        return Ok(None);
     }
     let (rule, slope) = (panel.rule, &solution.slope);
     let degree = rule.degree();
@@ -57,9 +61,15 @@ pub(super) fn unresolved_at<D: Dynamics>(
         ellipses: ellipses(degree, fine.tail),
         allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
         least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
+        finest: ANGLE_ROUNDING / panel.half().abs(),
         has_interpolant: true,
     };
-    unresolved(&way, look).map(|unresolved| unresolved.at)
+    match unresolved(&way, look) {
+        Some(Unresolved { feature, .. }) if feature == Feature::Pole => {
+            Err(NotApplicable::NotFinite)
+        }
+        found => Ok(found.map(|found| found.at)),
+    }
 }
 
 /// True if the criterion resolves the loads over a range of speeds (rad/s), at each point of a panel.
@@ -118,7 +128,7 @@ impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
         self.dynamics.variation(&reach, ellipse)
     }
 
-    fn missed(&self, at: f64) -> f64 {
+    fn force(&self, at: f64) -> f64 {
         let x = 2.0 * at - 1.0;
         let speed = self.speed(self.solution.slope.value(x));
         let mut table = Table::default();
@@ -140,7 +150,10 @@ impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
             speed,
         }]);
         let squared = table.switch.map_or(0.0, |switch| switch.force[0]) * speed * speed;
-        let force = table.push[0] - table.damping[0] * speed + squared + state_loads;
-        force - self.non_conservative.value(x)
+        table.push[0] - table.damping[0] * speed + squared + state_loads
+    }
+
+    fn missed(&self, at: f64) -> f64 {
+        self.force(at) - self.non_conservative.value(2.0 * at - 1.0)
     }
 }

@@ -29,6 +29,14 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         if self.gives_up && why == Unsolved::Stops && slows {
             return Err(NotApplicable::TooSlow);
         }
+        // Rounded times leave too few places on a panel that the crank passes this quickly.
+        let least_roundings = 1e6;
+        let rounding = f64::EPSILON * (self.start.t + self.progress.t.0);
+        let speed = (2.0 * kinetic / panel.table.inertia[0]).sqrt();
+        let passed = least_roundings * rounding * speed;
+        if self.dynamics.reads_time() && 2.0 * panel.half().abs() < passed {
+            return Err(NotApplicable::NotSmooth);
+        }
         let Some(parts) = panel.parts(self.dynamics, self.fine.cut, self.fine, attempt)? else {
             // The crank is near rest below this fraction of the largest kinetic energy, and where the forces may have
             // produced its energy within so many radians.

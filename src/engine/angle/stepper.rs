@@ -179,7 +179,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             self.refine(why)?;
             return Ok(false);
         }
-        let end = unresolved_at(self.dynamics, panel, start, self.fine, solution);
+        let end = unresolved_at(self.dynamics, panel, start, self.fine, solution)?;
         let Some(share) = end else {
             return Ok(true);
         };

@@ -22,6 +22,8 @@ pub enum Rejection {
     TooLong(f64),
     /// Load missed between the nodes; the position, as a fraction, at which the step has to end.
     Unresolved(f64),
+    /// Pole of a load at the position, as a fraction: no step reaches it.
+    Pole(f64),
     /// Step too long, with a corner at the fraction `at`; the step after the corner has `factor` times the length.
     Corner { at: f64, factor: f64 },
 }

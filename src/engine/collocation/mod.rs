@@ -76,6 +76,13 @@ pub fn run(
                 wanted = h * factor.clamp(least_factor, greatest_retry);
             }
             Err(Rejection::Unresolved(at)) => hidden = state.t + at * h,
+            Err(Rejection::Pole(at)) => {
+                let left = at * h;
+                if motion.reaches_pole(left, state.t, state.angle(), state.omega) {
+                    return (Finish::NoValue, last, steps);
+                }
+                wanted = 0.5 * left;
+            }
             Err(Rejection::Corner { at, factor }) => {
                 hidden = state.t + at * h;
                 wanted = h * factor.clamp(least_factor, greatest_retry);

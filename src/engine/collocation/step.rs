@@ -1,6 +1,6 @@
 //! One collocation step: sweeps to convergence, then error estimate and next length.
 
-use super::super::resolution::{NodeCriterion, OnStep, Unresolved, unresolved};
+use super::super::resolution::{Feature, NodeCriterion, OnStep, Unresolved, finest, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
@@ -66,8 +66,9 @@ impl<'a> Collocation<'a> {
         let result = self.attempt_whole(state, step);
         match result {
             Err(Rejection::TooLong(factor)) if self.varies_between_nodes => {
-                match self.corner(state, step.h) {
-                    Some(at) => Err(Rejection::Corner { at, factor }),
+                match self.obstacle(state, step.h) {
+                    Some((Feature::Pole, at)) => Err(Rejection::Pole(at)),
+                    Some((_, at)) => Err(Rejection::Corner { at, factor }),
                     None => result,
                 }
             }
@@ -75,17 +76,22 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// Returns the fraction at which a step that is too long seems to meet a corner.
-    fn corner(&self, state: &State, h: f64) -> Option<f64> {
+    /// Returns the corner or pole that a step that is too long seems to meet, with its fraction.
+    fn obstacle(&self, state: &State, h: f64) -> Option<(Feature, f64)> {
         let coefficients = self.coefficients();
         if !coefficients.iter().sum::<f64>().is_finite() {
             return None;
         }
         let (step, ..) = self.finish(state, h, &coefficients);
-        let found = self.hides(state, &step, &coefficients)?;
+        let Unresolved { at, feature } = self.hides(state, &step, &coefficients)?;
         // Nearer to the end, a corner is not the reason why the step is too long.
         let last_position = 0.9;
-        (found.is_corner && found.at < last_position).then_some(found.at)
+        let is_met = match feature {
+            Feature::Detail => false,
+            Feature::Corner => at < last_position,
+            Feature::Pole => true,
+        };
+        is_met.then_some((feature, at))
     }
 
     /// Tries a step from a state without a search for corners.
@@ -129,8 +135,11 @@ impl<'a> Collocation<'a> {
         } else if sweeps == few_sweeps {
             factor = factor.min(1.0);
         }
-        if let Some(hidden) = self.hides(state, &step, &coefficients) {
-            return Err(Rejection::Unresolved(hidden.at));
+        if let Some(Unresolved { at, feature }) = self.hides(state, &step, &coefficients) {
+            return Err(match feature {
+                Feature::Pole => Rejection::Pole(at),
+                _ => Rejection::Unresolved(at),
+            });
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;
@@ -252,6 +261,7 @@ impl<'a> Collocation<'a> {
         let (times, part) = ([state.t, state.t + h], 1e-2 * self.tolerance);
         let look = NodeCriterion {
             has_interpolant: true,
+            finest: finest(step),
             ..NodeCriterion::at_step(times, NODES, part, allowed)
         };
         let way = OnStep {

@@ -111,6 +111,9 @@ impl Builder<'_> {
         // A panel of this length, rad, is accepted unresolved: it holds a corner that the profile does not announce.
         let shortest = 1e-13 * at.abs().max(1.0);
         let short = piece.span().abs() <= shortest;
+        if short && self.profile.has_pole(piece.to) {
+            return Err(NotApplicable::NotFinite);
+        }
         let accepted = if short { f64::INFINITY } else { tolerance };
         match Panel::attempt(self.profile, piece, self.now.kinetic, accepted, known)? {
             Attempt::Done(panel, energy_error) => match self.improvement(&panel, known) {

@@ -26,6 +26,9 @@ pub trait Profile {
     /// Returns the next angle from `from` towards `to`, other than [`Self::corners`], at which a panel must end.
     fn corner_between(&self, from: f64, to: f64) -> Option<f64>;
 
+    /// True if the force has a pole at the end of a panel, rad.
+    fn has_pole(&self, at: f64) -> bool;
+
     /// True if the limit of tabulated positions is reached: the run ends with the panels that it has.
     fn is_spent(&self) -> bool;
 

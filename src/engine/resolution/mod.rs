@@ -4,9 +4,9 @@ mod steps;
 
 use std::f64::consts::PI;
 
-use crate::numeric::enclosure::{CORNER_SHARE, Variation, ellipses, resolved};
+use crate::numeric::enclosure::{CORNER_SHARE, Variation, ellipses, has_pole, resolved};
 
-pub use steps::{OnStep, unresolved_at};
+pub use steps::{OnStep, finest, unresolved_at};
 
 /// Force along a panel or a step, over the normalized position from 0 to 1, with its interpolant through the nodes.
 pub trait ForceAlong {
@@ -16,6 +16,11 @@ pub trait ForceAlong {
     /// Returns the first known corner of the force between two positions.
     fn corner(&self, _from: f64, _to: f64) -> Option<f64> {
         None
+    }
+
+    /// Returns the force at a position.
+    fn force(&self, _at: f64) -> f64 {
+        0.0
     }
 
     /// Returns the force at a position minus its interpolant through the nodes.
@@ -35,6 +40,8 @@ pub struct NodeCriterion {
     pub allowed: f64,
     /// Distance from either end that rounding cannot resolve, as a fraction of the length.
     pub least: f64,
+    /// Length that rounding cannot divide, as a fraction of the length.
+    pub finest: f64,
     /// True if the nodes define an interpolant to compare with; else they resolve features of a quarter the length.
     pub has_interpolant: bool,
 }
@@ -45,11 +52,13 @@ const HALVINGS: i32 = 46;
 impl NodeCriterion {
     /// Returns the criterion for a step from one time to another (s), with `least` as 16 roundings of the time.
     pub fn at_step([from, to]: [f64; 2], nodes: usize, part: f64, allowed: f64) -> NodeCriterion {
+        let rounding = f64::EPSILON * from.abs().max(to.abs()) / (to - from);
         NodeCriterion {
             nodes,
             ellipses: ellipses(nodes, part),
             allowed,
-            least: 16.0 * f64::EPSILON * from.abs().max(to.abs()) / (to - from),
+            least: 16.0 * rounding,
+            finest: 4.0 * rounding,
             has_interpolant: false,
         }
     }
@@ -60,8 +69,19 @@ impl NodeCriterion {
 pub struct Unresolved {
     /// Position, as a fraction of the length.
     pub at: f64,
-    /// True if the force has a corner or a jump there.
-    pub is_corner: bool,
+    /// What the force has there.
+    pub feature: Feature,
+}
+
+/// Feature of a force that the nodes do not resolve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Detail too fine for the nodes.
+    Detail,
+    /// Corner or jump.
+    Corner,
+    /// Pole: the force has no finite value, and its integral has none.
+    Pole,
 }
 
 /// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
@@ -152,9 +172,9 @@ impl Search {
             if pieces > most_examined {
                 let here = Unresolved {
                     at: from,
-                    is_corner: false,
+                    feature: Feature::Detail,
                 };
-                return self.found().or((from > self.whole[0]).then_some(here));
+                return self.found(force).or((from > self.whole[0]).then_some(here));
             }
             let (varies, nodes) = self.criterion.nodes_on(force, from, to);
             match nodes {
@@ -172,7 +192,7 @@ impl Search {
             }
         }
         (self.is_missed || self.cuts_off())
-            .then(|| self.found())
+            .then(|| self.found(force))
             .flatten()
     }
 
@@ -203,18 +223,33 @@ impl Search {
     }
 
     /// Returns the first corner, or else an end of the first piece with a missed force.
-    fn found(&self) -> Option<Unresolved> {
+    fn found(&self, force: &impl ForceAlong) -> Option<Unresolved> {
         let [begin, end] = self.whole;
         let inside = |at: &f64| *at > begin && *at < end;
         let mut ends = self.first.into_iter().flatten();
         let at = self.corner.or_else(|| ends.find(inside))?;
-        let is_corner = self.corner.is_some();
-        Some(Unresolved { at, is_corner })
+        let feature = match self.corner {
+            None => Feature::Detail,
+            Some(corner) if self.is_pole(force, corner) => Feature::Pole,
+            Some(_) => Feature::Corner,
+        };
+        Some(Unresolved { at, feature })
+    }
+
+    /// True if a corner is a pole: there the enclosure is unbounded.
+    fn is_pole(&self, force: &impl ForceAlong, corner: f64) -> bool {
+        let width = 2.0 * self.criterion.finest.max(0.5f64.powi(HALVINGS));
+        let [from, to] = [corner - width, corner + width];
+        let enclosed = force.variation(from, to, self.criterion.ellipses[0]);
+        enclosed.change.is_infinite() && has_pole(|aside| force.force(corner + aside), width)
     }
 
     fn is_least(&self, varies: &Variation, length: f64) -> bool {
         let allowed = CORNER_SHARE * self.criterion.allowed;
-        varies.change * length <= allowed || length < 0.5f64.powi(HALVINGS)
+        let is_unbounded = varies.change.is_infinite();
+        varies.change * length <= allowed
+            || length < 0.5f64.powi(HALVINGS)
+            || is_unbounded && length < self.criterion.finest
     }
 
     fn note_corner(&mut self, variation: &Variation, from: f64, to: f64) {

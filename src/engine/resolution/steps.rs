@@ -1,6 +1,6 @@
 //! Resolution test for loads on a step in time.
 
-use super::{ForceAlong, NodeCriterion, Unresolved, unresolved};
+use super::{Feature, ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
 use crate::engine::{Counted, Motion, NODES};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
@@ -16,27 +16,39 @@ pub struct OnStep<'a> {
     pub nodes: Option<&'a [f64; NODES]>,
 }
 
-/// Returns the time (s) at which a step has to end to resolve the acceleration; none if it does, or cannot be shorter.
-/// A method of order n counts as n nodes.
+/// Returns the fraction of a step that the roundings of time and angle cannot divide.
+pub fn finest(step: &Step) -> f64 {
+    let [first, last] = [step.start.theta, step.end.theta].map(|theta| step.angle(theta).radians());
+    let of_angle = first.abs().max(last.abs()) / (last - first).abs();
+    // A step across a turning point goes further than its ends are apart.
+    let most = 1e-3;
+    4.0 * f64::EPSILON * (step.end.t.abs() / step.length()).max(of_angle.min(most / f64::EPSILON))
+}
+
+/// Returns the feature that a step misses, with the time (s) at which the step has to end to resolve the acceleration;
+/// none if it does, or cannot be shorter. A method of order n counts as n nodes.
 pub fn unresolved_at(
     motion: &Counted<'_>,
     step: &Step,
     order: usize,
     tolerance: f64,
-) -> Option<f64> {
+) -> Option<(Feature, f64)> {
     if !motion.varies_between_nodes() {
         return None;
     }
     let (h, nodes) = (step.length(), None);
     let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
-    let criterion = NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed);
+    let criterion = NodeCriterion {
+        finest: finest(step),
+        ..NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed)
+    };
     let way = OnStep {
         motion,
         step,
         nodes,
     };
-    let Unresolved { at, .. } = unresolved(&way, criterion)?;
-    Some(step.start.t + at * h)
+    let Unresolved { at, feature } = unresolved(&way, criterion)?;
+    Some((feature, step.start.t + at * h))
 }
 
 impl OnStep<'_> {
@@ -82,13 +94,17 @@ impl ForceAlong for OnStep<'_> {
         Some((t - step.start.t) / step.length())
     }
 
+    fn force(&self, at: f64) -> f64 {
+        let t = self.time(at);
+        let (theta, omega) = self.step.at(t);
+        self.motion.acceleration(t, self.step.angle(theta), omega)
+    }
+
     fn missed(&self, at: f64) -> f64 {
         let Some(coefficients) = self.nodes else {
             return 0.0;
         };
-        let t = self.time(at);
-        let (theta, omega) = self.step.at(t);
         let [shown] = legendre_series(coefficients, [2.0 * at - 1.0]);
-        self.motion.acceleration(t, self.step.angle(theta), omega) - shown
+        self.force(at) - shown
     }
 }

@@ -18,14 +18,18 @@ mod values;
 pub use of_draft::{FreeKey, identify_keys};
 pub use values::{FreeValue, IdentifiedValue};
 
+use std::ops::RangeInclusive;
+
 use self::gauss_newton::Search;
 use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
+use super::estimate::Estimate;
 use super::first_path::coarse;
 use super::measurement_model::{Scale, Sensor};
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
+use super::smoother::Smoothed;
 use super::warnings::alone;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -99,10 +103,16 @@ fn identify_among(
         problem.record.take_middles(codes);
     }
     problem.record.beside.clear();
-    let theta = match problem.record.is_linear() {
-        true => problem.record.values.clone(),
-        false => angles.theta.clone(),
-    };
+    let mut theta = angles.theta;
+    let mut at_rest = 0;
+    if equation.loads().are_dry() {
+        let samples = problem.keep(moving(&smooth));
+        at_rest = theta.len() - samples.len();
+        theta = theta[samples].to_vec();
+    }
+    if problem.record.is_linear() {
+        theta.clone_from(&problem.record.values);
+    }
     let first = coarse(&problem, &theta);
     let smooth = problem.kinematic(first, smooth.noise.sigma);
     // The first path is by the zero and gain that fit the scene's lengths, the identification by the lengths alone.
@@ -113,6 +123,9 @@ fn identify_among(
     let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(angles.warnings);
+    warnings.extend((at_rest > 0).then(|| {
+        format!("the crank stands at the begin or the end of the record: {at_rest} samples are left out, as a dry load may hold it there with any torque")
+    }));
     let several = measurement.has_sensors_beside();
     warnings.extend(several.then(|| alone(measurement)));
     warnings.extend(warnings_of(&found, free, measurement));
@@ -133,6 +146,28 @@ fn identify_among(
         warnings,
     })
 }
+
+/// Returns the nodes between a rest at the begin and one at the end of the record: a dry load holds the crank there with any
+/// torque up to its magnitude, and the equation does not say with which.
+fn moving(smooth: &Smoothed) -> RangeInclusive<usize> {
+    let estimates = &smooth.estimates;
+    let moved_from = |end: &Estimate| {
+        let [at, variance] = [end.state[0], end.covariance[0]];
+        move |other: &Estimate| {
+            let deviation = (variance + other.covariance[0]).sqrt();
+            (other.state[0] - at).abs() > FAR * deviation
+        }
+    };
+    let last = estimates.len() - 1;
+    let begin = estimates.iter().position(moved_from(&estimates[0]));
+    let end = estimates.iter().rposition(moved_from(&estimates[last]));
+    // An end whose neighbour is apart from it is no rest.
+    let begin = begin.filter(|begin| *begin > 1).unwrap_or(0);
+    begin..=end.filter(|end| end + 1 < last).unwrap_or(last)
+}
+
+/// Standard deviations beyond which an angle is another one.
+const FAR: f64 = 5.0;
 
 /// Refuses an empty list of free values, and duplicate keys.
 fn check(free: &[FreeValue]) -> Result<(), Error> {

@@ -141,3 +141,14 @@ pub fn resolved(
     });
     (first, nodes)
 }
+
+/// Returns true if a function whose enclosure is unbounded, given by the signed distance from a place that is known to
+/// `width`, has no integral there: its product with the distance does not vanish with the distance, as it does beside
+/// jumps, roots and logarithms.
+pub fn has_pole(function: impl Fn(f64) -> f64, width: f64) -> bool {
+    let [near, far] = [8.0 * width, 1024.0 * width];
+    let product = |aside: f64| (aside * function(aside)).abs();
+    [1.0, -1.0]
+        .iter()
+        .any(|side| product(side * near) >= 0.5 * product(side * far))
+}

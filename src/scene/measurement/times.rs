@@ -74,8 +74,15 @@ impl Measurement {
         if self.lost().is_some() {
             self.origin = self.times[0];
         }
-        let first = self.times[0] - self.origin + even.first;
-        self.elapsed = Some((0..count).map(|i| first + even.period * i as f64).collect());
+        let begin = self.times[0] - self.origin;
+        let time = |i: usize| begin + even.first + even.period * i as f64;
+        // Tables over the time may have no rows beyond those of the record.
+        let end = match self.origin {
+            0.0 => self.times[count - 1],
+            _ => begin + length,
+        };
+        let within = |time: f64| time.clamp(begin, end);
+        self.elapsed = Some((0..count).map(|i| within(time(i))).collect());
         self.period_uncertainty = even.step / ((count as f64).sqrt() * length);
         Some(format!(
             "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::super::run_setup::RunSetup;
 use crate::mechanism::Equation;
 use crate::numeric::angle::Angle;
-use crate::numeric::enclosure::{Interval, PanelResolution, partition};
+use crate::numeric::enclosure::{Interval, PanelResolution, has_pole, partition};
 
 /// Panels begin with 25 nodes and end where the series have decayed to rounding.
 const RESOLUTION: PanelResolution = PanelResolution {
@@ -51,6 +51,19 @@ impl<'a> PanelEnds<'a> {
         let parts = self.in_reach(low, high);
         let ends = |part| partition(variation, part, RESOLUTION, unit);
         parts.into_iter().flat_map(ends).collect()
+    }
+
+    /// Whether the loads of the position have a pole at a panel end, rad, that is known to some roundings.
+    pub fn is_pole(&self, at: f64) -> bool {
+        let width = 1e-13 * at.abs().max(1.0);
+        let (loads, linkage) = (self.equation.loads(), self.equation.linkage());
+        let near = Interval::new(at - width, at + width);
+        let enclosed = loads.variation_with_position(linkage, near, 1.0);
+        let force = |aside: f64| {
+            let pose = linkage.pose(at + aside);
+            loads.of_place(at + aside, pose.x).generalized(pose.dx)
+        };
+        enclosed.change.is_infinite() && has_pole(force, width)
     }
 
     /// Returns the parts of an interval, rad, that the crank reaches, in rising order.

@@ -75,6 +75,10 @@ impl Profile for AngleModel<'_> {
         corner.into_iter().chain(panel_end).reduce(first)
     }
 
+    fn has_pole(&self, at: f64) -> bool {
+        self.panel_ends.is_pole(at + self.turns * TAU)
+    }
+
     fn is_spent(&self) -> bool {
         self.limit.is_reached(self.evaluations())
     }

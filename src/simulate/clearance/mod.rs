@@ -159,7 +159,7 @@ impl<'a, const N: usize> Loose<'a, N> {
             Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns => {
                 Some(self.task.limited())
             }
-            Finish::StepTooSmall | Finish::NoStart => Some(self.too_small(last)),
+            Finish::StepTooSmall | Finish::NoValue | Finish::NoStart => Some(self.too_small(last)),
         }
     }
 

@@ -42,6 +42,9 @@ impl Pass<'_, '_> {
     pub fn run_angle_engine(&mut self, reason: Reason) -> Result<PieceEnd, Error> {
         let pass = self.settings;
         let from = self.result.state;
+        if pass.model.has_pole() {
+            return Ok(PieceEnd::NotApplicable(NotApplicable::NotFinite));
+        }
         let run = self.run_over_angle().and_then(|run| match run.early_end {
             // Past its limits a crank that does not turn fully is followed from the start.
             Some(end) if !pass.task.turns_fully() => Err(end.why),

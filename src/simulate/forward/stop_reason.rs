@@ -27,6 +27,7 @@ pub(super) fn reason(task: &RunSetup<'_>, result: &PassResult) -> Option<Why> {
         Finish::WorkLimit => task.limited(),
         Finish::WorkLimitAhead => Why::WorkLimitAhead,
         Finish::TooManyTurns => Why::TooManyTurns,
+        Finish::NoValue => no_value(task, result.singular_state.unwrap_or(result.state)),
         _ => match &result.curve {
             Some(curve) => singular_on_curve(task, &curve.equation, result),
             None => singular(task, result),

@@ -52,6 +52,7 @@ impl<D: Dynamics> MapRun<'_, D> {
             ellipses: ellipses(MAP_DEGREE, fine.tail),
             allowed: fine.tail * middle / TAU,
             least: 0.0,
+            finest: 0.0,
             has_interpolant: false,
         };
         !dynamics.varies_between_nodes()
