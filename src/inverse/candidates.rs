@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
-use super::maximum::{ENOUGH_RISE, better};
+use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
 use super::prior::{LADDERS, Prior, SMOOTH, TORQUE};
 use super::problem::Problem;
 use super::scales::{Noise, Scales};
@@ -182,23 +182,22 @@ impl Problem<'_> {
         let cost = (self.record.times.len() as f64).ln();
         let mut found = Vec::from_iter(with(first, *noise, noise.likelihood + cost));
         // Forward selection: what is added stays where it makes the samples likelier.
-        let mut extend = |by: fn(Prior) -> Prior| {
-            let likelier = |Candidate { prior, noise, .. }| {
-                with(by(prior), noise, noise.likelihood + ENOUGH_RISE)
-            };
+        let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
+            let likelier =
+                |Candidate { prior, noise, .. }| with(by(prior), noise, noise.likelihood + rise);
             let next = found.last().copied().and_then(likelier);
             found.extend(next);
             next.is_some()
         };
-        extend(|prior| Prior { powers: 1, ..prior });
+        extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
         if turns >= 4.0 {
-            extend(|prior| Prior {
+            extend(ENOUGH_RISE, |prior| Prior {
                 cycle: 2,
                 harmonics: 2 * prior.harmonics,
                 ..prior
             });
         }
-        while extend(|prior| Prior {
+        while extend(SIGNIFICANT_RISE, |prior| Prior {
             harmonics: 2 * prior.harmonics,
             ..prior
         }) {}

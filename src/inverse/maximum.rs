@@ -64,6 +64,9 @@ pub(super) fn climb(
 /// Rise of ln of the likelihood below which another evaluation does not pay.
 pub(super) const ENOUGH_RISE: f64 = 0.05;
 
+/// ln of the likelihood ratio above which more of a model is significant: a torque, a further free key, further harmonics.
+pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
+
 /// Vertex of a parabola, with its expected rise above the best known point.
 pub(super) struct Top {
     pub place: f64,

@@ -43,34 +43,22 @@ impl Codes {
     fn of_encoder(values: &[f64], digits: f64) -> Option<Codes> {
         let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let digits = (4.0 * digits).max(1e-13 * largest);
-        let mut step = 0.0f64;
-        for pair in values.windows(2) {
-            let mut rest = (pair[1] - pair[0]).abs();
-            // Euclid's algorithm, down to the size of the digits.
-            while rest > digits {
-                (step, rest) = (rest, step % rest);
-                rest = rest.min(step - rest);
-            }
-            if step > 0.0 && step < WIDE * digits {
+        let differences = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let mut step = Step::default();
+        for difference in differences().filter(|difference| *difference > digits) {
+            step.take(difference, digits);
+            if step.width() < WIDE * digits {
                 return None;
             }
         }
-        if step == 0.0 {
+        if step.squares == 0.0 {
             return None;
         }
-        let (mut squares, mut products) = (0.0, 0.0);
-        let mut most = 0.0f64;
-        for pair in values.windows(2) {
-            let difference = pair[1] - pair[0];
-            let count = (difference / step).round();
-            squares += count * count;
-            products += count * difference;
-            most = most.max(count.abs());
-        }
+        let most = differences().map(|difference| step.count(difference));
+        let most = most.reduce(f64::max)?;
         // Equal differences are a steady speed.
-        (most > 1.0 || values.windows(2).any(|pair| pair[0] == pair[1])).then(|| Codes {
-            step: products / squares,
-        })
+        (most > 1.0 || values.windows(2).any(|pair| pair[0] == pair[1]))
+            .then(|| Codes { step: step.width() })
     }
 
     /// Returns the independent information of the samples: passages from step to step, and codes shown next to skipped
@@ -143,6 +131,46 @@ impl Codes {
     }
 }
 
+/// Step of which differences are multiples, by least squares.
+#[derive(Clone, Copy, Debug, Default)]
+struct Step {
+    squares: f64,
+    products: f64,
+}
+
+impl Step {
+    /// Returns the width, rad, after a first difference.
+    fn width(self) -> f64 {
+        self.products / self.squares
+    }
+
+    fn count(self, difference: f64) -> f64 {
+        (difference / self.width()).round()
+    }
+
+    /// Takes a difference with an error of some digits, rad: one more multiple, or the step becomes what divides both
+    /// (Euclid). The error of the step grows with the multiple.
+    fn take(&mut self, difference: f64, digits: f64) {
+        if self.squares == 0.0 {
+            (self.squares, self.products) = (1.0, difference);
+            return;
+        }
+        let count = self.count(difference);
+        let error = digits * (1.0 + count / self.squares.sqrt());
+        let (mut step, mut rest) = (self.width(), (difference - count * self.width()).abs());
+        if rest <= error {
+            self.squares += count * count;
+            self.products += count * difference;
+            return;
+        }
+        while rest > error {
+            (step, rest) = (rest, step % rest);
+            rest = rest.min(step - rest);
+        }
+        (self.squares, self.products) = (1.0, step);
+    }
+}
+
 /// Largest number of steps per turn of an encoder.
 const MOST_COUNTS: f64 = 1e6;
 
@@ -155,6 +183,20 @@ const WIDE: f64 = 100.0;
 #[cfg(test)]
 mod tests {
     use super::Codes;
+
+    /// Twelve digits leave more error in a multiple of the step than in the step.
+    #[test]
+    fn codes_written_to_twelve_digits_are_steps_of_an_encoder() {
+        let step = std::f64::consts::TAU / 1024.0;
+        let counts = [472, 471, 465, 387, 361, 361, 250, 11, -3, -2, -2, -2, 184];
+        let written = counts.map(|count| format!("{:.11e}", f64::from(count) * step));
+        let values = written.map(|text| text.parse().expect("a number"));
+        let found = Codes::of(&values, 7e-12).expect("an encoder");
+        assert!((found.step / step - 1.0).abs() < 1e-11, "{found:?}");
+        assert!(
+            Codes::of_encoder(&values.map(|value| value + 1e-5 * value.sin()), 7e-12).is_none()
+        );
+    }
 
     #[test]
     fn rounded_numbers_go_in_steps_of_their_last_digit() {

@@ -92,6 +92,13 @@ fn a_motion_ends_at_the_pole_of_a_formula() {
             assert!(off < 1e-7, "{text} by {method}: {off}");
         }
     }
+    let options = Options {
+        method: Method::Angle,
+        ..Options::default()
+    };
+    let refused = simulate(&wheel(0.3).torque(formula("0.1*tan(theta)")), &options);
+    let why = refused.expect_err("no turn").to_string();
+    assert!(why.contains("no finite value on the way"), "{why}");
 }
 
 /// The impulse of 0.3/(t − 0.3) is a logarithm; so are the losses by the speed beside a pole of the position.

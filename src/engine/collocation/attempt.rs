@@ -1,5 +1,6 @@
 //! Attempted step: request, first guess, outcome and error estimate.
 
+use super::super::resolution::Unresolved;
 use super::super::step::Step;
 use super::super::{Motion, NODES};
 use super::state::State;
@@ -20,10 +21,8 @@ pub struct Accepted {
 pub enum Rejection {
     /// Step too long; ratio of the next try to this length.
     TooLong(f64),
-    /// Load missed between the nodes; the position, as a fraction, at which the step has to end.
-    Unresolved(f64),
-    /// Pole of a load at the position, as a fraction: no step reaches it.
-    Pole(f64),
+    /// Load missed between the nodes; the step has to end there, or before a pole.
+    Unresolved(Unresolved),
     /// Step too long, with a corner at the fraction `at`; the step after the corner has `factor` times the length.
     Corner { at: f64, factor: f64 },
 }

@@ -13,6 +13,7 @@ mod tableau;
 
 use std::f64::consts::TAU;
 
+use super::resolution::Feature;
 use super::step::{Node, Step};
 use super::time::{Finish, MotionState, Settings};
 use super::{Counted, Motion};
@@ -75,9 +76,11 @@ pub fn run(
             Err(Rejection::TooLong(factor)) => {
                 wanted = h * factor.clamp(least_factor, greatest_retry);
             }
-            Err(Rejection::Unresolved(at)) => hidden = state.t + at * h,
-            Err(Rejection::Pole(at)) => {
-                let left = at * h;
+            Err(Rejection::Unresolved(found)) if found.feature != Feature::Pole => {
+                hidden = state.t + found.at * h;
+            }
+            Err(Rejection::Unresolved(pole)) => {
+                let left = pole.at * h;
                 if motion.reaches_pole(left, state.t, state.angle(), state.omega) {
                     return (Finish::NoValue, last, steps);
                 }

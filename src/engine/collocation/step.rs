@@ -67,8 +67,10 @@ impl<'a> Collocation<'a> {
         match result {
             Err(Rejection::TooLong(factor)) if self.varies_between_nodes => {
                 match self.obstacle(state, step.h) {
-                    Some((Feature::Pole, at)) => Err(Rejection::Pole(at)),
-                    Some((_, at)) => Err(Rejection::Corner { at, factor }),
+                    Some(Unresolved { at, feature }) if feature == Feature::Corner => {
+                        Err(Rejection::Corner { at, factor })
+                    }
+                    Some(pole) => Err(Rejection::Unresolved(pole)),
                     None => result,
                 }
             }
@@ -76,22 +78,18 @@ impl<'a> Collocation<'a> {
         }
     }
 
-    /// Returns the corner or pole that a step that is too long seems to meet, with its fraction.
-    fn obstacle(&self, state: &State, h: f64) -> Option<(Feature, f64)> {
+    /// Returns the corner or pole that a step that is too long seems to meet.
+    fn obstacle(&self, state: &State, h: f64) -> Option<Unresolved> {
         let coefficients = self.coefficients();
         if !coefficients.iter().sum::<f64>().is_finite() {
             return None;
         }
         let (step, ..) = self.finish(state, h, &coefficients);
-        let Unresolved { at, feature } = self.hides(state, &step, &coefficients)?;
+        let found = self.hides(state, &step, &coefficients)?;
         // Nearer to the end, a corner is not the reason why the step is too long.
         let last_position = 0.9;
-        let is_met = match feature {
-            Feature::Detail => false,
-            Feature::Corner => at < last_position,
-            Feature::Pole => true,
-        };
-        is_met.then_some((feature, at))
+        let is_corner = found.feature == Feature::Corner && found.at < last_position;
+        (is_corner || found.feature == Feature::Pole).then_some(found)
     }
 
     /// Tries a step from a state without a search for corners.
@@ -135,11 +133,8 @@ impl<'a> Collocation<'a> {
         } else if sweeps == few_sweeps {
             factor = factor.min(1.0);
         }
-        if let Some(Unresolved { at, feature }) = self.hides(state, &step, &coefficients) {
-            return Err(match feature {
-                Feature::Pole => Rejection::Pole(at),
-                _ => Rejection::Unresolved(at),
-            });
+        if let Some(hidden) = self.hides(state, &step, &coefficients) {
+            return Err(Rejection::Unresolved(hidden));
         }
         self.last = Some((h, coefficients));
         self.alpha = alpha;

@@ -27,9 +27,6 @@ const VALUES_AT_REST: f64 = 0.01;
 /// and their change is well above rounding.
 const STEP: f64 = 0.1;
 
-/// ln of the likelihood ratio above which a missing torque, or a further free key, is significant.
-pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
-
 /// Search for the maximum of the marginal likelihood.
 pub(super) struct Search<'a> {
     trials: Trials<'a>,

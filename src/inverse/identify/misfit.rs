@@ -3,10 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::gauss_newton::SIGNIFICANT_RISE;
 use super::optimum::Optimum;
 use super::trial::Trials;
 use crate::error::Error;
+use crate::inverse::maximum::SIGNIFICANT_RISE;
 use crate::inverse::residual_tests::{Runs, Whiteness};
 
 /// Misfit of the equation with the free keys and without a torque beside it.

@@ -158,9 +158,11 @@ fn moving(smooth: &Smoothed) -> RangeInclusive<usize> {
             (other.state[0] - at).abs() > FAR * deviation
         }
     };
-    let last = estimates.len() - 1;
-    let begin = estimates.iter().position(moved_from(&estimates[0]));
-    let end = estimates.iter().rposition(moved_from(&estimates[last]));
+    let last = estimates.len().saturating_sub(1);
+    let begin = estimates.first().map(moved_from);
+    let begin = begin.and_then(|moved| estimates.iter().position(moved));
+    let end = estimates.last().map(moved_from);
+    let end = end.and_then(|moved| estimates.iter().rposition(moved));
     // An end whose neighbour is apart from it is no rest.
     let begin = begin.filter(|begin| *begin > 1).unwrap_or(0);
     begin..=end.filter(|end| end + 1 < last).unwrap_or(last)

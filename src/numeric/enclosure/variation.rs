@@ -150,5 +150,5 @@ pub fn has_pole(function: impl Fn(f64) -> f64, width: f64) -> bool {
     let product = |aside: f64| (aside * function(aside)).abs();
     [1.0, -1.0]
         .iter()
-        .any(|side| product(side * near) >= 0.5 * product(side * far))
+        .any(|side| product(side * near) > 0.5 * product(side * far))
 }

@@ -48,8 +48,6 @@ pub(super) struct AngleModel<'a> {
     /// Corners and narrow parts of formulas; the flag is set where they are corners of each turn.
     panel_ends: PanelEnds<'a>,
     panel_ends_are_corners: bool,
-    /// True if loads of the position have a pole in the cycle.
-    has_pole: bool,
     repeats: bool,
     /// Work of the loads in one turn and the error of this work, J, if all turns are equal.
     work_of_turn: Option<(f64, f64)>,
@@ -76,8 +74,6 @@ impl<'a> AngleModel<'a> {
         let length = f64::from(cycle) * TAU;
         let ends_in_cycle = known_cycle.map(|_| panel_ends.in_cycle(length));
         let ends_in_cycle = ends_in_cycle.unwrap_or_default();
-        let is_pole = |end: &f64| panel_ends.is_pole(*end);
-        let has_pole = ends_in_cycle.iter().any(is_pole);
         let tables = loads.called().flat_map(Load::angle_corners);
         let in_turn = sorted_corners(tables.map(|theta| theta.rem_euclid(TAU)));
         let of_loads = match cycle {
@@ -106,7 +102,6 @@ impl<'a> AngleModel<'a> {
             load_corners,
             panel_ends,
             panel_ends_are_corners: known_cycle == Some(1),
-            has_pole,
             repeats: loads.have_potential() && loads.constant_torque() == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
@@ -131,11 +126,6 @@ impl<'a> AngleModel<'a> {
     /// Returns the number of positions evaluated up to now.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
-    }
-
-    /// Whether loads of the position have a pole in the cycle.
-    pub fn has_pole(&self) -> bool {
-        self.has_pole
     }
 
     /// Whether loads of the state are not analytic where the slider reverses, like v |v|.

@@ -1,6 +1,6 @@
 //! Crank angles at which panels must end to resolve the loads of the position alone, from enclosures of these loads.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;
 
 use super::super::run_setup::RunSetup;
@@ -23,6 +23,8 @@ pub(super) struct PanelEnds<'a> {
     reach: &'a [[f64; 2]],
     /// Interval of the last search, rad, and the panel ends found in it.
     last: RefCell<(Interval, Vec<f64>)>,
+    /// True if a panel end of [`Self::in_cycle`] is a pole.
+    pub has_pole_in_cycle: Cell<bool>,
 }
 
 impl<'a> PanelEnds<'a> {
@@ -34,6 +36,7 @@ impl<'a> PanelEnds<'a> {
             start: (task.start(), task.speed),
             reach: &task.limits.reach,
             last: RefCell::new((nowhere, Vec::new())),
+            has_pole_in_cycle: Cell::new(false),
         }
     }
 
@@ -90,6 +93,8 @@ impl<'a> PanelEnds<'a> {
     /// no search within the length sees, lies between the last end of a cycle and the first of the next.
     pub fn in_cycle(&self, length: f64) -> Vec<f64> {
         let mut ends = self.between(0.0, length);
+        let is_pole = |end: &f64| self.is_pole(*end);
+        self.has_pole_in_cycle.set(ends.iter().any(is_pole));
         let last = ends.last().unwrap_or(&(0.5 * length)) - length;
         let first = *ends.first().unwrap_or(&(0.5 * length));
         if !self.between(last, first).is_empty() {

@@ -17,6 +17,11 @@ impl AngleModel<'_> {
         Some(end - before)
     }
 
+    /// Whether loads of the position have a pole in the cycle.
+    pub fn has_pole_in_cycle(&self) -> bool {
+        self.panel_ends.has_pole_in_cycle.get()
+    }
+
     /// Computes the work of one turn and the error of it, J, for loads of the position alone that repeat each turn.
     pub(super) fn work_of_one_turn(&self) -> (f64, f64) {
         let torque = TAU * self.equation.loads().constant_torque();

@@ -42,7 +42,7 @@ impl Pass<'_, '_> {
     pub fn run_angle_engine(&mut self, reason: Reason) -> Result<PieceEnd, Error> {
         let pass = self.settings;
         let from = self.result.state;
-        if pass.model.has_pole() {
+        if pass.model.has_pole_in_cycle() {
             return Ok(PieceEnd::NotApplicable(NotApplicable::NotFinite));
         }
         let run = self.run_over_angle().and_then(|run| match run.early_end {
