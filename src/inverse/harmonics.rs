@@ -51,9 +51,7 @@ impl Increments {
             let pairs = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
             for (to, [cos, sin]) in row.chunks_exact_mut(prior.of_harmonic()).zip(pairs) {
                 let values = [cos, sin, speed * cos, speed * sin];
-                to.iter_mut()
-                    .zip(values)
-                    .for_each(|(to, value)| *to = value);
+                to.copy_from_slice(&values[..to.len()]);
             }
         };
         let steps = ways.len();
@@ -68,9 +66,8 @@ impl Increments {
             let (before, after) = values.split_at_mut((3 * k + 1) * count);
             let begin = &before[3 * k * count..];
             for row in after.chunks_exact_mut(count).take(3) {
-                row.iter_mut()
-                    .zip(begin)
-                    .for_each(|(now, before)| *now -= before);
+                let pairs = row.iter_mut().zip(begin);
+                pairs.for_each(|(now, before)| *now -= before);
             }
         }
         Increments { count, values }

@@ -37,7 +37,7 @@ pub(super) struct Tracker<'a, 's> {
 }
 
 /// Standard deviations beyond which a sample shows another motion.
-const FAR: f64 = 5.0;
+pub(super) const FAR: f64 = 5.0;
 
 /// Maximum number of hypotheses, mirror images among them, and ln of the likelihood ratio to the best beyond which one is dropped.
 const MOST_HYPOTHESES: usize = 12;

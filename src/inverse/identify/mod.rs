@@ -26,6 +26,7 @@ use super::alignment;
 use super::branch_choice::crank_angles;
 use super::estimate::Estimate;
 use super::first_path::coarse;
+use super::hypotheses::FAR;
 use super::measurement_model::{Scale, Sensor};
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
@@ -167,9 +168,6 @@ fn moving(smooth: &Smoothed) -> RangeInclusive<usize> {
     let begin = begin.filter(|begin| *begin > 1).unwrap_or(0);
     begin..=end.filter(|end| end + 1 < last).unwrap_or(last)
 }
-
-/// Standard deviations beyond which an angle is another one.
-const FAR: f64 = 5.0;
 
 /// Refuses an empty list of free values, and duplicate keys.
 fn check(free: &[FreeValue]) -> Result<(), Error> {

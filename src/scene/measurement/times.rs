@@ -38,12 +38,10 @@ impl Decimal {
 impl Measurement {
     /// Returns the spacing of doubles at the times, s, if it is more than 1e-6 of the mean time step.
     pub(super) fn lost(&self) -> Option<f64> {
-        let times = &self.times;
-        let (first, last) = (*times.first()?, *times.last()?);
-        let step = (last - first) / times.len() as f64;
+        let (first, last) = (*self.times.first()?, *self.times.last()?);
+        let step = (last - first) / self.times.len() as f64;
         let known = f64::EPSILON * first.abs().max(last.abs());
-        let coarse = 1e-6 * step;
-        (known > coarse).then_some(known)
+        (known > 1e-6 * step).then_some(known)
     }
 
     /// Counts times from the first row where doubles lose digits of the time stamps in the file.
@@ -66,24 +64,19 @@ impl Measurement {
         source.dialect.rows(&source.text).map(&mut since).collect()
     }
 
-    /// Replaces times that are rounded values of even times by the even times; returns the note on it.
+    /// Replaces times that are rounded values of even times by the even times, but within the written ones, which the rows
+    /// of tables over the time may not exceed; returns the note on it.
     pub(super) fn space_evenly(&mut self) -> Option<String> {
         let times = self.elapsed();
         let even = Even::of(times)?;
-        let (count, length) = (times.len(), times[times.len() - 1] - times[0]);
+        let (count, first, last) = (times.len(), times[0], times[times.len() - 1]);
         if self.lost().is_some() {
             self.origin = self.times[0];
         }
-        let begin = self.times[0] - self.origin;
-        let time = |i: usize| begin + even.first + even.period * i as f64;
-        // Tables over the time may have no rows beyond those of the record.
-        let end = match self.origin {
-            0.0 => self.times[count - 1],
-            _ => begin + length,
-        };
-        let within = |time: f64| time.clamp(begin, end);
-        self.elapsed = Some((0..count).map(|i| within(time(i))).collect());
-        self.period_uncertainty = even.step / ((count as f64).sqrt() * length);
+        let earlier = first - (self.times[0] - self.origin);
+        let time = |i: usize| (first + even.first + even.period * i as f64).clamp(first, last);
+        self.elapsed = Some((0..count).map(|i| time(i) - earlier).collect());
+        self.period_uncertainty = even.step / ((count as f64).sqrt() * (last - first));
         Some(format!(
             "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",
             computed(even.period),
