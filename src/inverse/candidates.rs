@@ -150,7 +150,8 @@ impl Problem<'_> {
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
-            if 2 * prior.coefficients() > self.record.times.len()
+            if self.is_stopped()
+                || 2 * prior.coefficients() > self.record.times.len()
                 || 2.0 * waves * turns > self.grid.len() as f64
             {
                 return None;

@@ -94,7 +94,8 @@ impl<'a> Problem<'a> {
         samples
     }
 
-    fn is_stopped(&self) -> bool {
+    /// True if a stop is requested.
+    pub fn is_stopped(&self) -> bool {
         self.stop.is_some_and(Stop::is_requested)
     }
 
@@ -189,6 +190,9 @@ impl<'a> Problem<'a> {
         scales: Scales,
         noise: &Noise,
     ) -> Vec<Estimate> {
+        if self.is_stopped() {
+            return vec![Estimate::default(); path.states.len()];
+        }
         let mut linear = Linear {
             stretches: &[],
             prior: motion.prior,

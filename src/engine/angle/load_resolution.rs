@@ -65,9 +65,10 @@ pub(super) fn unresolved_at<D: Dynamics>(
         has_interpolant: true,
     };
     match unresolved(&way, look) {
-        Some(Unresolved { feature, .. }) if feature == Feature::Pole => {
-            Err(NotApplicable::NotFinite)
-        }
+        Some(Unresolved {
+            feature: Feature::Pole,
+            ..
+        }) => Err(NotApplicable::NotFinite),
         found => Ok(found.map(|found| found.at)),
     }
 }

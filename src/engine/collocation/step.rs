@@ -67,7 +67,8 @@ impl<'a> Collocation<'a> {
         match result {
             Err(Rejection::TooLong(factor)) if self.varies_between_nodes => {
                 match self.obstacle(state, step.h) {
-                    Some(Unresolved { at, feature }) if feature == Feature::Corner => {
+                    Some(found) if found.feature == Feature::Corner => {
+                        let at = found.at;
                         Err(Rejection::Corner { at, factor })
                     }
                     Some(pole) => Err(Rejection::Unresolved(pole)),
@@ -273,10 +274,9 @@ impl<'a> Collocation<'a> {
         let tableau = self.tableau;
         let speed = h * dot(&tableau.end_speed, alpha);
         let angle = h * h * dot(&tableau.end_angle, alpha);
-        let work = if self.has_power {
-            h * dot(&tableau.end_speed, power)
-        } else {
-            0.0
+        let work = match self.has_power {
+            true => h * dot(&tableau.end_speed, power),
+            false => 0.0,
         };
         let next = state.moved(h, [angle, speed, work]);
         let mut powers = [0.0; TERMS];

@@ -96,7 +96,8 @@ impl<'a> Search<'a> {
         let best = self.climbed(from, true);
         let trials = &self.trials;
         let settled = alone.as_ref().filter(|found| found.settled);
-        let at = settled.or(best.as_ref().ok()).or(alone.as_ref());
+        // Values at which a search broke off say nothing of the equation.
+        let at = settled.or(best.as_ref().ok());
         let misfit = at.map(|at| Misfit::of(trials, at)).transpose()?.flatten();
         let best = match (best, &misfit) {
             (Err(_), Some(misfit)) => return Err(misfit.refused()),
