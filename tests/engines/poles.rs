@@ -44,6 +44,19 @@ fn x(theta: f64) -> f64 {
     0.05 * theta.cos() + (0.15f64.powi(2) - (0.01 + 0.05 * theta.sin()).powi(2)).sqrt()
 }
 
+/// Crank angle of the inward stroke at a slider position, m, by bisection.
+fn angle_at(position: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 2.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        match x(middle) > position {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    low
+}
+
 #[test]
 fn a_motion_ends_at_the_pole_of_a_formula() {
     /// Work from an angle to another, J.
@@ -65,7 +78,7 @@ fn a_motion_ends_at_the_pole_of_a_formula() {
             -0.01 * ((0.5 * b).tan() / (0.5 * a).tan()).ln()
         }),
     ];
-    let of_x: (&str, f64, f64, Work) = ("-1/(x-0.15)", 0.0, 1.330_404_723_135, |a, b| {
+    let of_x: (&str, f64, f64, Work) = ("-1/(x-0.15)", 0.0, angle_at(0.15), |a, b| {
         ((x(a) - 0.15) / (x(b) - 0.15)).ln()
     });
     let scenes = crank
