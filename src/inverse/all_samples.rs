@@ -4,9 +4,10 @@
 use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
+use super::linear_smoother::NODES_OF_A_THREAD;
 use super::linearised::Motion;
 use super::maximum::{ENOUGH_RISE, better, vertex};
-use super::problem::{NODES_OF_A_THREAD, Problem};
+use super::problem::Problem;
 use super::scales::{Noise, Scales};
 use super::state_space::with_dimension;
 use crate::numeric::parallel;

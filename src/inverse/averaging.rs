@@ -5,6 +5,7 @@
 //! (2006) 515), under which none is no likelier than little.
 
 use super::candidates::Candidate;
+use super::likelihood::Linear;
 use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
@@ -57,14 +58,16 @@ impl Problem<'_> {
 
     /// Returns the models of the intensities of a prior, whose weights add to its odds to the likeliest one.
     fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log_odds: f64) -> Vec<Model> {
-        let weighed = self.posterior(of, LEAST_LOG_ODDS - log_odds);
-        let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
         let motion = self.motion(of.prior);
+        let stretches = self.stretches(&motion, &of.path(), of.noise.sigma);
+        let linear = of.linear(&stretches);
+        let weighed = of.posterior(&linear, LEAST_LOG_ODDS - log_odds);
+        let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
         parallel::map(weighed.iter(), |one| {
             let is_known = one.noise.corner == of.noise.corner;
             let found = match is_known {
                 true => &of.estimates,
-                false => &self.smoothed(&motion, &mut of.path(), of.scales, &one.noise),
+                false => &self.smoothed_along(&motion, &mut of.path(), &linear, &one.noise),
             };
             let pairs = found.iter().zip(&likeliest.estimates);
             let squares = pairs
@@ -75,37 +78,37 @@ impl Problem<'_> {
             }
         })
     }
+}
 
+impl Smoothed {
     /// Returns the noises whose corner frequencies count by the least ln of their odds, in steps from the likeliest one.
-    fn posterior(&self, smoothed: &Smoothed, least: f64) -> Vec<Weighed> {
-        let motion = self.motion(smoothed.prior);
-        let stretches = self.stretches(&motion, &smoothed.path(), smoothed.noise.sigma);
-        let linear = smoothed.linear(&stretches);
-        let [lowest, highest] = smoothed.scales.corners().map(f64::ln);
-        let likeliest = smoothed.noise.corner.ln();
+    fn posterior(&self, linear: &Linear<'_>, least: f64) -> Vec<Weighed> {
+        let [lowest, highest] = self.scales.corners().map(f64::ln);
+        let likeliest = self.noise.corner.ln();
         // The standard deviation of the process noise goes with this power of the corner frequency.
-        let power = (smoothed.prior.order + 2) as f64;
+        let power = (self.prior.order + 2) as f64;
         let at = |corner: f64| {
             let noise = linear.evaluated(Noise {
                 corner,
-                ..smoothed.noise
+                ..self.noise
             });
             let power = power * (corner.ln() - likeliest);
-            let log = noise.likelihood - smoothed.noise.likelihood + power;
+            let log = noise.likelihood - self.noise.likelihood + power;
             Weighed { noise, log }
         };
-        let mut list = vec![at(smoothed.noise.corner)];
-        for step in [FIRST_STEP, -FIRST_STEP] {
+        let first = at(self.noise.corner);
+        let sides = parallel::map([FIRST_STEP, -FIRST_STEP].into_iter(), |step| {
             let corners = (1..).map(|k| likeliest + step * f64::from(k));
-            for corner in corners.take_while(|corner| (lowest..=highest).contains(corner)) {
-                let next = at(corner.exp());
-                let counts = |most: &Weighed| next.log > most.log + least;
-                if !list.iter().all(counts) {
-                    break;
-                }
-                list.push(next);
-            }
-        }
+            let within = corners.take_while(|corner| (lowest..=highest).contains(corner));
+            let mut most = first.log;
+            let counts = |one: &Weighed| {
+                most = most.max(one.log);
+                one.log > most + least
+            };
+            let found = within.map(|corner| at(corner.exp())).take_while(counts);
+            found.collect::<Vec<_>>()
+        });
+        let mut list: Vec<_> = sides.into_iter().flatten().chain([first]).collect();
         let most = list
             .iter()
             .map(|one| one.log)
@@ -114,9 +117,7 @@ impl Problem<'_> {
         list.retain(|one| one.log > least);
         list
     }
-}
 
-impl Smoothed {
     /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others might add.
     fn contenders(&self) -> impl Iterator<Item = &Candidate> {
         let others = self

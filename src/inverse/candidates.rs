@@ -6,7 +6,7 @@ use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
-use super::prior::{LADDERS, Prior, SMOOTH, TORQUE};
+use super::prior::{FOLLOWING, LADDERS, Prior, SMOOTH, TORQUE};
 use super::problem::Problem;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
@@ -39,10 +39,19 @@ impl Candidate {
     }
 }
 
-/// Returns ln of the likelihood of the likeliest candidate; the list has it first.
-pub(super) fn likelihood(tried: &[Candidate]) -> f64 {
-    let best = tried.first();
-    best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
+/// Priors about a smoothed path, and the linear models by which they were compared.
+pub(super) struct Tried {
+    /// The likeliest first.
+    pub candidates: Vec<Candidate>,
+    abouts: Vec<About>,
+}
+
+impl Tried {
+    /// Returns ln of the likelihood of the likeliest prior.
+    pub fn likelihood(&self) -> f64 {
+        let best = self.candidates.first();
+        best.map_or(f64::NEG_INFINITY, |best| best.noise.likelihood)
+    }
 }
 
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
@@ -63,6 +72,12 @@ impl About {
         }
     }
 
+    /// True if this is the linear model of a prior, too.
+    fn is_of(&self, prior: Prior) -> bool {
+        let mut ladders = LADDERS.iter().filter(|ladder| ladder[0] == self.prior);
+        ladders.any(|ladder| ladder.contains(&prior))
+    }
+
     /// Returns ln of the likelihood of the prior without process noise.
     pub fn without_process_noise(&self) -> f64 {
         let none = Noise::white(0.0);
@@ -70,27 +85,23 @@ impl About {
     }
 
     /// A prior with its likeliest noise, from a first one; none where this is less likely than `least`.
-    pub fn candidate(
-        &self,
-        prior: Prior,
-        first: Noise,
-        least: f64,
-        correlated: &[f64],
-    ) -> Option<Candidate> {
+    fn candidate(&self, prior: Prior, first: Noise, least: f64) -> Option<Candidate> {
         let linear = self.linear(prior);
         let first = linear.begun(first);
-        if first.likelihood < least {
-            return None;
-        }
-        let mut noise = linear.improved(first);
-        if !correlated.is_empty() {
-            noise = linear.correlated(&noise, correlated);
-        }
-        Some(Candidate {
+        (first.likelihood >= least).then(|| Candidate {
             prior,
-            noise,
+            noise: linear.with_corner(first),
             scales: self.scales,
         })
+    }
+
+    /// A prior with the likeliest correlation of the sample noise beside its likeliest white noise.
+    fn correlated(&self, white: &Candidate) -> Candidate {
+        let linear = self.linear(white.prior);
+        Candidate {
+            noise: linear.correlated(&white.noise, &self.scales.decays()),
+            ..*white
+        }
     }
 }
 
@@ -111,42 +122,69 @@ impl Problem<'_> {
         }
     }
 
-    /// Priors about a path, the likeliest first.
-    pub fn tried(&self, kinematic: &Smoothed, correlated: &[f64]) -> Vec<Candidate> {
-        let is_computed = self.record.is_computed();
-        let tried = parallel::map(LADDERS.iter(), |ladder| {
-            let about = self.about(ladder[0], kinematic);
-            let first = Noise::white(about.corner);
-            let of = |prior: &Prior| about.candidate(*prior, first, f64::NEG_INFINITY, correlated);
-            let some = ladder
-                .iter()
-                .filter(|prior| is_computed || **prior != SMOOTH);
-            (some.filter_map(of).collect::<Vec<_>>(), about)
-        });
-        let (tried, abouts): (Vec<_>, Vec<_>) = tried.into_iter().unzip();
-        let mut tried: Vec<_> = tried.into_iter().flatten().collect();
-        // What repeats is noise that comes down: of what was computed there is none.
-        if !is_computed {
-            tried.extend(self.repeating(self.turns(kinematic), &tried, &abouts, correlated));
-        }
-        tried.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
-        tried
+    /// The cost of two parameters in ln of the likelihood (Schwarz 1978).
+    pub fn cost_of_two(&self) -> f64 {
+        (self.record.times.len() as f64).ln()
     }
 
-    /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost (Schwarz 1978)
+    /// Priors about a path.
+    pub fn tried(&self, kinematic: &Smoothed) -> Tried {
+        let abouts = parallel::map(LADDERS.iter(), |ladder| self.about(ladder[0], kinematic));
+        let ladders = abouts.iter().zip(LADDERS);
+        let pairs = ladders.flat_map(|(about, ladder)| ladder.iter().map(move |one| (about, one)));
+        let is_computed = self.record.is_computed();
+        let some = pairs.filter(|(_, prior)| is_computed || **prior != SMOOTH);
+        let plain = parallel::map(some, |(about, prior)| {
+            about.candidate(*prior, Noise::white(about.corner), f64::NEG_INFINITY)
+        });
+        let plain = plain.into_iter().flatten().collect();
+        self.with_repeating(plain, abouts, self.turns(kinematic), false)
+    }
+
+    /// The priors with the likeliest correlation of the sample noise.
+    pub fn correlated(&self, white: Tried, kinematic: &Smoothed) -> Tried {
+        let is_plain = |one: &&Candidate| one.prior.cycle == 0;
+        let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
+            let about = white.abouts.iter().find(|about| about.is_of(one.prior));
+            about.map_or(*one, |about| about.correlated(one))
+        });
+        self.with_repeating(plain, white.abouts, self.turns(kinematic), true)
+    }
+
+    /// Priors without and with a part that repeats.
+    fn with_repeating(
+        &self,
+        mut candidates: Vec<Candidate>,
+        abouts: Vec<About>,
+        turns: f64,
+        is_correlated: bool,
+    ) -> Tried {
+        // What repeats is noise that comes down: of what was computed there is none.
+        if !self.record.is_computed() {
+            candidates.extend(self.repeating(turns, &candidates, &abouts, is_correlated));
+        }
+        candidates.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
+        Tried { candidates, abouts }
+    }
+
+    /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost
     /// beside the likeliest prior without.
     fn repeating(
         &self,
         turns: f64,
         tried: &[Candidate],
         abouts: &[About],
-        correlated: &[f64],
+        is_correlated: bool,
     ) -> Vec<Candidate> {
-        let torque = tried.iter().find(|one| one.prior == TORQUE);
-        let torque = torque.filter(|_| turns >= 2.0);
-        let Some(Candidate { noise, .. }) = torque else {
+        let of = |prior: Prior| tried.iter().find(|one| one.prior == prior);
+        let Some(torque) = of(TORQUE).filter(|_| turns >= 2.0) else {
             return Vec::new();
         };
+        // A part that follows the speed is there at once where the samples show it without what repeats.
+        let is_shown = |following: &&Candidate| {
+            following.noise.likelihood > torque.noise.likelihood + SIGNIFICANT_RISE
+        };
+        let plain = of(FOLLOWING).filter(is_shown).unwrap_or(torque);
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
@@ -161,7 +199,7 @@ impl Problem<'_> {
                 ..TORQUE
             };
             let about = abouts.iter().find(|about| about.prior == plain)?;
-            let plain = tried.iter().find(|one| one.prior == plain)?;
+            let plain = of(plain)?;
             let before = Noise {
                 spectrum: before.spectrum,
                 ..better(before, plain.noise)
@@ -172,16 +210,20 @@ impl Problem<'_> {
                 path: about.path.clone(),
                 ..*about
             };
-            let next = about.candidate(prior, before, least, correlated)?;
+            let mut next = about.candidate(prior, before, least)?;
+            if is_correlated {
+                next = about.correlated(&next);
+            }
             (next.noise.sigma > self.record.instrument_noise()).then_some(next)
         };
         let first = Prior {
             cycle: 1,
             harmonics: FIRST_HARMONICS,
-            ..TORQUE
+            ..plain.prior
         };
-        let cost = (self.record.times.len() as f64).ln();
-        let mut found = Vec::from_iter(with(first, *noise, noise.likelihood + cost));
+        let cost = self.cost_of_two();
+        let least = plain.noise.likelihood + cost;
+        let mut found = Vec::from_iter(with(first, plain.noise, least));
         // Forward selection: what is added stays where it makes the samples likelier.
         let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
             let likelier =
@@ -190,7 +232,9 @@ impl Problem<'_> {
             found.extend(next);
             next.is_some()
         };
-        extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
+        if first.powers == 0 {
+            extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
+        }
         if turns >= 4.0 {
             extend(ENOUGH_RISE, |prior| Prior {
                 cycle: 2,

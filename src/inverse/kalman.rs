@@ -110,8 +110,9 @@ impl<const N: usize> Gaussian<N> {
         let found = self.innovation(sample);
         for i in 0..N {
             self.mean[i] += found.gain[i] * found.error;
+            let shared = found.gain[i] * found.variance;
             for j in 0..N {
-                self.covariance[i][j] -= found.gain[i] * found.gain[j] * found.variance;
+                self.covariance[i][j] -= shared * found.gain[j];
             }
         }
         found

@@ -1,6 +1,7 @@
 //! Maximum of the likelihood along one parameter.
 
 use super::scales::Noise;
+use crate::numeric::parallel;
 
 /// Returns the likelier of two noises.
 pub(super) fn better(a: Noise, b: Noise) -> Noise {
@@ -10,41 +11,38 @@ pub(super) fn better(a: Noise, b: Noise) -> Noise {
 /// First step of a search over ln of a frequency.
 pub(super) const FIRST_STEP: f64 = 0.5;
 
-/// Maximises the likelihood near a guess: uphill in growing steps, then parabolas through the three best points.
+/// Step of a search from a place that was the likeliest before: the parabola about it is then right to `ENOUGH_RISE`.
+pub(super) const NEAR_STEP: f64 = 0.3 * FIRST_STEP;
+
+/// Maximises the likelihood near a guess: uphill in growing steps from the likelier neighbour, then parabolas through the three
+/// best points.
 pub(super) fn climb(
-    at: impl Fn(f64) -> Noise,
+    at: impl Fn(f64) -> Noise + Sync,
     guess: f64,
     first: Noise,
+    first_step: f64,
     [lowest, highest]: [f64; 2],
 ) -> Noise {
+    let with = |place: f64| (place, at(place));
+    let stepped =
+        |from: f64, step: f64| Some((from + step).clamp(lowest, highest)).filter(|to| *to != from);
     let mut points = vec![(guess, first)];
-    for direction in [1.0, -1.0] {
-        let mut step = FIRST_STEP;
-        let (mut here, mut before) = (guess, first.likelihood);
-        loop {
-            let next = (here + direction * step).clamp(lowest, highest);
-            if next == here {
-                break;
-            }
-            let found = at(next);
-            points.push((next, found));
-            if found.likelihood <= before {
-                break;
-            }
-            (here, before) = (next, found.likelihood);
-            step *= 1.6;
-        }
-        if here != guess {
+    let sides = [first_step, -first_step].map(|step| stepped(guess, step));
+    points.extend(parallel::map(sides.into_iter().flatten(), with));
+    let (mut here, mut step) = ((guess, first), first_step);
+    loop {
+        let best = points[likeliest(&points)];
+        let rises = best.1.likelihood > here.1.likelihood + ENOUGH_RISE;
+        if !rises {
             break;
         }
+        step = (1.6 * step).copysign(best.0 - here.0);
+        here = best;
+        points.extend(stepped(here.0, step).map(with));
     }
     for _ in 0..4 {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(best) = (0..points.len())
-            .max_by(|a, b| points[*a].1.likelihood.total_cmp(&points[*b].1.likelihood))
-        else {
-            break;
-        };
+        let best = likeliest(&points);
         if best == 0 || best + 1 == points.len() {
             break;
         }
@@ -53,12 +51,19 @@ pub(super) fn climb(
         if !top.place.is_finite() || top.rise < ENOUGH_RISE {
             break;
         }
-        points.push((top.place, at(top.place)));
+        points.push(with(top.place));
     }
-    let best = points
-        .into_iter()
-        .max_by(|a, b| a.1.likelihood.total_cmp(&b.1.likelihood));
-    best.map_or(first, |(_, noise)| noise)
+    points[likeliest(&points)].1
+}
+
+/// Returns the index of the likeliest of some places with their noise, the first of several.
+fn likeliest(points: &[(f64, Noise)]) -> usize {
+    let likelier = |best: usize, k: usize| match points[k].1.likelihood > points[best].1.likelihood
+    {
+        true => k,
+        false => best,
+    };
+    (1..points.len()).fold(0, likelier)
 }
 
 /// Rise of ln of the likelihood below which another evaluation does not pay.

@@ -52,6 +52,7 @@ mod kalman;
 mod kinematic;
 mod likelihood;
 mod limit;
+mod linear_smoother;
 mod linearised;
 mod links;
 mod matrix;
@@ -109,6 +110,7 @@ use self::rows::Rows;
 use self::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
+use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::numeric::student;
 use crate::scene::{Measurement, MovedScene, Scene};
@@ -170,7 +172,7 @@ pub fn inverse_of_uncertain(
     measurement: &Measurement,
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
-    let found = recovered(scene, uncertain, measurement, options);
+    let found = parallel::inside(|| recovered(scene, uncertain, measurement, options));
     match &options.stop {
         // An interrupted fit looks like unusable samples.
         Some(stop) if stop.is_requested() => Err(Error::Interrupted),

@@ -1,29 +1,35 @@
 //! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
-use super::maximum::{ENOUGH_RISE, better, climb};
+use super::maximum::{ENOUGH_RISE, FIRST_STEP, NEAR_STEP, better, climb};
 use super::scales::Noise;
+use crate::numeric::parallel;
 
 /// A frequency of a noise, rad/s; none if the noise is without it.
 type Frequency = fn(&mut Noise) -> Option<&mut f64>;
 
+/// The corner frequency.
+const CORNER: Frequency = |noise| Some(&mut noise.corner);
+
 impl Linear<'_> {
-    /// Evaluates a noise, then maximises the likelihood over its corner frequency, and over its spectrum if it has one.
+    /// Evaluates a noise that was the likeliest of another model, then maximises the likelihood over its corner frequency.
     pub fn renewed(&self, noise: Noise) -> Noise {
-        self.improved(self.evaluated(noise))
+        self.improved(self.begun(noise))
     }
 
-    /// Maximises the likelihood of an evaluated noise over its corner frequency, and over its spectrum if it has one.
+    /// Maximises the likelihood of an evaluated noise, the likeliest of another model, over its corner frequency.
     pub fn improved(&self, first: Noise) -> Noise {
-        let best = self.along(first, |noise| Some(&mut noise.corner));
-        match best.spectrum {
-            None => best,
-            Some(_) => self.begun(best),
-        }
+        self.along(first, CORNER, NEAR_STEP)
     }
 
-    /// Maximises the likelihood of an evaluated noise over a frequency.
-    fn along(&self, first: Noise, which: Frequency) -> Noise {
+    /// Maximises the likelihood of an evaluated noise over its corner frequency.
+    pub fn with_corner(&self, first: Noise) -> Noise {
+        self.along(first, CORNER, FIRST_STEP)
+    }
+
+    /// Maximises the likelihood of an evaluated noise over a frequency, at each with the likeliest spectrum if it has one: over
+    /// one of both at a time it would stop at the ridge where less of the one makes up for more of the other.
+    fn along(&self, first: Noise, which: Frequency, step: f64) -> Noise {
         let Some(guess) = which(&mut first.clone()).map(|frequency| frequency.ln()) else {
             return first;
         };
@@ -32,21 +38,25 @@ impl Linear<'_> {
             which(&mut noise)
                 .into_iter()
                 .for_each(|frequency| *frequency = log.exp());
-            self.evaluated(noise)
+            self.begun(noise)
         };
-        climb(at, guess, first, self.scales.corners().map(f64::ln))
+        let bounds = self.scales.corners().map(f64::ln);
+        climb(at, guess, first, step, bounds)
     }
 
-    /// Maximises the likelihood of an evaluated noise over a frequency and the corner frequency in turn.
-    fn in_turn(&self, mut noise: Noise, which: Frequency) -> Noise {
-        loop {
-            let next = better(noise, self.improved(self.along(noise, which)));
+    /// Maximises the likelihood of an evaluated noise over two frequencies in turn, of which `left` may have a likelier value.
+    fn in_turn(&self, mut noise: Noise, mut which: [Frequency; 2], mut left: usize) -> Noise {
+        while left > 0 {
+            let next = better(noise, self.along(noise, which[0], FIRST_STEP));
             // A likelihood that is not finite does not rise.
-            match next.likelihood > noise.likelihood + ENOUGH_RISE {
-                true => noise = next,
-                false => return noise,
-            }
+            left = match next.likelihood > noise.likelihood + ENOUGH_RISE {
+                true => 1,
+                false => left - 1,
+            };
+            noise = next;
+            which.swap(0, 1);
         }
+        noise
     }
 
     /// Maximises the likelihood over the corner frequency, from the best of a grid from 0.5/duration to 3/spacing.
@@ -58,34 +68,52 @@ impl Linear<'_> {
             correlated,
             ..Noise::white((lowest + (highest - lowest) * k as f64 / count).exp())
         };
-        let tried = (0..=count as usize).map(|k| self.evaluated(at(k)));
-        let best = tried.reduce(better).unwrap_or_else(|| at(0));
-        self.improved(best)
+        let tried = parallel::map(0..=count as usize, |k| self.evaluated(at(k)));
+        let best = tried.into_iter().reduce(better).unwrap_or_else(|| at(0));
+        self.with_corner(best)
     }
 
-    /// Maximises the likelihood over the noise of g₁ and that of u in turn, for a loss not proportional to the speed.
+    /// Maximises the likelihood over the noise of g₁, if there is any, and that of u in turn, for a loss not proportional to the
+    /// speed; that of u is the likeliest before.
     pub fn with_speed_corner(&self, noise: Noise) -> Noise {
+        if noise.speed_corner > 0.0 {
+            let without = self.begun(Noise {
+                speed_corner: 0.0,
+                ..noise
+            });
+            if without.likelihood > noise.likelihood {
+                return self.with_corner(without);
+            }
+        }
+        let which: [Frequency; 2] = [|noise| Some(&mut noise.speed_corner), CORNER];
+        if noise.speed_corner >= noise.corner {
+            return self.in_turn(noise, which, 1);
+        }
         let first = Noise {
-            speed_corner: noise.speed_corner.max(noise.corner),
+            speed_corner: noise.corner,
             ..noise
         };
-        let found = self.in_turn(self.evaluated(first), |noise| Some(&mut noise.speed_corner));
+        let found = self.in_turn(self.evaluated(first), which, 2);
         match found.likelihood < noise.likelihood + ENOUGH_RISE {
             true => noise,
             false => found,
         }
     }
 
-    /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess.
+    /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess; none of them
+    /// is likelier where the noise is white.
     pub fn correlated(&self, from: &Noise, guesses: &[f64]) -> Noise {
-        let tried = guesses.iter().map(|guess| {
+        let tried = parallel::map(guesses.iter(), |guess| {
             self.evaluated(Noise {
                 correlated: Some(*guess),
                 likelihood: f64::NEG_INFINITY,
                 ..*from
             })
         });
-        let best = tried.reduce(better).unwrap_or(*from);
-        self.in_turn(best, |noise| noise.correlated.as_mut())
+        let best = tried.into_iter().reduce(better).unwrap_or(*from);
+        if best.likelihood < from.likelihood + ENOUGH_RISE {
+            return *from;
+        }
+        self.in_turn(best, [|noise| noise.correlated.as_mut(), CORNER], 2)
     }
 }

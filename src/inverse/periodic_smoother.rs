@@ -12,6 +12,7 @@ use super::problem::Problem;
 use super::regression::Regression;
 use super::repeating::Repeating;
 use super::scales::Noise;
+use super::state_space::Stretch;
 use super::{fixed_interval, kalman};
 use crate::numeric::parallel;
 
@@ -24,9 +25,8 @@ impl Problem<'_> {
         linear: &Linear<'_>,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        let of = |range: &Range<usize>| {
-            let stretch = self.stretch(motion, path, range.clone(), noise.sigma);
-            let model = linear.deviations(&stretch, noise);
+        let of = |stretch: &Stretch| {
+            let model = linear.deviations(stretch, noise);
             let mut to = Regression::new(motion.prior);
             let mut derivatives = Derivatives::new(&model, N);
             let mut regressed = Regressed::<N>::new(&model, &mut to, Some(&mut derivatives));
@@ -34,8 +34,9 @@ impl Problem<'_> {
             to.multiply();
             ((deviations, innovations, derivatives), to)
         };
-        let (stretches, equations): (Vec<_>, Vec<_>) =
-            parallel::map(path.ranges.iter(), of).into_iter().unzip();
+        let (stretches, equations): (Vec<_>, Vec<_>) = parallel::map(linear.stretches.iter(), of)
+            .into_iter()
+            .unzip();
         let to = Regression::of_all(motion.prior, equations);
         let posterior = noise.spectrum.and_then(|spectrum| to.solved(spectrum));
         // Factor A of the covariance Aᵀ A of the coefficients.

@@ -5,26 +5,19 @@ use std::ops::{Range, RangeInclusive};
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
-use super::likelihood::Linear;
+use super::kalman;
 use super::linearised::{Linearised, Motion, Node};
 use super::matrix::Matrix;
 use super::measurement_model::Scale;
 use super::prior::Prior;
 use super::record::Record;
-use super::scales::{Intensities, Noise, Scales};
+use super::scales::{Intensities, Noise};
 use super::smoother::Smoothed;
-use super::state_space::{Stretch, with_dimension};
-use super::{fixed_interval, kalman};
+use super::state_space::Stretch;
 use crate::mechanism::Equation;
 use crate::numeric::interpolate::cubic;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
-
-/// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
-pub(super) const NODES_OF_A_THREAD: usize = 8192;
-
-/// Time constants of the smoother after which nothing is left of what was before.
-const MEMORY_TIME_CONSTANTS: f64 = 60.0;
 
 /// A record with its nodes and the equation of its mechanism.
 #[derive(Debug)]
@@ -179,65 +172,6 @@ impl<'a> Problem<'a> {
         }
         let of = |range| self.stretch(motion, path, range, sigma);
         parallel::map(self.sampled().into_iter(), of)
-    }
-
-    /// Returns the smoothed motion about a path, computed in pieces side by side. What repeats is found along the sampled
-    /// stretches, where it is left in the path; along all nodes of a longer record it is known.
-    pub fn smoothed(
-        &self,
-        motion: &Motion<'_>,
-        path: &mut Path,
-        scales: Scales,
-        noise: &Noise,
-    ) -> Vec<Estimate> {
-        if self.is_stopped() {
-            return vec![Estimate::default(); path.states.len()];
-        }
-        let mut linear = Linear {
-            stretches: &[],
-            prior: motion.prior,
-            scales,
-        };
-        if motion.prior.cycle > 0 && path.ranges == self.sampled() {
-            let states = motion.prior.states() + usize::from(noise.correlated.is_some());
-            return with_dimension!(states, N => self.smoothed_together::<N>(motion, path, &linear, noise));
-        }
-        linear.prior = motion.prior.beside_known();
-        let motion = &self.motion(linear.prior);
-        let nodes = self.grid.len();
-        let times = &self.grid.times;
-        let shared = MEMORY_TIME_CONSTANTS / noise.corner;
-        let density = nodes as f64 / scales.duration;
-        let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
-        let job = |(core, known, found): (Range<usize>, Range<usize>, &mut [Estimate])| {
-            if self.is_stopped() {
-                return;
-            }
-            let from = times.partition_point(|t| *t < times[core.start] - shared);
-            let to = times.partition_point(|t| *t <= times[core.end - 1] + shared);
-            let (from, to) = (from.max(known.start), to.min(known.end));
-            let stretch = self.stretch(motion, path, from..to, noise.sigma);
-            let model = linear.deviations(&stretch, noise);
-            let all = with_dimension!(model.dimension(), N => {
-                let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut ());
-                self.estimated(motion, path, from, &deviations, &innovations, noise)
-            });
-            found.copy_from_slice(&all[core.start - from..core.end - from]);
-        };
-        let mut found = vec![Estimate::default(); path.states.len()];
-        let mut jobs = Vec::new();
-        let mut rest = &mut found[..];
-        for range in &path.ranges {
-            let (mine, after) = rest.split_at_mut(range.len());
-            rest = after;
-            let cores = range.clone().step_by(length);
-            let job = |(first, part): (usize, _)| {
-                (first..range.end.min(first + length), range.clone(), part)
-            };
-            jobs.extend(cores.zip(mine.chunks_mut(length)).map(job));
-        }
-        parallel::map(jobs.into_iter(), job);
-        found
     }
 
     /// Returns the motion at nodes from the first of a piece, with the deviations of a path from it.

@@ -1,7 +1,7 @@
 //! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
 //! prior chosen by marginal likelihood.
 
-use super::candidates::{Candidate, likelihood};
+use super::candidates::Candidate;
 use super::estimate::Estimate;
 use super::grid::Path;
 use super::likelihood::Linear;
@@ -98,21 +98,23 @@ impl Problem<'_> {
     /// The smoothed motion with the likeliest prior. Noise of the samples is correlated where that is suspected or the
     /// prediction errors say so, and the likelihood agrees.
     pub fn likeliest(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
-        let white = self.tried(kinematic, &[]);
-        let Some(mut found) = self.first_converged(&white, kinematic) else {
+        let white = self.tried(kinematic);
+        let Some(found) = self.first_converged(&white.candidates, kinematic) else {
             return Smoothed {
-                compared: white,
+                compared: white.candidates,
                 ..kinematic.clone()
             };
         };
+        let mut found = self.without_repeating(found);
         let innovations = found.estimates.iter().map(|e| e.innovation);
         let is_noise = self.record.codes.is_none() && !self.record.is_computed();
         if is_noise && (suspected || Whiteness::of(innovations).is_violated()) {
-            // Two parameters more (Schwarz 1978).
-            let cost = (self.record.times.len() as f64).ln();
-            let correlated = self.tried(kinematic, &found.scales.decays());
-            let is_likelier = likelihood(&correlated) > likelihood(&white) + cost;
-            let other = is_likelier.then(|| self.first_converged(&correlated, kinematic));
+            let cost = self.cost_of_two();
+            let least = white.likelihood() + cost;
+            let correlated = self.correlated(white, kinematic);
+            let is_likelier = correlated.likelihood() > least;
+            let other =
+                is_likelier.then(|| self.first_converged(&correlated.candidates, kinematic));
             let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
             if let Some(other) = other.flatten().filter(|other| gain(other) > cost) {
                 found = other;
@@ -124,7 +126,7 @@ impl Problem<'_> {
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
     pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        likelihood(&self.tried(kinematic, &[]))
+        self.tried(kinematic).likelihood()
     }
 
     /// The likeliest smoothed motion of those whose iterations come to rest. About the path that they come to, a prior may be less
@@ -150,6 +152,44 @@ impl Problem<'_> {
         })
     }
 
+    /// A smoothed motion without its part that repeats, where that no longer makes the samples likelier than it costs: about the
+    /// first path it may have stood for what that path leaves out. The paths of a long record are those of its stretches.
+    fn without_repeating(&self, found: Smoothed) -> Smoothed {
+        if found.prior.cycle == 0 || self.sampled() != self.all() {
+            return found;
+        }
+        let prior = found.prior.beside_known();
+        let path = Path {
+            repeating: None,
+            ..found.path()
+        };
+        let linear = Linear {
+            stretches: &self.stretches(&self.motion(prior), &path, found.noise.sigma),
+            prior,
+            scales: found.scales,
+        };
+        let first = Noise {
+            spectrum: None,
+            ..found.noise
+        };
+        let candidate = Candidate {
+            noise: linear.with_corner(linear.begun(first)),
+            prior,
+            ..found.candidate()
+        };
+        let least = found.noise.likelihood - self.cost_of_two();
+        let likely = Some(candidate).filter(|one| one.noise.likelihood > least);
+        let other = likely.map(|one| self.iterated(&one, path));
+        let holds = |other: &Smoothed| other.converged && other.noise.likelihood > least;
+        match other.filter(holds) {
+            Some(other) => Smoothed {
+                compared: found.compared,
+                ..other
+            },
+            None => found,
+        }
+    }
+
     /// The smoothed motion with a prior, about paths that approach it.
     pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
         let Candidate {
@@ -170,20 +210,20 @@ impl Problem<'_> {
                 motion.prior.harmonics *= 2;
             }
             let prior = motion.prior;
+            let linear = Linear {
+                stretches: &self.stretches(&motion, &path, noise.sigma),
+                prior,
+                scales,
+            };
             // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
             if iteration == 1 || is_at_rest || iteration == 0 && prior.powers > 0 {
-                let stretches = self.stretches(&motion, &path, noise.sigma);
-                let linear = Linear {
-                    stretches: &stretches,
-                    prior,
-                    scales,
-                };
                 let mut known = noise;
                 if iteration > 0 {
-                    known = linear.evaluated(noise);
+                    known = linear.begun(noise);
                     noise = linear.improved(known);
                 }
-                if prior.powers > 0 {
+                // What varied with the speed about neither of the first paths does not about the next.
+                if prior.powers > 0 && (iteration < 2 || noise.speed_corner > 0.0) {
                     noise = linear.with_speed_corner(noise);
                 }
                 // Where the path came to rest by chance, far from the samples, it has no likelihood.
@@ -195,7 +235,7 @@ impl Problem<'_> {
                 }
                 correction = Correction::default();
             }
-            let estimates = self.smoothed(&motion, &mut path, scales, &noise);
+            let estimates = self.smoothed_along(&motion, &mut path, &linear, &noise);
             let change = correction.taken(&mut path, &estimates);
             is_at_rest = change < PATH_AT_REST && iteration > 0;
             // What came to rest with a former noise stands until this one's does.

@@ -75,13 +75,14 @@ impl Deviations<'_> {
     #[inline(always)]
     pub fn step<const N: usize>(&self, node: usize) -> Step<N> {
         let step = &self.stretch.steps[node];
-        let dimension = self.prior.states();
         let mut transition = diagonal([1.0; N]);
         let mut offset = [0.0; N];
-        for i in 0..dimension.min(N) {
-            transition[0][i] = step.top[0][i];
-            transition[1][i] = step.top[1][i];
-            offset[i] = step.defect[i];
+        for i in 0..N {
+            if i + 1 < N || self.correlated.is_none() {
+                transition[0][i] = step.top[0][i];
+                transition[1][i] = step.top[1][i];
+                offset[i] = step.defect[i];
+            }
         }
         if self.prior.order > 1 {
             transition[2][3] = step.h;

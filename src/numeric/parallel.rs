@@ -2,6 +2,12 @@
 
 use rayon::prelude::*;
 
+/// Does work on one of the threads that share jobs: those in it begin there at once, where another thread would have to wake
+/// this one and to wait for it each time.
+pub fn inside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    rayon::scope(|_| work())
+}
+
 /// Returns the result of each job, in the order of the jobs; a single job is done in this thread.
 pub fn map<J: Send, R: Send>(
     jobs: impl Iterator<Item = J>,
@@ -35,7 +41,7 @@ pub fn pairs<A: Send, B: Send>(
 
 /// Returns the indices of a list, in parts that pay for a thread; none if there are not two of them.
 fn entries(length: usize) -> Option<impl IndexedParallelIterator<Item = usize>> {
-    let least = 1 << 12;
+    let least = 1 << 9;
     let all = (0..length).into_par_iter().with_min_len(least);
     (length >= 2 * least).then_some(all)
 }

@@ -1039,6 +1039,47 @@ fn a_loss_alone_repeats_nothing() {
     }
 }
 
+/// A motor's line over the speed and few samples in a turn: about the first path, which misses part of the motion, harmonics make
+/// the samples likelier than they cost; about the path of the equation they do not.
+#[test]
+fn a_motor_alone_repeats_nothing_with_few_rows_in_a_turn() {
+    let start_up = Motion {
+        name: "start-up",
+        start: [0.3, 2.0],
+        end: 2.0,
+        rows: 250,
+        torque: |_, _, omega| 8.0 - 0.05 * omega,
+    };
+    let truth = start_up.run();
+    for noise in [1e-4, 1e-3] {
+        for seed in 1..=4 {
+            let found = of_angles(&start_up, &truth, noise, seed);
+            let prior = &found.summary.fit.prior;
+            assert!(!prior.contains("repeats"), "{noise}, seed {seed}: {prior}");
+        }
+    }
+}
+
+/// A torque that repeats, seen by precise samples: the likelihood has a second maximum, at which the torque takes every sample's
+/// noise. Less process noise is likelier only with less of what repeats, so that a search along one of both ends there; white
+/// noise is then taken for correlated noise, or each sample is worth a parameter.
+#[test]
+fn a_torque_that_repeats_leaves_white_noise() {
+    let steady = Motion {
+        name: "steady",
+        start: [0.3, 20.0],
+        end: 3.0,
+        rows: 500,
+        torque: |_, theta, omega| 2.0 - 0.1 * (omega - 20.0) + (2.0 * theta).sin(),
+    };
+    let truth = steady.run();
+    for seed in 1..=8 {
+        let fit = of_angles(&steady, &truth, 1e-5, seed).summary.fit;
+        assert_eq!(fit.noise_correlation_s, None, "seed {seed}");
+        assert!(fit.parameters < 60.0, "seed {seed}: {}", fit.parameters);
+    }
+}
+
 /// An outlier next to the end of a record with few samples in a turn: a motion without mechanics follows it, the equation
 /// does not, and no pulse of the torque is made of it.
 #[test]
