@@ -122,8 +122,8 @@ impl StrokeEnd {
     }
 }
 
-/// Returns the largest value (the least, for sense −1) at which the samples turn back, m, with its standard error, by
-/// the median of all turns next to it.
+/// Returns the largest value (the least, for sense −1) at which the samples turn back, m, with its standard error: from the
+/// highest turn on, the median of those that agree with it. A crank that swings may turn back before its dead centre, too.
 fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f64; 2]> {
     let values = measurement.values();
     // Isolated extremes are outliers.
@@ -137,18 +137,35 @@ fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f
     while first < values.len() {
         let near = values[first..].iter().take_while(|v| is_near(**v)).count();
         if near >= LEAST_SAMPLES {
-            turns.extend(vertex(measurement, first..first + near));
+            turns.extend(vertex(measurement, first..first + near, sense));
         }
         first += near.max(1);
     }
-    let shown = median(turns.iter().map(|turn| turn[0]))?;
-    let error = median(turns.iter().map(|turn| turn[1]))?;
-    // The median of n normal numbers has √(π/2n) of their standard deviation.
-    Some([shown, error * (1.6 / turns.len() as f64).sqrt().min(1.0)])
+    let highest = turns.iter().copied();
+    let [mut shown, mut error] =
+        highest.max_by(|a, b| (sense * a[0]).total_cmp(&(sense * b[0])))?;
+    let mut count = 0;
+    loop {
+        let agrees =
+            |turn: &&[f64; 2]| (turn[0] - shown).abs() <= ERRORS_OFF * turn[1].hypot(error);
+        let near: Vec<_> = turns.iter().filter(agrees).collect();
+        if near.len() <= count {
+            // The median of n normal numbers has √(π/2n) of their standard deviation.
+            return Some([shown, error * (1.6 / count as f64).sqrt().min(1.0)]);
+        }
+        count = near.len();
+        shown = median(near.iter().map(|turn| turn[0]))?;
+        error = median(near.iter().map(|turn| turn[1]))?;
+    }
 }
 
-/// Returns the value at the vertex of a polynomial through samples about a turning point, with its standard error, m.
-fn vertex(measurement: &Measurement, range: std::ops::Range<usize>) -> Option<[f64; 2]> {
+/// Returns the largest value (the least, for sense −1) of a polynomial through samples about a turning point, with its standard
+/// error, m: a crank that turns back just past its dead centre passes it twice.
+fn vertex(
+    measurement: &Measurement,
+    range: std::ops::Range<usize>,
+    sense: f64,
+) -> Option<[f64; 2]> {
     let t = &measurement.elapsed()[range.clone()];
     let equations = Equations {
         t,
@@ -157,7 +174,9 @@ fn vertex(measurement: &Measurement, range: std::ops::Range<usize>) -> Option<[f
         floor: measurement.resolution(),
     };
     let fit = PolynomialFit::new(&equations, None).ok()?;
+    let height = |k: &usize| sense * fit.state(t[*k]).value[0];
+    let top = (1..t.len() - 1).max_by(|a, b| height(a).total_cmp(&height(b)))?;
     let slope = |t: f64| fit.state(t).value[1];
-    let state = fit.state(bracketed(slope, t[0], t[t.len() - 1])?);
+    let state = fit.state(bracketed(slope, t[top - 1], t[top + 1])?);
     Some([state.value[0], state.covariance[0].sqrt()])
 }

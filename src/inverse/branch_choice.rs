@@ -7,7 +7,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY};
+use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY, LARGEST_VALUE_ERROR};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::fork;
 use super::problem::Problem;
@@ -62,7 +62,7 @@ pub(super) fn crank_angles<'a>(
             let mut record = record(measurement, &angles);
             record.keep(window.clone());
             let problem = problem(record, &angles.theta[window.clone()], equation, stop);
-            Reading::new(measurement, &problem, motion, angles, &window)
+            Reading::new(&problem, motion, angles, &window)
         };
         let taken = read(one.angles);
         let other = match one.leaves {
@@ -141,7 +141,6 @@ struct Reading<'a> {
 
 impl<'a> Reading<'a> {
     fn new(
-        measurement: &Measurement,
         problem: &Problem<'_>,
         motion: &Motion,
         angles: CrankAngles<'a>,
@@ -149,10 +148,12 @@ impl<'a> Reading<'a> {
     ) -> Reading<'a> {
         let first = first_path::coarse(problem, &angles.theta[window.clone()]);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
-        // Cost of a zero and a gain found from the samples (Schwarz 1978).
+        // A zero and a gain that are found from the samples cost ln of their width before over that after (MacKay, Neural
+        // Computation 4 (1992) 415).
         let Scale { shift, stretch } = angles.sensor.scale;
         let found = f64::from(u8::from(shift != 0.0) + u8::from(stretch != 1.0));
-        let cost = 0.5 * found * (measurement.len() as f64).ln();
+        let width = LARGEST_VALUE_ERROR * angles.sensor.size();
+        let cost = found * (width / angles.sigma).max(1.0).ln();
         let likelihood = problem.evidence(&kinematic) - cost;
         let begin = angles.theta[0];
         let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;

@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::hypotheses::{DROPPED_LOG_RATIO, Tracker};
-use super::measurement_model::Sensor;
+use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::Imaged;
 use crate::error::Error;
 use crate::numeric::parallel;
@@ -54,8 +54,10 @@ pub(super) fn motions<'a>(
     likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut motions: Vec<Imaged<'a>> = Vec::new();
     for (score, tracker, setting) in &likeliest {
-        if *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
-            break;
+        // A sensor as the scene has it is judged by the equation in any case: a false zero puts dead centres where none are.
+        let is_declared = tracker.sensor.scale == Scale::TRUE;
+        if !is_declared && *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
+            continue;
         }
         let before = motions.len();
         for theta in tracker.tracks(setting) {
