@@ -4,8 +4,11 @@
 //! To first order an error of the lengths shifts and stretches the slider's stroke, as zero and gain of a sensor do.
 //! Without the correction, a slider that turns back short of the scene's dead centre reverses the crank with it.
 
+use std::ops::Range;
+
 use super::branch_tracking::LARGEST_VALUE_ERROR;
 use super::measurement_model::{Scale, Sensor};
+use super::residual_tests::Whiteness;
 use crate::mechanism::{DeadCentre, Limits, Linkage};
 use crate::numeric::median::{median, range};
 use crate::numeric::polynomial_fit::{Equations, PolynomialFit};
@@ -160,23 +163,33 @@ fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f
 }
 
 /// Returns the largest value (the least, for sense −1) of a polynomial through samples about a turning point, with its standard
-/// error, m: a crank that turns back just past its dead centre passes it twice.
-fn vertex(
-    measurement: &Measurement,
-    range: std::ops::Range<usize>,
-    sense: f64,
-) -> Option<[f64; 2]> {
-    let t = &measurement.elapsed()[range.clone()];
-    let equations = Equations {
-        t,
-        target: &measurement.values()[range],
-        weight: None,
-        floor: measurement.resolution(),
-    };
-    let fit = PolynomialFit::new(&equations, None).ok()?;
-    let height = |k: &usize| sense * fit.state(t[*k]).value[0];
-    let top = (1..t.len() - 1).max_by(|a, b| height(a).total_cmp(&height(b)))?;
-    let slope = |t: f64| fit.state(t).value[1];
-    let state = fit.state(bracketed(slope, t[top - 1], t[top + 1])?);
-    Some([state.value[0], state.covariance[0].sqrt()])
+/// error, m: a crank that turns back just past its dead centre passes it twice. The samples are those about the largest value of
+/// which the polynomial leaves nothing but noise.
+fn vertex(measurement: &Measurement, mut range: Range<usize>, sense: f64) -> Option<[f64; 2]> {
+    loop {
+        let t = &measurement.elapsed()[range.clone()];
+        let values = &measurement.values()[range.clone()];
+        let equations = Equations {
+            t,
+            target: values,
+            weight: None,
+            floor: measurement.resolution(),
+        };
+        let fit = PolynomialFit::new(&equations, None).ok()?;
+        let shown: Vec<f64> = t.iter().map(|t| fit.state(*t).value[0]).collect();
+        let height = |k: &usize| sense * shown[*k];
+        let top = (1..t.len() - 1).max_by(|a, b| height(a).total_cmp(&height(b)))?;
+        let residuals = values
+            .iter()
+            .zip(&shown)
+            .map(|(value, shown)| value - shown);
+        if !Whiteness::of(residuals).is_violated() || range.len() < 2 * LEAST_SAMPLES {
+            let slope = |t: f64| fit.state(t).value[1];
+            let state = fit.state(bracketed(slope, t[top - 1], t[top + 1])?);
+            return Some([state.value[0], state.covariance[0].sqrt()]);
+        }
+        let (middle, quarter) = (range.start + top, range.len() / 4);
+        let begin = middle.saturating_sub(quarter).max(range.start);
+        range = begin..range.end.min(middle + quarter + 1);
+    }
 }

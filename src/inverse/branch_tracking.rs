@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{DROPPED_LOG_RATIO, Tracker};
+use super::hypotheses::{DROPPED_LOG_RATIO, FAR, Setting, Tracker};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::Imaged;
 use crate::error::Error;
@@ -43,20 +43,26 @@ pub(super) fn motions<'a>(
             values: measurement.values(),
             speed: typical_speed(sensor, measurement),
         };
-        let settings = tracker.settings(measurement.resolution()).into_iter();
-        let scored = parallel::map(settings, |setting| {
-            (tracker.score(&setting, early), setting)
-        });
-        let best = scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(score, setting)| (score, tracker, setting))
+        let settings = tracker.settings(measurement.resolution());
+        let best_of = |settings: &mut dyn Iterator<Item = &Setting>, samples: usize| {
+            let scored = parallel::map(settings, |one| (tracker.score(one, samples), *one));
+            scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let (_, Setting { sigma, .. }) = best_of(&mut settings.iter(), early)?;
+        // A crank may become quicker.
+        let agile = &mut settings.iter().filter(|one| one.sigma == sigma);
+        best_of(agile, measurement.len()).map(|(score, setting)| (score, tracker, setting))
     };
     let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
     likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut motions: Vec<Imaged<'a>> = Vec::new();
     for (score, tracker, setting) in &likeliest {
-        // A sensor as the scene has it is judged by the equation in any case: a false zero puts dead centres where none are.
-        let is_declared = tracker.sensor.scale == Scale::TRUE;
-        if !is_declared && *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
+        // A sensor as the scene has it is judged by the equation if it shows all samples: a false zero puts dead centres where
+        // none are.
+        let mut excesses = (tracker.values.iter()).map(|value| tracker.sensor.angles(*value).1);
+        let is_tenable = tracker.sensor.scale == Scale::TRUE
+            && excesses.all(|excess| excess <= FAR * setting.sigma);
+        if !is_tenable && *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
             continue;
         }
         let before = motions.len();
