@@ -11,9 +11,6 @@ pub(super) fn better(a: Noise, b: Noise) -> Noise {
 /// First step of a search over ln of a frequency.
 pub(super) const FIRST_STEP: f64 = 0.5;
 
-/// Step of a search from a place that was the likeliest before: the parabola about it is then right to `ENOUGH_RISE`.
-pub(super) const NEAR_STEP: f64 = 0.3 * FIRST_STEP;
-
 /// Maximises the likelihood near a guess: uphill in growing steps from the likelier neighbour, then parabolas through the three
 /// best points.
 pub(super) fn climb(

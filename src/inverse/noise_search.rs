@@ -1,7 +1,7 @@
 //! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
 
 use super::likelihood::Linear;
-use super::maximum::{ENOUGH_RISE, FIRST_STEP, NEAR_STEP, better, climb};
+use super::maximum::{ENOUGH_RISE, FIRST_STEP, better, climb};
 use super::scales::Noise;
 use crate::numeric::parallel;
 
@@ -19,7 +19,8 @@ impl Linear<'_> {
 
     /// Maximises the likelihood of an evaluated noise, the likeliest of another model, over its corner frequency.
     pub fn improved(&self, first: Noise) -> Noise {
-        self.along(first, CORNER, NEAR_STEP)
+        // So near to the maximum a parabola is right to `ENOUGH_RISE`.
+        self.along(first, CORNER, 0.3 * FIRST_STEP)
     }
 
     /// Maximises the likelihood of an evaluated noise over its corner frequency.
