@@ -250,6 +250,13 @@ fn judge(truth: &Truth, record: &Record, found: &Inverse) -> [f64; 2] {
     ]
 }
 
+/// Returns the largest error of the crank angle, rad, of rows without a gap.
+fn angle_error(truth: &Truth, found: &Inverse) -> f64 {
+    let off = |(row, theta): (&InverseRow, &f64)| (row.theta - theta).abs();
+    let pairs = found.rows.iter().zip(&truth.theta);
+    pairs.map(off).max_by(f64::total_cmp).expect("rows")
+}
+
 /// Returns the error of the force by the smoother without mechanics, which omits the unsound rows.
 fn plain(truth: &Truth, record: &Record, sound: &[bool]) -> f64 {
     let states = white_snap(&record.t, &record.values, sound);
@@ -437,10 +444,7 @@ fn swings_that_die_out_keep_their_side_of_a_dead_centre() {
                 let sensor = Sensor::AngleModel(noise, stretch);
                 let record = measure(&truth, sensor, &mut Random(seed * 7919));
                 let found = found(&motion, &record, stretch);
-                let pairs = found.rows.iter().zip(&truth.theta);
-                let off = pairs.fold(0.0, |most: f64, (row, theta)| {
-                    most.max((row.theta - theta).abs())
-                });
+                let off = angle_error(&truth, &found);
                 let name = motion.name;
                 assert!(off < 0.01, "{name}, {stretch}, seed {seed}: {off} rad");
             }
@@ -468,10 +472,7 @@ fn moves_with_a_crank_that_is_off_keep_their_turns() {
             let sensor = Sensor::AngleModel(noise, stretch);
             let record = measure(&truth, sensor, &mut Random(7919));
             let found = found(&moves, &record, stretch);
-            let pairs = found.rows.iter().zip(&truth.theta);
-            let off = pairs.fold(0.0, |most: f64, (row, theta)| {
-                most.max((row.theta - theta).abs())
-            });
+            let off = angle_error(&truth, &found);
             assert!(off < 0.02, "{start}, {stretch}, {noise}: {off} rad");
         }
     }
@@ -691,9 +692,7 @@ fn a_long_record_has_a_finite_motion() {
     let truth = long.run();
     for seed in 1..=2 {
         let found = of_angles(&long, &truth, 1e-3, seed);
-        let pairs = found.rows.iter().zip(&truth.theta);
-        let far = pairs.map(|(row, theta)| (row.theta - theta).abs());
-        let far = far.fold(0.0, f64::max);
+        let far = angle_error(&truth, &found);
         assert!(far < 0.02, "seed {seed}: {far} rad");
     }
 }
@@ -726,9 +725,7 @@ fn samples_at_wrong_times_keep_their_turns() {
         let samples = Measurement::new(Measured::X, times, values).expect("samples");
         let found = inverse(&scene(&machine, 1.0), &samples, &InverseOptions::default());
         let found = found.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
-        let off = |(row, theta): (&InverseRow, &f64)| (row.theta - theta).abs();
-        let far = found.rows.iter().zip(&truth.theta).map(off);
-        let far = far.fold(0.0, f64::max);
+        let far = angle_error(&truth, &found);
         assert!(far < 0.25 * TAU, "seed {seed}: {far} rad");
     }
 }
