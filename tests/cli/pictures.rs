@@ -282,3 +282,31 @@ fn ends_and_warnings_of_runs_are_told_by_what_shows_their_motions() {
         "{outcome:?}"
     );
 }
+
+/// The motion of a scene against its own angle in degrees of a turn, as an encoder shows it.
+#[test]
+fn a_measured_angle_is_compared_over_the_turns() {
+    let folder = Folder::with(&free("duration = \"1 s\"\noutput_every = \"1 ms\""));
+    let (_, rows) = folder.simulated(&[]);
+    let mut measured = "t [s],theta [deg]\n".to_owned();
+    for (t, theta) in rows.column("t_s").iter().zip(rows.column("theta_rad")) {
+        measured += &format!("{t},{}\n", theta.to_degrees().rem_euclid(360.0));
+    }
+    folder.write("measured.csv", &measured);
+    let text = folder
+        .run(&["compare", "scene.toml", "measured.csv"])
+        .done()
+        .stdout;
+    let line = text
+        .lines()
+        .find(|line| line.contains("differs by at most"));
+    let line = line.unwrap_or_else(|| panic!("{text}"));
+    let after = line.split("at most ").nth(1).expect("a size");
+    let size: f64 = after
+        .split(' ')
+        .next()
+        .expect("a number")
+        .parse()
+        .expect("a number");
+    assert!(size < 1e-6, "{line}");
+}

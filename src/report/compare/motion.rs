@@ -42,8 +42,12 @@ impl Motion {
             Measured::Gamma => "gamma_rad",
             Measured::X => "x_m",
         };
-        let rows = measured.times().iter().zip(measured.values());
-        let rows = rows.map(|(t, value)| [*t, *value]);
+        let values = match measured.measured() {
+            Measured::Theta => measured.unwrapped()?.0,
+            _ => measured.values().to_vec(),
+        };
+        let rows = measured.times().iter().zip(values);
+        let rows = rows.map(|(t, value)| [*t, value]);
         let table = Table::filled(&format!("{TIME},{column}"), rows);
         Ok(Motion { name, table })
     }

@@ -7,6 +7,7 @@ mod measured;
 mod read;
 mod rows;
 mod times;
+mod unwrap;
 
 use std::path::{Path, PathBuf};
 
