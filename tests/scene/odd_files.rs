@@ -431,3 +431,74 @@ fn tables_of_loads_are_files_of_data() {
         assert_eq!((table.rows, table.of.name()), (3, "theta"), "{text}");
     }
 }
+
+/// Numbers between blanks, as numpy and MATLAB write them.
+#[test]
+fn blanks_separate_numbers() {
+    let rows = rows("   ", [1.0, PI / 180.0]);
+    let columns = with(|reading| reading.columns = Some("t [s],theta [deg]".to_owned()));
+    is_read(rows.as_bytes(), &columns, Measured::Theta);
+    is_read(rows.as_bytes(), &named("1[s]", "2[deg]"), Measured::Theta);
+    let headed = format!("# t_s theta_deg\n{rows}");
+    is_read(headed.as_bytes(), &Reading::default(), Measured::Theta);
+}
+
+/// The position of an encoder is an angle, that of a slider a length.
+#[test]
+fn the_unit_of_a_position_says_what_it_is() {
+    let angle = format!("t [s],Position [deg]\n{}", rows(",", [1.0, PI / 180.0]));
+    is_read(angle.as_bytes(), &Reading::default(), Measured::Theta);
+    is_read(angle.as_bytes(), &named("", "2[deg]"), Measured::Theta);
+    let length = format!("t [s],Position [mm]\n{}", rows(",", [1.0, 1e-3]));
+    is_read(length.as_bytes(), &Reading::default(), Measured::X);
+}
+
+/// `Grad` is a degree in German, not 1e9 rad.
+#[test]
+fn an_angle_takes_no_prefix_of_multiples() {
+    for unit in ["Grad", "krad", "Mrad"] {
+        let text = format!("t [s],theta [{unit}]\n{}", rows(",", [1.0, 1.0]));
+        let said = load(text.as_bytes(), &Reading::default()).expect_err("no unit");
+        assert!(said.contains(unit), "{said}");
+    }
+    let text = format!("t [s],theta [mrad]\n{}", rows(",", [1.0, 1e-3]));
+    is_read(text.as_bytes(), &Reading::default(), Measured::Theta);
+}
+
+/// 20.171 counts are 20171 with a German separator of thousands.
+#[test]
+fn counts_that_are_not_whole_are_named() {
+    let text = "t [s],count\n0,998\n1,1.002\n2,1.007\n3,1.011\n4,1.016\n5,1.020\n";
+    let counts = with(|reading| reading.counts_per_turn = Some(3600));
+    let notes = load(text.as_bytes(), &counts)
+        .expect("counts")
+        .notes()
+        .join("\n");
+    assert!(notes.contains("1.002 counts at line 3"), "{notes}");
+    let whole = text.replace('.', "");
+    let notes = load(whole.as_bytes(), &counts)
+        .expect("counts")
+        .notes()
+        .join("\n");
+    assert!(!notes.contains("whole numbers"), "{notes}");
+}
+
+/// Times of 400 and of 700 samples a second in whole milliseconds, and of 400 less a few rows.
+#[test]
+fn times_rounded_to_coarse_steps_are_even() {
+    for (rate, left_out) in [(400.0, &[][..]), (400.0, &[17, 30, 31]), (700.0, &[])] {
+        let rows = (0..90).filter(|k| !left_out.contains(k));
+        let mut text = "t [ms],theta [rad]\n".to_owned();
+        for k in rows.clone() {
+            let t = f64::from(k) / rate;
+            text += &format!("{:.0},{}\n", 1e3 * t, 3.0 * t);
+        }
+        let motion = load(text.as_bytes(), &Reading::default()).expect("samples");
+        // The times of the ends stay within the written ones.
+        let inner = rows.zip(motion.elapsed()).skip(1).take(85);
+        for (k, elapsed) in inner {
+            let off = elapsed - f64::from(k) / rate;
+            assert!(off.abs() < 2e-4, "{rate} {k}: {elapsed}");
+        }
+    }
+}

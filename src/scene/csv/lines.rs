@@ -11,8 +11,13 @@ pub(in crate::scene) struct Dialect {
     pub start: usize,
 }
 
-/// Texts that spreadsheets write where a formula has no value. At the beginning of a line they look like a comment.
-const NO_VALUE: [&str; 4] = ["#N/A", "#VALUE!", "#DIV/0!", "#NUM!"];
+/// True for a text that spreadsheets write where a formula has no value, `#N/A`, `#NV`, `#REF!`: at the beginning of a line it
+/// looks like a comment.
+fn is_no_value(cell: &str) -> bool {
+    let name = cell.strip_suffix(['!', '?']).unwrap_or(cell);
+    let is_upper = |c: char| c.is_ascii_uppercase() || matches!(c, '#' | '/' | '0');
+    matches!(cell, "#N/A" | "#NV") || name != cell && name.chars().all(is_upper)
+}
 
 /// Fault of a value that continues over the end of its line.
 pub(in crate::scene) const OPEN_QUOTE: &str = "a quote is not closed on its line";
@@ -21,7 +26,7 @@ pub(in crate::scene) const CLOSE_QUOTE: &str =
 
 impl Dialect {
     /// Determines the dialect of a text whose first `skip` lines do not count: a line `sep=;` states the delimiter;
-    /// else it is a semicolon or a tab if the first row has one, or a comma.
+    /// else it is a semicolon or a tab if the first row has one, or a comma, or blanks between numbers alone.
     pub fn of(text: &str, skip: usize) -> Dialect {
         let mark = text.len() - text.trim_start_matches('\u{feff}').len();
         let skipped: usize = text.split_inclusive('\n').take(skip).map(str::len).sum();
@@ -42,7 +47,12 @@ impl Dialect {
         let found = [';', '\t']
             .into_iter()
             .find(|delimiter| row.contains(*delimiter));
-        dialect.delimiter = found.unwrap_or(',');
+        let are_numbers = || {
+            row.split_whitespace()
+                .all(|cell| cell.parse::<f64>().is_ok())
+        };
+        let blank = (row.split_whitespace().count() > 1 && are_numbers()).then_some(' ');
+        dialect.delimiter = found.or(blank).unwrap_or(',');
         dialect
     }
 
@@ -69,7 +79,7 @@ impl Dialect {
         let line = line.trim_start();
         let first = line.split(self.delimiter).next().unwrap_or_default();
         match line.chars().next() {
-            Some('#') => !NO_VALUE.contains(&first.trim()),
+            Some('#') => !is_no_value(first.trim()),
             Some(mark) => mark == '%' || mark == ';' && self.delimiter != ';',
             None => false,
         }
@@ -87,19 +97,22 @@ impl Dialect {
     }
 
     /// Iterates over the cells of a row without blanks and quotes around them; quoted delimiters separate none.
-    pub fn cells(self, row: &str) -> impl Iterator<Item = &str> {
+    pub fn cells<'a>(self, row: &'a str) -> impl Iterator<Item = &'a str> {
         let mut quoted = false;
         let separates = move |c: char| {
             quoted ^= c == '"';
             !quoted && c == self.delimiter
         };
-        row.split(separates).map(|cell| {
+        let bare = |cell: &'a str| {
             let cell = cell.trim_matches(|c: char| c.is_whitespace());
             let bare = cell
                 .strip_prefix('"')
                 .and_then(|cell| cell.strip_suffix('"'));
             bare.map_or(cell, str::trim)
-        })
+        };
+        // Blanks separate cells by any number of them.
+        let counts = move |cell: &&str| self.delimiter != ' ' || !cell.is_empty();
+        row.split(separates).map(bare).filter(counts)
     }
 }
 

@@ -62,9 +62,13 @@ impl Named {
         let names = Measured::ALL.map(|measured| (measured.name(), measured));
         let mut words = names.iter().chain(&WORDS);
         let found = words.find(|(word, _)| *word == self.header.name);
-        found
-            .map(|(_, measured)| *measured)
-            .or(self.is_count().then_some(Measured::Theta))
+        let is_angle = || unit::factor(&self.header.unit, Quantity::Angle).is_ok();
+        match found {
+            // An encoder shows a position, too.
+            Some(("position", _)) if is_angle() || self.is_count() => Some(Measured::Theta),
+            Some((_, measured)) => Some(*measured),
+            None => self.is_count().then_some(Measured::Theta),
+        }
     }
 
     /// Returns the quantity that the unit of the column suggests; an angle, which may be theta or gamma, is theta.

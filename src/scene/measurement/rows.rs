@@ -52,7 +52,13 @@ impl Measurement {
         }
         self.check_beside()?;
         let spaced = self.space_evenly();
-        let notes = [self.gaps(), self.far_from_zero(), self.at_rest(), spaced];
+        let notes = [
+            self.gaps(),
+            self.far_from_zero(),
+            self.at_rest(),
+            self.broken_counts(),
+            spaced,
+        ];
         self.notes.extend(notes.into_iter().flatten());
         Ok(())
     }
@@ -120,6 +126,18 @@ impl Measurement {
                 self.shown(first)
             )
         })
+    }
+
+    /// Returns a note if counts of an encoder are not whole numbers.
+    fn broken_counts(&self) -> Option<String> {
+        let counts = || self.values.iter().map(|value| value / self.resolution);
+        let is_broken = |count: f64| (count - count.round()).abs() > 1e-9 * count.abs().max(1.0);
+        let first = counts().position(is_broken).filter(|_| self.is_counted())?;
+        Some(format!(
+            "the counts of the encoder are not whole numbers, the first is {} at {}: a separator of thousands looks like a decimal mark",
+            self.shown(self.values[first]),
+            self.place(first)
+        ))
     }
 
     /// Returns a note on gaps, time steps far above the median one.

@@ -2,6 +2,7 @@
 //! even times rounded to the decimals of a file.
 
 use super::Measurement;
+use crate::numeric::median::median;
 use crate::scene::number::computed;
 
 /// Decimal number as written: `digits` times ten to the power of minus `decimals`.
@@ -74,9 +75,12 @@ impl Measurement {
             self.origin = self.times[0];
         }
         let earlier = first - (self.times[0] - self.origin);
-        let time = |i: usize| (first + even.first + even.period * i as f64).clamp(first, last);
-        self.elapsed = Some((0..count).map(|i| time(i) - earlier).collect());
+        let time = |place: &f64| {
+            let time = first + even.first + even.period * place;
+            time.clamp(first, last) - earlier
+        };
         self.period_uncertainty = even.step / ((count as f64).sqrt() * (last - first));
+        self.elapsed = Some(even.places.iter().map(time).collect());
         Some(format!(
             "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",
             computed(even.period),
@@ -87,6 +91,8 @@ impl Measurement {
 
 /// Even times, s, that were rounded.
 struct Even {
+    /// Place of each sample among those that would be there without gaps, from 0.
+    places: Vec<f64>,
     /// Time of the first sample minus its rounded one.
     first: f64,
     /// Sampling period.
@@ -96,31 +102,50 @@ struct Even {
 }
 
 impl Even {
-    /// Fits a line by least squares through times; none unless they are rounded values of even times.
+    /// Fits a line by least squares through times; none unless they are rounded values of even times, with gaps or without.
     fn of(times: &[f64]) -> Option<Even> {
         let count = times.len() as f64;
         let gaps = || times.windows(2).map(|pair| pair[1] - pair[0]);
-        let short = gaps().fold(f64::INFINITY, f64::min);
-        let long = gaps().fold(0.0, f64::max);
+        let mean = |most: f64| {
+            let some = || gaps().filter(|gap| *gap < most);
+            some().sum::<f64>() / some().count() as f64
+        };
+        // A mean less long gaps is one of gaps of one period, in which rounding may double the shortest.
+        let usual = mean(2.01 * median(gaps())?);
+        let single = || gaps().filter(|gap| *gap < 1.5 * usual);
+        let short = single().fold(f64::INFINITY, f64::min);
+        let long = single().fold(0.0, f64::max);
         // Rounding makes gaps that differ by one step, and keeps the order of the samples.
         let step = long - short;
         let rounding_of_doubles = 1e3 * f64::EPSILON * (times.last()? - times[0]);
-        if step < rounding_of_doubles || step > 0.5 * short {
+        if step < rounding_of_doubles || step > short + rounding_of_doubles {
             return None;
         }
-        let middle = 0.5 * (count - 1.0);
-        let since = || (0..times.len()).map(|i| (i as f64, times[i] - times[0]));
-        let sum: f64 = since().map(|(_, time)| time).sum();
-        let moment: f64 = since().map(|(i, time)| (i - middle) * time).sum();
-        let period = 12.0 * moment / (count * (count * count - 1.0));
-        let first = sum / count - period * middle;
+        let usual = mean(1.5 * usual);
+        let mut places = vec![0.0];
+        places.extend(gaps().scan(0.0, |place, gap| {
+            *place += (gap / usual).round();
+            Some(*place)
+        }));
+        let since = || {
+            places
+                .iter()
+                .zip(times)
+                .map(|(k, time)| (k, time - times[0]))
+        };
+        let middle = places.iter().sum::<f64>() / count;
+        let mean = since().map(|(_, time)| time).sum::<f64>() / count;
+        let moment: f64 = since().map(|(k, time)| (k - middle) * time).sum();
+        let period = moment / places.iter().map(|k| (k - middle).powi(2)).sum::<f64>();
+        let first = mean - period * middle;
         // Errors beyond rounding, in rounding steps.
         let most_off = 0.1;
-        let mut off_line = since().map(|(i, time)| (time - first - period * i).abs());
-        let mut off_step = gaps().map(|gap| (gap - short).min(long - gap));
+        let mut off_line = since().map(|(k, time)| (time - first - period * k).abs());
+        let mut off_step = single().map(|gap| (gap - short).min(long - gap));
         (off_line.all(|off| off < (0.5 + most_off) * step)
             && off_step.all(|off| off < most_off * step))
         .then_some(Even {
+            places,
             first,
             period,
             step,

@@ -77,6 +77,14 @@ struct Unit {
     prefixed: bool,
 }
 
+impl Unit {
+    /// Whether the symbol takes the prefix of a power of ten: an angle takes those of its parts alone, for `Grad` is a degree in
+    /// German.
+    fn takes(&self, power: i32) -> bool {
+        self.prefixed && (power < 0 || self.factor.dimension != [0, 0, 0, 1])
+    }
+}
+
 macro_rules! units {
     ($($symbol:literal: $numerator:literal / $denominator:literal, 10^$ten:literal, pi^$pi:literal, $dimension:expr, $prefixed:literal;)*) => {
         &[$(Unit {
@@ -170,15 +178,20 @@ pub(super) fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str
 /// Returns a regular expression of every spelling of the units whose dimension satisfies `is_one`.
 #[cfg(feature = "cli")]
 pub(super) fn spellings(is_one: impl Fn(Dimension) -> bool) -> String {
-    let prefixes: Vec<&str> = PREFIXES.iter().map(|prefix| prefix.0).collect();
-    let prefixes = format!("(?:{})?", prefixes.join("|"));
+    let prefixes = |unit: &Unit| {
+        let taken = PREFIXES.iter().filter(|(_, power)| unit.takes(*power));
+        let taken: Vec<&str> = taken.map(|prefix| prefix.0).collect();
+        match taken.is_empty() {
+            true => String::new(),
+            false => format!("(?:{})?", taken.join("|")),
+        }
+    };
     let mut all = Vec::new();
     for unit in UNITS.iter().filter(|unit| is_one(unit.factor.dimension)) {
         let names = NAMES.iter().filter(|(symbol, _)| *symbol == unit.symbol);
         let names = names.flat_map(|(_, names)| *names);
         for name in std::iter::once(&unit.symbol).chain(names) {
-            let prefix = if unit.prefixed { &prefixes } else { "" };
-            all.push(format!("{prefix}{name}"));
+            all.push(format!("{}{name}", prefixes(unit)));
         }
     }
     format!("(?:{})", all.join("|"))
@@ -197,6 +210,6 @@ pub(super) fn symbol(name: &str) -> Option<Factor> {
     PREFIXES.iter().find_map(|(prefix, power)| {
         let unit = find(name.strip_prefix(prefix)?)?;
         let ten = unit.factor.ten + power;
-        unit.prefixed.then_some(Factor { ten, ..unit.factor })
+        unit.takes(*power).then_some(Factor { ten, ..unit.factor })
     })
 }
