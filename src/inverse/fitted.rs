@@ -11,7 +11,7 @@ use super::row::Residual;
 use super::samples;
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
-use super::summary::{CandidateSummary, FitSummary, IntensitySummary, SensorSummary};
+use super::summary::{CandidateSummary, FitSummary, IntensitySummary};
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::median::range;
@@ -36,6 +36,8 @@ pub(super) struct Fitted {
     pub without_equation: bool,
     /// Row of the outlier with the largest residual.
     pub farthest_outlier: Option<usize>,
+    /// Row of the first outlier that repeats the value before it.
+    pub held: Option<usize>,
     /// Turns per cycle of the periodic torque in the smoother's prior; 0 without a periodic torque.
     pub cycle: u8,
     /// Harmonics of a turn that the samples determine in a periodic torque.
@@ -137,14 +139,12 @@ impl Fitted {
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
         let prior = smoothed.prior;
+        let beside = record.beside.iter();
+        let beside = beside.map(|other| other.summary(&motion)).collect();
         let mut fitted = Fitted::of_motion(measurement, &samples, motion);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
         fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
-        let beside = record.beside.iter().map(|other| SensorSummary {
-            column: other.sensor.measured.name(),
-            sigma: other.sigma,
-            mean_residual: other.mean,
-        });
+        fitted.held = record.outliers().find(|row| samples.repeats(*row));
         let intensities = problem.intensities.0.iter().map(|span| IntensitySummary {
             from_s: record.origin + span.from,
             to_s: record.origin + span.to,
@@ -181,7 +181,7 @@ impl Fitted {
             corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
             intensities: intensities.collect(),
             noise_correlation_s: smoothed.noise.correlated.map(f64::recip),
-            beside: beside.collect(),
+            beside,
             outliers: record.outliers().count(),
             residual_lag_one: whiteness.lag_one,
             residual_runs: whiteness.runs,

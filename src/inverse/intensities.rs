@@ -1,7 +1,7 @@
 //! Stretches of the record with stronger or weaker process noise than elsewhere: a machine that stands still between
 //! its moves, a force that jumps. Each stretch has three parameters, and is accepted where the likelihood gains more
 //! than they cost (Schwarz 1978; as in circular binary segmentation: Olshen et al., Biostatistics 5 (2004) 557).
-//! Stretches are found by the scores of the intensity of each step, by-products of the smoother (Koopman and Shephard,
+//! A search for them begins at the scores of the intensity of each step, by-products of the smoother (Koopman and Shephard,
 //! Biometrika 79 (1992) 823).
 
 use std::ops::Range;
@@ -16,14 +16,10 @@ use super::problem::Problem;
 use super::scales::{Intensities, Span};
 use super::smoother::Smoothed;
 use super::state_space::{Deviations, with_dimension};
-use crate::numeric::maximum::largest_to;
+use super::stretch_search::{Guess, Trial};
 
 /// Number of parameters of a stretch: begin, end, factor.
 const PARAMETERS: f64 = 3.0;
-
-/// ln of the largest factor, and tolerance of its search.
-const LARGEST: f64 = 25.0;
-const WIDTH: f64 = 0.3;
 
 /// Score of a step: derivative of ln of the likelihood by ln of its intensity, with the variance of the score.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,26 +65,35 @@ fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
     scores.list
 }
 
-/// Returns the steps whose intensity deviates most from the usual, whether it is higher, and the expected rise of ln of
-/// the likelihood, among all stretches of a power of two steps.
-fn furthest(scores: &[Score]) -> (Range<usize>, bool, f64) {
+/// Returns the steps of each power of two in number whose intensity deviates most from the usual, by the rise of ln of the
+/// likelihood that their scores promise: at least this one.
+fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
     let mut sums = vec![[0.0; 2]];
     for score in scores {
         let [slope, information] = sums[sums.len() - 1];
         sums.push([slope + score.slope, information + score.information]);
     }
-    let mut best = (0..0, false, 0.0);
     let lengths = std::iter::successors(Some(1), |length| Some(2 * length));
-    for length in lengths.take_while(|length| 2 * length <= scores.len()) {
-        for (first, pair) in sums.windows(length + 1).enumerate() {
+    let lengths = lengths.take_while(|length| 2 * length <= scores.len());
+    let of_length = |length: usize| {
+        let sums = sums.windows(length + 1).enumerate();
+        let all = sums.map(|(first, pair)| {
             let [slope, information] = [0, 1].map(|k| pair[length][k] - pair[0][k]);
-            let rise = 0.5 * slope * slope / information;
-            if rise > best.2 {
-                best = (first..first + length, slope > 0.0, rise);
+            Guess {
+                steps: first..first + length,
+                log: 0.0,
+                is_higher: slope > 0.0,
+                likelihood: 0.5 * slope * slope / information,
             }
-        }
-    }
-    best
+        });
+        let all = all.filter(|guess| guess.likelihood.is_finite() && guess.likelihood > least);
+        let best = all.max_by(|a, b| a.likelihood.total_cmp(&b.likelihood))?;
+        Some(Guess {
+            likelihood: f64::NEG_INFINITY,
+            ..best
+        })
+    };
+    lengths.filter_map(of_length).collect()
 }
 
 impl Problem<'_> {
@@ -110,26 +115,22 @@ impl Problem<'_> {
             };
             let model = found.linear(&stretches).deviations(stretch, &noise);
             let scores = with_dimension!(model.dimension(), N => scores::<N>(&model, noise.sigma));
-            let (steps, is_higher, rise) = furthest(&scores);
-            if rise < self.cost() {
-                break;
-            }
-            let with = |log: f64| {
-                let mut other = stretch.clone();
-                let factor = if is_higher { log.exp() } else { (-log).exp() };
-                let among = other.steps[steps.clone()].iter_mut();
-                among.for_each(|step| step.intensity *= factor);
-                (vec![other], factor)
+            let trial = Trial {
+                found,
+                stretch,
+                noise,
             };
-            let likelihood = |log: f64| found.linear(&with(log).0).evaluated(noise).likelihood;
-            let (log, likelihood) = largest_to(likelihood, [0.0, LARGEST], WIDTH);
-            if likelihood - noise.likelihood < self.cost() {
+            // Far from the usual intensity the likelihood rises by more than the scores promise there.
+            let best = trial.likeliest(furthest(&scores, 0.5 * self.cost()));
+            let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost();
+            let Some(best) = best.filter(rises) else {
                 break;
-            }
-            let (other, factor) = with(log);
-            let [from, to] = [steps.start, steps.end].map(|node| self.grid.times[node]);
+            };
+            let Range { start, end } = best.steps;
+            let [from, to] = [start, end].map(|node| self.grid.times[node]);
+            let factor = best.factor();
             intensities.0.push(Span { from, to, factor });
-            stretches = other;
+            stretches = vec![trial.with(&best)];
         }
         intensities
     }

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::Inverse;
-use super::row::InverseRow;
 
 /// Number of angles per turn at which cycles are compared.
 const IN_A_TURN: usize = 360;
@@ -78,8 +77,7 @@ impl Inverse {
     /// two turns where the torque repeats after two. Errors of scene values are shared by all cycles; with a periodic
     /// prior of the smoother each cycle rests on all, and all errors are shared.
     pub fn mean_cycle(&self) -> Vec<MeanRow> {
-        let turns = usize::from(self.cycle.max(1));
-        let count = IN_A_TURN * turns;
+        let count = IN_A_TURN * usize::from(self.cycle.max(1));
         let step = TAU / IN_A_TURN as f64;
         let mut sums = vec![[Sums::default(); 2]; count];
         for (k, pair) in self.rows.windows(2).enumerate() {
@@ -98,19 +96,18 @@ impl Inverse {
                 }
             }
         }
-        let row = |(k, [force, torque]): (usize, &[Sums; 2])| MeanRow {
+        let rows = sums.iter().enumerate().map(|(k, [force, torque])| MeanRow {
             theta: k as f64 * step,
             slider_force: force.mean(),
             crank_torque: torque.mean(),
-        };
-        let rows = sums.iter().enumerate().map(row);
+        });
         rows.filter(|row| row.crank_torque.is_some()).collect()
     }
 
     /// Interpolates force (`which` = 0) or torque (1) at a fraction of the way from a row to the next.
     fn passage(&self, row: usize, part: f64, which: usize) -> Option<Passage> {
         let of = |row: usize| {
-            let found: &InverseRow = &self.rows[row];
+            let found = &self.rows[row];
             let (value, error) = match which {
                 0 => (found.slider_force?, found.slider_force_se?),
                 _ => (found.crank_torque?, found.crank_torque_se?),

@@ -1,6 +1,8 @@
 //! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
+use std::ops::Range;
+
 use super::problem::Problem;
 use super::residual_tests::NORMAL;
 use super::smoother::Smoothed;
@@ -54,7 +56,10 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
     for r in &mut standardised {
         *r -= r.clamp(-step / sigma, step / sigma);
     }
-    let mut sizes: Vec<f64> = standardised.iter().map(|r| r.abs()).collect();
+    // Samples of a sensor that holds are one.
+    let is_held = |i: &usize| record.intervals.is_empty() && record.repeats(*i);
+    let single = (0..standardised.len()).filter(|i| !is_held(i));
+    let mut sizes: Vec<f64> = single.map(|i| standardised[i].abs()).collect();
     let most = (MOST_OUTLIERS * sizes.len() as f64) as usize;
     let (_, next, _) = sizes.select_nth_unstable_by(most, |a, b| b.total_cmp(a));
     let few = *next <= FAR * scale;
@@ -79,8 +84,20 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
         let weight = 1.0 / (1.0 + odds);
         if weight < LEAST_WEIGHT { 0.0 } else { weight }
     };
-    let weights = standardised.iter().map(weight).collect();
+    let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
+    for run in runs(weights.len(), is_held) {
+        if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
+            weights[run].fill(0.0);
+        }
+    }
     Some(Judgement { weights, few })
+}
+
+/// Returns the runs of a number of samples, each with those after its first one that are held.
+fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
+    let mut first: Vec<usize> = (0..count).filter(|i| !is_held(i)).collect();
+    first.push(count);
+    first.windows(2).map(|w| w[0]..w[1]).collect()
 }
 
 /// True if two lists of weights differ by less than 0.1.

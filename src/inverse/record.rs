@@ -113,6 +113,11 @@ impl Record<'_> {
         far.map(|i| self.intervals.get(i).map_or(i, |interval| interval.sample))
     }
 
+    /// True for a sample that repeats the value before it, as a sensor does that holds or is at the end of its range.
+    pub fn repeats(&self, sample: usize) -> bool {
+        sample > 0 && self.values[sample] == self.values[sample - 1]
+    }
+
     /// True if the crank angle itself was measured, and nothing else.
     pub fn is_linear(&self) -> bool {
         self.sensor.measured == Measured::Theta && self.beside.is_empty()

@@ -1,8 +1,12 @@
 //! Fusion of several sensors of one motion: each has its own measurement equation and noise, and all samples of a time
 //! enter one filter by their information about the crank angle, Σ h′²/σ².
 
+use super::motion_estimate::MotionEstimate;
 use super::problem::Problem;
+use super::record::SensorBeside;
+use super::residual_tests::Whiteness;
 use super::smoother::Smoothed;
+use super::summary::SensorSummary;
 
 /// Number of rounds that alternate between noise and path.
 const SENSOR_ROUNDS: usize = 4;
@@ -54,5 +58,20 @@ impl Problem<'_> {
         };
         let least = 4.0 * f64::EPSILON * largest;
         [variance.sqrt().max(least), sum / f64::max(count, 1.0)]
+    }
+}
+
+impl SensorBeside<'_> {
+    /// Summarises what it shows beside the motion at its samples.
+    pub fn summary(&self, motion: &[MotionEstimate]) -> SensorSummary {
+        let pairs = self.values.iter().zip(motion);
+        let residuals =
+            pairs.map(|(value, at)| self.sensor.residual(*value, at.value[0]).0 - self.mean);
+        SensorSummary {
+            column: self.sensor.measured.name(),
+            sigma: self.sigma,
+            mean_residual: self.mean,
+            residual_ljung_box: Whiteness::of(residuals).ljung_box,
+        }
     }
 }

@@ -95,33 +95,53 @@ impl Problem<'_> {
         whole
     }
 
-    /// The smoothed motion with the likeliest prior. Noise of the samples is correlated where that is suspected or the
-    /// prediction errors say so, and the likelihood agrees.
+    /// The smoothed motion with the likeliest prior.
     pub fn likeliest(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
-        let white = self.tried(kinematic);
-        let Some(found) = self.first_converged(&white.candidates, kinematic) else {
-            return Smoothed {
-                compared: white.candidates,
-                ..kinematic.clone()
+        let mut found = self.likeliest_about(kinematic, suspected);
+        if let Some(other) = self.without_process_noise(&found) {
+            // The priors are compared again about that motion.
+            let again = self.likeliest_about(&other, suspected);
+            let cost = if again.is_simple() {
+                0.0
+            } else {
+                self.cost_of_two()
             };
-        };
-        let mut found = self.without_repeating(found);
-        let innovations = found.estimates.iter().map(|e| e.innovation);
-        let is_noise = self.record.codes.is_none() && !self.record.is_computed();
-        if is_noise && (suspected || Whiteness::of(innovations).is_violated()) {
-            let cost = self.cost_of_two();
-            let least = white.likelihood() + cost;
-            let correlated = self.correlated(white, kinematic);
-            let is_likelier = correlated.likelihood() > least;
-            let other =
-                is_likelier.then(|| self.first_converged(&correlated.candidates, kinematic));
-            let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
-            if let Some(other) = other.flatten().filter(|other| gain(other) > cost) {
-                found = other;
-            }
+            found = match again.noise.likelihood > other.noise.likelihood + cost {
+                true => again,
+                false => Smoothed {
+                    compared: again.compared,
+                    ..other
+                },
+            };
         }
         let path = self.whole_path(&found, kinematic);
         self.completed(found, path, true)
+    }
+
+    /// The smoothed motion with the likeliest prior about a first one. Noise of the samples is correlated where that is
+    /// suspected or the prediction errors say so, and the likelihood agrees.
+    fn likeliest_about(&self, first: &Smoothed, suspected: bool) -> Smoothed {
+        let white = self.tried(first);
+        let Some(found) = self.first_converged(&white.candidates, first) else {
+            return Smoothed {
+                compared: white.candidates,
+                ..first.clone()
+            };
+        };
+        let found = self.without_repeating(found);
+        let innovations = found.estimates.iter().map(|e| e.innovation);
+        let is_noise = self.record.codes.is_none() && !self.record.is_computed();
+        if !is_noise || !suspected && !Whiteness::of(innovations).is_violated() {
+            return found;
+        }
+        let cost = self.cost_of_two();
+        let least = white.likelihood() + cost;
+        let correlated = self.correlated(white, first);
+        let is_likelier = correlated.likelihood() > least;
+        let other = is_likelier.then(|| self.first_converged(&correlated.candidates, first));
+        let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
+        let other = other.flatten().filter(|other| gain(other) > cost);
+        other.unwrap_or(found)
     }
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
@@ -150,44 +170,6 @@ impl Problem<'_> {
             compared: tried.to_vec(),
             ..best
         })
-    }
-
-    /// A smoothed motion without its part that repeats, where that no longer makes the samples likelier than it costs: about the
-    /// first path it may have stood for what that path leaves out. The paths of a long record are those of its stretches.
-    fn without_repeating(&self, found: Smoothed) -> Smoothed {
-        if found.prior.cycle == 0 || self.sampled() != self.all() {
-            return found;
-        }
-        let prior = found.prior.beside_known();
-        let path = Path {
-            repeating: None,
-            ..found.path()
-        };
-        let linear = Linear {
-            stretches: &self.stretches(&self.motion(prior), &path, found.noise.sigma),
-            prior,
-            scales: found.scales,
-        };
-        let first = Noise {
-            spectrum: None,
-            ..found.noise
-        };
-        let candidate = Candidate {
-            noise: linear.with_corner(linear.begun(first)),
-            prior,
-            ..found.candidate()
-        };
-        let least = found.noise.likelihood - self.cost_of_two();
-        let likely = Some(candidate).filter(|one| one.noise.likelihood > least);
-        let other = likely.map(|one| self.iterated(&one, path));
-        let holds = |other: &Smoothed| other.converged && other.noise.likelihood > least;
-        match other.filter(holds) {
-            Some(other) => Smoothed {
-                compared: found.compared,
-                ..other
-            },
-            None => found,
-        }
     }
 
     /// The smoothed motion with a prior, about paths that approach it.

@@ -124,6 +124,8 @@ pub struct SensorSummary {
     pub sigma: f64,
     /// Mean of measured minus fitted, rad or m.
     pub mean_residual: f64,
+    /// Ljung-Box statistic of measured minus fitted beside that mean, as a standard normal deviate.
+    pub residual_ljung_box: f64,
 }
 
 /// Prior that was compared with others.

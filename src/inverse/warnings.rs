@@ -1,9 +1,10 @@
 //! Warnings of an inverse computation: reasons, in words, not to trust its result.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::InverseOptions;
 use super::fitted::Fitted;
+use super::residual_tests::DEVIATIONS;
 use super::row::InverseRow;
 use crate::mechanism::Equation;
 use crate::numeric::median::median;
@@ -65,8 +66,8 @@ pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) 
     warnings
 }
 
-/// Returns the warning of a torque that repeats by a measured crank angle: an error of the angle that repeats, too, looks the
-/// same at one speed, whatever the band.
+/// Returns the warning of a torque that repeats: the samples do not tell it beyond a harmonic, and an error of a measured crank
+/// angle that repeats, too, looks the same at one speed, whatever the band.
 pub(super) fn of_sensor(
     fitted: &Fitted,
     measured: Measured,
@@ -75,11 +76,16 @@ pub(super) fn of_sensor(
 ) -> Option<String> {
     let of_radian = |row: &InverseRow| equation.terms(row.theta).inertia.m * row.omega.powi(2);
     let of_milliradian = 1e-3 * median(rows.iter().map(of_radian))?;
-    (fitted.told >= 1.0 && measured == Measured::Theta).then(|| {
-        format!(
-            "the torque that repeats rests on the samples alone, up to harmonic {} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn), and what varies faster is hidden by noise; neither is in the band",
-            fitted.told
-        )
+    (fitted.told >= 1.0).then(|| {
+        let told = fitted.told;
+        match measured {
+            Measured::Theta => format!(
+                "the torque that repeats rests on the samples alone, up to harmonic {told} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn), and what varies faster is hidden by noise; neither is in the band"
+            ),
+            _ => format!(
+                "the torque that repeats is known up to harmonic {told} of a turn: what varies faster is hidden by noise, and not in the band"
+            ),
+        }
     })
 }
 
@@ -125,8 +131,11 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             1 => "1 sample is far off and hardly counts".to_owned(),
             count => format!("{count} samples are far off and hardly count"),
         };
+        let held = fitted.held.map_or(String::new(), |row| {
+            format!("; at {} and before the value is the same: the sensor held, or was at the end of its range", measurement.place(row))
+        });
         warnings.push(format!(
-            "{samples}, the farthest at {} by {}",
+            "{samples}, the farthest at {} by {}{held}",
             measurement.place(farthest),
             measurement.shown(fitted.residuals[farthest].residual)
         ));
@@ -140,6 +149,12 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
             warnings.push(format!(
                 "{} is off by {off:.2e} (SI) in the mean beside the motion: check its zero, and the lengths of the scene",
                 sensor.column
+            ));
+        }
+        if sensor.residual_ljung_box > DEVIATIONS {
+            warnings.push(format!(
+                "{} differs from the motion by {:.2e} (SI), and not by noise: the sensors contradict each other, and no band covers that; check the zero and the sense of the angle, the unit and the zero of the position, and the lengths of the scene",
+                sensor.column, sensor.sigma
             ));
         }
     }
@@ -173,21 +188,26 @@ pub(super) fn alone(measurement: &Measurement) -> String {
     format!("{name} alone is taken, not the sensors beside it: only the smoother takes several")
 }
 
-/// Returns a warning if the samples do not resolve the torque within a turn.
+/// Returns a warning if the samples do not resolve the torque within each turn: within the fastest ones of a motion over turns.
 fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
     let times = measurement.elapsed();
-    let [first, last] = [0, times.len() - 1];
-    let steps = fitted
-        .motion
-        .windows(2)
-        .map(|w| w[1].value[0] - w[0].value[0]);
-    let turns = steps.map(f64::abs).sum::<f64>() / TAU;
-    let turn = (times[last] - times[first]) / turns;
-    let resolved = (1.0 / fitted.summary.corner_hz?).min(turn / fitted.told);
-    // The inertia varies twice in a turn.
-    (turns > 1.0 && 2.0 * resolved > turn).then(|| {
+    let duration = times[times.len() - 1] - times[0];
+    let speeds = || fitted.motion.iter().map(|motion| motion.value[1].abs());
+    let steps = fitted.motion.windows(2);
+    let steps = steps.map(|w| (w[1].value[0] - w[0].value[0]).abs());
+    let turns = steps.sum::<f64>() / TAU;
+    let slowest = TAU * turns / duration;
+    let fastest = speeds().fold(slowest, f64::max);
+    let resolved = (1.0 / fitted.summary.corner_hz?).min(duration);
+    // The inertia varies twice in a turn, and harmonics that the samples determine resolve it at any speed.
+    let from = PI / resolved;
+    (turns > 1.0 && fitted.told < 2.0 && fastest > from).then(|| {
+        let at = match slowest > from {
+            true => format!("a turn takes {:.1e} s", TAU / slowest),
+            false => format!("a turn takes less than twice that from {from:.3} rad/s on"),
+        };
         format!(
-            "the noise hides how the torque varies in less than about {resolved:.1e} s, and a turn takes {turn:.1e} s: what it does within each turn is neither in the result nor in its band"
+            "the noise hides how the torque varies in less than about {resolved:.1e} s, and {at}: what it does within each turn is neither in the result nor in its band"
         )
     })
 }

@@ -18,4 +18,5 @@ mod outliers;
 mod polynomial;
 mod simulated;
 mod uncertain;
+mod unwrapping;
 mod white_snap;

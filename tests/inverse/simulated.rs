@@ -1122,6 +1122,28 @@ fn a_motor_alone_repeats_nothing_with_few_rows_in_a_turn() {
     }
 }
 
+/// A motor's line over the speed, seen by few precise samples in a turn: a motion without mechanics errs between them, and about
+/// that path a slope of the line that varies from sample to sample is likely. The line has two parameters, and the samples are
+/// worth few more.
+#[test]
+fn a_motor_alone_has_a_steady_line_with_few_rows_in_a_turn() {
+    for rows in [300, 400, 500] {
+        let start_up = Motion {
+            name: "start-up",
+            start: [0.2, 1.0],
+            end: 2.0,
+            rows,
+            torque: |_, _, omega| 8.0 - 0.05 * omega,
+        };
+        let truth = start_up.run();
+        for seed in 1..=4 {
+            let fit = of_angles(&start_up, &truth, 1e-5, seed).summary.fit;
+            let (worth, prior) = (fit.parameters, fit.prior);
+            assert!(worth < 60.0, "{rows}, seed {seed}: {worth}, {prior}");
+        }
+    }
+}
+
 /// A torque that repeats, seen by precise samples: the likelihood has a second maximum, at which the torque takes every sample's
 /// noise. Less process noise is likelier only with less of what repeats, so that a search along one of both ends there; white
 /// noise is then taken for correlated noise, or each sample is worth a parameter.

@@ -24,7 +24,6 @@ use self::gauss_newton::Search;
 use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
-use super::estimate::Estimate;
 use super::first_path::coarse;
 use super::hypotheses::FAR;
 use super::measurement_model::{Scale, Sensor};
@@ -107,7 +106,7 @@ fn identify_among(
     let mut theta = angles.theta;
     let mut at_rest = 0;
     if equation.loads().are_dry() {
-        let samples = problem.keep(moving(&smooth));
+        let samples = problem.keep(moving(&smooth, &problem.grid.times));
         at_rest = theta.len() - samples.len();
         theta = theta[samples].to_vec();
     }
@@ -150,23 +149,26 @@ fn identify_among(
 
 /// Returns the nodes between a rest at the begin and one at the end of the record: a dry load holds the crank there with any
 /// torque up to its magnitude, and the equation does not say with which.
-fn moving(smooth: &Smoothed) -> RangeInclusive<usize> {
+fn moving(smooth: &Smoothed, times: &[f64]) -> RangeInclusive<usize> {
     let estimates = &smooth.estimates;
-    let moved_from = |end: &Estimate| {
-        let [at, variance] = [end.state[0], end.covariance[0]];
-        move |other: &Estimate| {
-            let deviation = (variance + other.covariance[0]).sqrt();
-            (other.state[0] - at).abs() > FAR * deviation
-        }
-    };
     let last = estimates.len().saturating_sub(1);
-    let begin = estimates.first().map(moved_from);
-    let begin = begin.and_then(|moved| estimates.iter().position(moved));
-    let end = estimates.last().map(moved_from);
-    let end = end.and_then(|moved| estimates.iter().rposition(moved));
+    let squares = estimates.iter().map(|estimate| estimate.state[1].powi(2));
+    let usual = (squares.sum::<f64>() / estimates.len() as f64).sqrt();
+    let is_apart = |end: usize, node: usize| {
+        let [a, b] = [&estimates[end], &estimates[node]];
+        (a.state[0] - b.state[0]).abs() > FAR * (a.covariance[0] + b.covariance[0]).sqrt()
+    };
+    // At rest the crank goes less than half of its usual way.
+    let is_rest = |end: usize, node: usize| {
+        let way = (estimates[end].state[0] - estimates[node].state[0]).abs();
+        way < 0.5 * usual * (times[end] - times[node]).abs()
+    };
     // An end whose neighbour is apart from it is no rest.
-    let begin = begin.filter(|begin| *begin > 1).unwrap_or(0);
-    begin..=end.filter(|end| end + 1 < last).unwrap_or(last)
+    let begin = (0..=last).find(|node| is_apart(0, *node));
+    let begin = begin.filter(|node| *node > 1 && is_rest(0, *node));
+    let end = (0..=last).rev().find(|node| is_apart(last, *node));
+    let end = end.filter(|node| node + 1 < last && is_rest(last, *node));
+    begin.unwrap_or(0)..=end.unwrap_or(last)
 }
 
 /// Refuses an empty list of free values, and duplicate keys.
@@ -191,10 +193,14 @@ fn modelled(scene: &Scene) -> Result<(), Error> {
         (_, Some(_)) => "Coulomb friction at the guide",
         _ => return Ok(()),
     };
-    Err(Error::refused(
+    Err(not_modelled(what))
+}
+
+fn not_modelled(what: &str) -> Error {
+    Error::refused(
         format!("identify does not model {what}"),
         "take it out of the scene; a [[force]] or [[torque]] of kind \"dry\" has a friction force or moment that can be free",
-    ))
+    )
 }
 
 fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> Vec<String> {

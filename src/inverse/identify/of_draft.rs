@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{FreeValue, Identification, identify_among};
+use super::{FreeValue, Identification, identify_among, not_modelled};
 use crate::error::Error;
 use crate::numeric::stop::Stop;
 use crate::scene::{Assigned, Draft, Measured, Measurement, NumberKey, Scene};
@@ -33,6 +33,13 @@ impl FreeKey {
     fn value(self, draft: &Draft, crank: f64, measured: Measured) -> Result<FreeValue, Error> {
         Ok(match self {
             FreeKey::Key(key) => {
+                match key.to_string().split('.').next() {
+                    Some("friction") => {
+                        return Err(not_modelled("Coulomb friction at the guide"));
+                    }
+                    Some("clearance") => return Err(not_modelled("clearance in a joint")),
+                    _ => {}
+                }
                 let start = draft.number(&key)?;
                 let scale = match (start, key.unit()) {
                     (_, "m") => crank.max(start.abs()),

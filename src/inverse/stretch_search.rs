@@ -1,0 +1,142 @@
+//! Search for a stretch of another intensity of the process noise: factor and ends with the largest likelihood.
+
+use std::ops::Range;
+
+use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
+use super::scales::Noise;
+use super::smoother::Smoothed;
+use super::state_space::Stretch;
+use crate::numeric::maximum::largest_to;
+use crate::numeric::parallel;
+
+/// ln of the largest factor, and tolerance of its search.
+const LARGEST: f64 = 25.0;
+const WIDTH: f64 = 0.3;
+
+/// Steps whose intensity is `factor` times what it was, or part of it.
+#[derive(Clone, Debug)]
+pub(super) struct Guess {
+    pub steps: Range<usize>,
+    /// ln of the factor of an intensity that is higher, or of its inverse.
+    pub log: f64,
+    pub is_higher: bool,
+    pub likelihood: f64,
+}
+
+/// Returns the likelier of two guesses.
+fn likelier(a: Guess, b: Guess) -> Guess {
+    match b.likelihood > a.likelihood {
+        true => b,
+        false => a,
+    }
+}
+
+/// A stretch of the linear model, in which steps may have another intensity.
+pub(super) struct Trial<'a> {
+    pub found: &'a Smoothed,
+    pub stretch: &'a Stretch,
+    pub noise: Noise,
+}
+
+impl Trial<'_> {
+    /// Returns the likeliest of some guesses, with its likeliest factor and ends; those of which a coarse search finds the likeliest
+    /// factors are searched on, as the likelihood has several maxima.
+    pub fn likeliest(&self, guesses: Vec<Guess>) -> Option<Guess> {
+        let coarse = |guess| self.with_factor(guess, WIDTH);
+        let mut tried = parallel::map(guesses.into_iter(), coarse);
+        tried.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
+        let searched_on = 3;
+        tried.truncate(searched_on);
+        let found = parallel::map(tried.into_iter(), |guess| self.with_ends(guess));
+        let best = found.into_iter().reduce(likelier)?;
+        Some(self.no_lower_than_told(best))
+    }
+
+    /// Returns a guess of a lower intensity with one that is hardly less likely and higher: the likelihood tells whether there is
+    /// any, and no more below that.
+    fn no_lower_than_told(&self, best: Guess) -> Guess {
+        let mut found = best.clone();
+        while !best.is_higher && found.log > WIDTH {
+            let half = self.evaluated(Guess {
+                log: 0.5 * found.log,
+                ..found.clone()
+            });
+            if half.likelihood < best.likelihood - SIGNIFICANT_RISE {
+                break;
+            }
+            found = half;
+        }
+        found
+    }
+
+    /// Returns the stretch with the intensity of a guess.
+    pub fn with(&self, guess: &Guess) -> Stretch {
+        let mut other = self.stretch.clone();
+        let among = other.steps[guess.steps.clone()].iter_mut();
+        among.for_each(|step| step.intensity *= guess.factor());
+        other
+    }
+
+    /// Returns a guess with its likelihood.
+    fn evaluated(&self, mut guess: Guess) -> Guess {
+        let linear = &[self.with(&guess)];
+        guess.likelihood = self.found.linear(linear).evaluated(self.noise).likelihood;
+        guess
+    }
+
+    /// Returns a guess with its likeliest factor, whose ln is found to about twice a width.
+    fn with_factor(&self, guess: Guess, width: f64) -> Guess {
+        let at = |log: f64| Guess {
+            log,
+            ..guess.clone()
+        };
+        let value = |log: f64| self.evaluated(at(log)).likelihood;
+        let (log, likelihood) = largest_to(value, [0.0, LARGEST], width);
+        likelier(
+            guess.clone(),
+            Guess {
+                likelihood,
+                ..at(log)
+            },
+        )
+    }
+
+    /// Returns a guess with likelier ends: each moves by parts of the length, a half at first, while the likelihood rises.
+    fn with_ends(&self, mut guess: Guess) -> Guess {
+        let mut by = guess.steps.len() / 2 + 1;
+        while by > 0 {
+            let Range { start, end } = guess.steps;
+            let count = self.stretch.steps.len();
+            let moved = [
+                start.saturating_sub(by)..end,
+                (start + by).min(end - 1)..end,
+                start..(end + by).min(count),
+                start..end.saturating_sub(by).max(start + 1),
+            ];
+            let tried = parallel::map(moved.into_iter(), |steps| {
+                self.evaluated(Guess {
+                    steps,
+                    ..guess.clone()
+                })
+            });
+            match tried
+                .into_iter()
+                .reduce(likelier)
+                .filter(|next| next.likelihood > guess.likelihood + ENOUGH_RISE)
+            {
+                Some(next) => guess = self.with_factor(next, WIDTH),
+                None => by /= 2,
+            }
+        }
+        guess
+    }
+}
+
+impl Guess {
+    pub fn factor(&self) -> f64 {
+        match self.is_higher {
+            true => self.log.exp(),
+            false => (-self.log).exp(),
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Crank angles as instruments write them: reduced to a turn, to a cycle or by a counter, with gaps, values that are far off, and
+//! sensors that hold. A flywheel that turns evenly needs no torque.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use super::noise::Random;
+use slider_crank::inverse::{Inverse, InverseOptions, inverse};
+use slider_crank::scene::{Crank, Measured, Measurement, Reading, Scene};
+
+const SPEED: f64 = 80.0;
+const NOISE: f64 = 1e-4;
+
+fn flywheel() -> Scene {
+    Scene::new(0.05, 0.15).crank(Crank {
+        inertia: 0.03,
+        ..Crank::default()
+    })
+}
+
+/// Returns times, s, and crank angles, rad, of an even rotation with this number of rows in a turn.
+fn turning(turns: f64, in_a_turn: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut random = Random(7919);
+    let rows = (turns * in_a_turn) as usize;
+    let times = (0..rows).map(|k| k as f64 * TAU / SPEED / in_a_turn);
+    let times: Vec<f64> = times.collect();
+    let angle = |t: &f64| 0.3 + SPEED * t + NOISE * random.normal();
+    let angles = times.iter().map(angle).collect();
+    (times, angles)
+}
+
+fn found(times: Vec<f64>, angles: Vec<f64>) -> Inverse {
+    let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
+    inverse(&flywheel(), &motion, &InverseOptions::default()).expect("an inversion")
+}
+
+/// Noise tells the speed of a stretch of a few turns to 1e-3 of it.
+#[track_caller]
+fn turns_evenly(found: &Inverse, from: f64) {
+    for row in &found.rows {
+        let off = row.theta - from - SPEED * row.t;
+        assert!(off.abs() < 0.01, "{}: {}", row.t, row.theta);
+        assert!((row.omega - SPEED).abs() < 0.1, "{}: {}", row.t, row.omega);
+    }
+}
+
+#[test]
+fn angles_reduced_to_one_or_two_turns_are_continued() {
+    for [low, period] in [[0.0, TAU], [-PI, TAU], [0.0, 2.0 * TAU], [-TAU, 2.0 * TAU]] {
+        let (times, angles) = turning(9.0, 60.0);
+        let reduced = angles.iter().map(|a| (a - low).rem_euclid(period) + low);
+        let found = found(times, reduced.collect());
+        turns_evenly(&found, 0.3);
+    }
+}
+
+/// As few as 5 rows in a turn, of which one is a value that no angle has, and one is 0.
+#[test]
+fn values_that_are_far_off_do_not_stop_the_continuation() {
+    for in_a_turn in [5.0, 7.0, 100.0] {
+        let (times, angles) = turning(12.0, in_a_turn);
+        let mut reduced: Vec<f64> = angles.iter().map(|a| a.rem_euclid(TAU)).collect();
+        reduced[20] = 17.9;
+        reduced[33] = 0.0;
+        turns_evenly(&found(times, reduced), 0.3);
+    }
+}
+
+/// Half a turn to 2.3 turns pass without a row: the speed on both sides says how many.
+#[test]
+fn the_turns_of_a_gap_are_those_of_the_speed_about_it() {
+    for missing in [50, 98, 150, 230] {
+        let (times, angles) = turning(9.0, 100.0);
+        let kept = |k: &usize| !(400..400 + missing).contains(k);
+        let rows: Vec<usize> = (0..times.len()).filter(kept).collect();
+        let times = rows.iter().map(|k| times[*k]).collect();
+        let reduced = rows.iter().map(|k| angles[*k].rem_euclid(TAU)).collect();
+        turns_evenly(&found(times, reduced), 0.3);
+    }
+}
+
+/// Before a gap of a turn the crank is three times as fast as after it: one turn or two may have passed.
+#[test]
+fn a_gap_between_different_speeds_is_refused() {
+    let time = |k: usize| 1e-3 * k as f64;
+    let angle = |t: f64| {
+        if t < 0.3 {
+            60.0 * t
+        } else {
+            18.0 + 20.0 * (t - 0.3)
+        }
+    };
+    let rows: Vec<usize> = (0..250).chain(420..700).collect();
+    let times = rows.iter().map(|k| time(*k)).collect();
+    let reduced = rows
+        .iter()
+        .map(|k| angle(time(*k)).rem_euclid(TAU))
+        .collect();
+    let motion = Measurement::new(Measured::Theta, times, reduced).expect("samples");
+    let refused = inverse(&flywheel(), &motion, &InverseOptions::default());
+    let said = refused.expect_err("not known").to_string();
+    assert!(said.contains("nor how far"), "{said}");
+}
+
+/// A counter of 16 bits with 3600 counts in a turn, whose period is 18.2 turns, and one that is reset by whole turns.
+#[test]
+fn counters_that_wrap_or_are_reset_are_continued() {
+    let (times, angles) = turning(30.0, 40.0);
+    let count = |angle: &f64| (angle / TAU * 3600.0).floor() as i64;
+    for wrapped in [
+        |count: i64, _: usize| (count + 40_000) % 65_536,
+        |count: i64, k: usize| if k < 600 { count } else { count - 5 * 3600 },
+    ] {
+        let mut text = "t [s],count\n".to_owned();
+        for (k, (t, angle)) in times.iter().zip(&angles).enumerate() {
+            text += &format!("{t},{}\n", wrapped(count(angle), k));
+        }
+        let reading = Reading {
+            counts_per_turn: Some(3600),
+            ..Reading::default()
+        };
+        let motion = Measurement::parse(Path::new("counts.csv"), text, &reading).expect("counts");
+        let found = inverse(&flywheel(), &motion, &InverseOptions::default()).expect("a motion");
+        let from = found.rows[0].theta;
+        turns_evenly(&found, from);
+    }
+}
+
+/// For 40 rows the sensor shows its last value, and a sensor of x is at the end of its range.
+#[test]
+fn a_sensor_that_holds_is_not_followed() {
+    let (times, mut angles) = turning(9.0, 100.0);
+    let last = angles[399];
+    angles[400..440].fill(last);
+    let found = found(times, angles);
+    turns_evenly(&found, 0.3);
+    let said = found.summary.warnings.join("\n");
+    assert!(
+        said.contains("at sample 401 and before the value is the same"),
+        "{said}"
+    );
+}
+
+/// The index mark of the crank angle is 30 degrees off beside a slider position that is right.
+#[test]
+fn sensors_that_contradict_each_other_are_named() {
+    let (times, angles) = turning(6.0, 60.0);
+    let mut random = Random(104_729);
+    let x = |theta: &f64| {
+        let rod = (0.15f64.powi(2) - (0.05 * theta.sin()).powi(2)).sqrt();
+        0.05 * theta.cos() + rod + 1e-5 * random.normal()
+    };
+    let positions: Vec<f64> = angles.iter().map(x).collect();
+    for (off, is_named) in [(PI / 6.0, true), (0.0, false)] {
+        let shown = angles.iter().map(|angle| angle + off).collect();
+        let motion = Measurement::new(Measured::Theta, times.clone(), shown)
+            .and_then(|motion| {
+                let beside = slider_crank::scene::Beside::Sensor(Measured::X);
+                motion.with(beside, positions.clone())
+            })
+            .expect("samples");
+        let found = inverse(&flywheel(), &motion, &InverseOptions::default()).expect("a motion");
+        let said = found.summary.warnings.join("\n");
+        assert_eq!(
+            said.contains("x differs from the motion"),
+            is_named,
+            "{said}"
+        );
+    }
+}
