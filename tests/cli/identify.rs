@@ -75,3 +75,11 @@ fn what_cannot_be_free_is_refused() {
     refused("motion.speed", &["does not depend"]);
     refused("crank.inertia,crank.inertia", &["twice"]);
 }
+
+/// Friction at the guide cannot be free: no first guess for it is asked for.
+#[test]
+fn friction_at_the_guide_is_refused_at_once() {
+    let words = ["does not model Coulomb friction at the guide", "dry"];
+    let refused = identify(&Folder::new(), &["--free", "friction.coefficient"]);
+    refused.fails(2, &words);
+}
