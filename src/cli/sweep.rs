@@ -12,7 +12,7 @@ use crate::plan::Method;
 use crate::report::{self, SweepSummaryOptions, SweepWriter};
 use crate::scene::Varied;
 use crate::simulate::{Options, Stop};
-use crate::sweep::{Figure, Goal, LatinHypercube, Sweep, SweepOptions};
+use crate::sweep::{Figure, Goal, LatinHypercube, Source, Sweep, SweepOptions};
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
@@ -118,9 +118,17 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let (read, out) = (arguments.scene.as_ref(), arguments.out.as_ref());
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
     let draft = streams.draft(read)?;
+    let figures = arguments.figures();
+    let is_of_motion = |figure: &&Figure| matches!(figure.source(), Source::Motion | Source::Peaks);
+    if let Some(figure) = figures.iter().find(is_of_motion)
+        && arguments.no_motion
+    {
+        let what = format!("{figure} is a figure of the motion, and --no-motion leaves it out");
+        return Err(Error::refused(what, "leave one of both out"));
+    }
     let (sample, seed) = (arguments.sample, arguments.seed);
     let options = SweepOptions {
-        figures: arguments.figures(),
+        figures,
         sample: sample.map(|count| LatinHypercube { count, seed }),
         diagrams: false,
         motion: !arguments.no_motion,

@@ -13,6 +13,8 @@ pub(crate) use closed_form::of_checked;
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
 pub use diagrams::{Counterweight, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
+#[cfg(feature = "cli")]
+pub(crate) use one_turn::left_out_of_forces;
 pub use one_turn::{LengthSlope, MOST_ROWS_OF_TURN, OneTurn, TurnOptions, TurnRow, one_turn};
 pub use synthesis::{Choice, Synthesis, synthesis};
 pub use turning_moment::{Area, TurningMoment};

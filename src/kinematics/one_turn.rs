@@ -94,14 +94,8 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
     if let (Some(Err(reason)), Some(_)) = (&torque_slope, kinematics.speed_rad_per_s) {
         kinematics.warnings.push(reason.to_string());
     }
-    for (name, is_given) in [
-        ("friction", scene.friction.is_some()),
-        ("clearance", scene.clearance.is_some()),
-    ] {
-        if options.forces && is_given {
-            let what = format!("the {name} of the scene is not in these forces");
-            kinematics.warnings.push(what);
-        }
+    if options.forces {
+        kinematics.warnings.extend(left_out_of_forces(scene));
     }
     let forces = options.forces.then(|| forces(scene)).transpose()?;
     if let Some(why) = forces.as_ref().and_then(|f| f.not_repeating.as_ref()) {
@@ -117,6 +111,16 @@ pub fn one_turn(scene: &Scene, options: &TurnOptions) -> Result<OneTurn, Error> 
         has_slopes: options.sensitivity,
         torque_slope: torque_slope.and_then(Result::ok),
     })
+}
+
+/// Returns warnings about what forces at constant speed leave out of a scene.
+pub(crate) fn left_out_of_forces(scene: &Scene) -> impl Iterator<Item = String> {
+    let parts = [
+        scene.friction.is_some().then_some("friction"),
+        scene.clearance.is_some().then_some("clearance"),
+    ];
+    let said = |name| format!("the {name} of the scene is not in the forces at constant speed");
+    parts.into_iter().flatten().map(said)
 }
 
 fn changed(scene: &Scene, change: &[(Length, f64)]) -> Result<Option<Kinematics>, Error> {

@@ -10,7 +10,7 @@ use crate::numeric::{gauss, root};
 pub struct TurningMoment {
     /// Mean torque, N m.
     pub mean_nm: f64,
-    /// Work of the drive of the crank per cycle, J, with the sign of the torque.
+    /// Work of the drive of the crank per cycle, J, in the sense of the speed: positive where the drive turns the crank.
     pub work_j: f64,
     /// Greatest minus least stored energy, J.
     pub fluctuation_j: f64,
@@ -25,7 +25,7 @@ pub struct Area {
     pub from_rad: f64,
     /// Crank angle of the end, rad.
     pub to_rad: f64,
-    /// Energy, J; positive where the torque is above its mean.
+    /// Energy, J; positive where the drive gives more than in the mean.
     pub energy_j: f64,
 }
 
@@ -68,9 +68,10 @@ impl ForceAnalysis {
         let first = first.map(|(to, energy)| (to + self.whole(), energy + stored));
         let areas = crossings.iter().zip(next.chain(first));
         let energies = || crossings.iter().map(|(_, energy)| *energy);
+        let sense = self.speed_rad_per_s.signum();
         TurningMoment {
             mean_nm: mean,
-            work_j: work,
+            work_j: sense * work,
             fluctuation_j: (energies().fold(f64::NEG_INFINITY, f64::max)
                 - energies().fold(f64::INFINITY, f64::min))
             .max(0.0),
@@ -78,7 +79,7 @@ impl ForceAnalysis {
                 .map(|((from, before), (to, after))| Area {
                     from_rad: *from,
                     to_rad: to,
-                    energy_j: after - before,
+                    energy_j: sense * (after - before),
                 })
                 .collect(),
         }

@@ -1,4 +1,4 @@
-//! Static slider force from the crank torque over one turn, or the reverse, by virtual work, with the friction band.
+//! Static slider force from the crank torque over the cycle of the loads, or the reverse, by virtual work, with the friction band.
 
 use std::f64::consts::TAU;
 
@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::kinematics::Located;
 use crate::mechanism::{Equilibrium, Limits, NamedPosition, Statics};
 use crate::numeric::angle;
+use crate::plan::Cycle;
 use crate::scene::{Load, Scene, Variables};
 
 /// Values in place of the scene's own loads and friction.
@@ -32,6 +33,8 @@ pub struct StaticAnalysis {
     pub sought: &'static str,
     /// Static friction coefficient at the guide.
     pub friction: f64,
+    /// Turns after which the loads repeat; 1 for loads that do not.
+    pub cycle_turns: u32,
     /// Minima of the magnitude of the slider force (N) or crank torque (N m), without friction: zero where the loads
     /// balance each other.
     pub least: Vec<Located>,
@@ -121,8 +124,11 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     let without_value = |theta: f64| {
         linkage.pose(theta).is_regular() && !equation.load(0.0, theta, 0.0).is_finite()
     };
-    let grid = linkage.turn_grid(false).into_iter();
-    if grid.map(|theta| theta.rem_euclid(TAU)).any(without_value) {
+    let cycle_turns = Cycle::of(&scene).turns.unwrap_or(1);
+    let turn = linkage.turn_grid(false);
+    let whole = f64::from(cycle_turns) * TAU;
+    let grid = angle::in_turns(&turn, 0..i64::from(cycle_turns));
+    if grid.map(|theta| theta.rem_euclid(whole)).any(without_value) {
         warnings.push(
             "a load has no finite value at some crank angles, outside its table or the domain of its formula: their rows are left empty"
                 .to_owned(),
@@ -136,6 +142,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
             None => "slider-force",
         },
         friction,
+        cycle_turns,
         least: Vec::new(),
         least_with_friction: Vec::new(),
         self_locking_rad,
@@ -166,9 +173,14 @@ impl StaticAnalysis {
         }
     }
 
-    /// Iterates over the rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
+    /// Iterates over the rows of the cycle, from angle 0 to its end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = StaticsRow> + '_ {
-        angle::turn(step).map(|theta| self.row(theta))
+        angle::turns(self.cycle_turns, step).map(|theta| self.row(theta))
+    }
+
+    /// Returns the angle at which the cycle ends, rad.
+    pub(super) fn whole(&self) -> f64 {
+        f64::from(self.cycle_turns) * TAU
     }
 
     pub(super) fn balance(&self, theta: f64) -> Equilibrium {

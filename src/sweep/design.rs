@@ -2,7 +2,7 @@
 
 use super::SweepOptions;
 use crate::error::Error;
-use crate::kinematics::{self, Diagrams, Kinematics, forces};
+use crate::kinematics::{self, Diagrams, Kinematics, forces, left_out_of_forces};
 use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
@@ -72,6 +72,7 @@ impl Design {
         self.notes.extend(turn.warnings.iter().cloned());
         self.kinematics = Some(turn);
         if options.diagrams {
+            self.notes.extend(left_out_of_forces(scene));
             match forces(scene) {
                 // Counterweight for half of the reciprocating mass, the usual part.
                 Ok(analysis) => self.diagrams = analysis.diagrams(scene, 0.5),

@@ -129,8 +129,8 @@ impl Figure {
         Steady: |design| design.steady.as_ref(), |steady| {
             "cycle_turns": Number = Number(f64::from(steady.cycle_turns));
             "steady_omega_mean": AngularSpeed = Number(steady.omega_mean_rad_per_s.value);
-            "steady_omega_min": AngularSpeed = Number(steady.slowest.omega_rad_per_s.value);
-            "steady_omega_max": AngularSpeed = Number(steady.fastest.omega_rad_per_s.value);
+            "steady_omega_min": AngularSpeed = Number(steady.omegas()[0]);
+            "steady_omega_max": AngularSpeed = Number(steady.omegas()[1]);
             "fluctuation": Number = Number(steady.fluctuation.value);
             "error_fluctuation": Number = Number(steady.fluctuation.error);
             "steady_power_in": Power = Number(steady.power_in_w.value);

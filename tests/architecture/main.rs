@@ -34,7 +34,14 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     ),
     (
         "statics",
-        &["scene", "mechanism", "kinematics", "numeric", "error"],
+        &[
+            "scene",
+            "mechanism",
+            "plan",
+            "kinematics",
+            "numeric",
+            "error",
+        ],
     ),
     (
         "explain",

@@ -191,6 +191,8 @@ fn largest_forces_are_those_of_the_scene_with_its_values_written_out() {
     }
     let words = ["largest joint forces", "--no-motion"];
     run(&folder, &["--reactions", "--no-motion"]).fails(2, &words);
+    let words = ["figure of the motion", "--no-motion"];
+    run(&folder, &["--figures", "omega", "--no-motion"]).fails(2, &words);
 }
 
 #[test]

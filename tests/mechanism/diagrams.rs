@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
-use slider_crank::kinematics::{Diagrams, TurnOptions, one_turn};
-use slider_crank::scene::{Scene, Slider};
+use slider_crank::kinematics::{Diagrams, TurnOptions, forces, one_turn};
+use slider_crank::scene::{Crank, Load, Period, Scene, Slider, Variables};
 
 const CRANK: f64 = 0.05;
 const SPEED: f64 = 40.0;
@@ -249,6 +249,37 @@ fn the_largest_shaking_force_is_located() {
                 error <= missed * expected,
                 "{value} for {expected} at {gap}"
             );
+        }
+    }
+}
+
+/// A drag −c ω takes 2π c |ω| a turn from the drive in either sense of rotation, and one that grows with sin θ takes more of it where
+/// it is larger.
+#[test]
+fn the_work_of_the_drive_has_the_sense_of_the_speed() {
+    for speed in [20.0, -20.0] {
+        let drag = Load::function(Variables::THETA.or(Variables::OMEGA), |now| {
+            -0.02 * now.omega * (1.0 + 0.5 * now.theta.sin())
+        })
+        .with_period(Period::turns(1).expect("a turn"));
+        let crank = Crank {
+            inertia: 0.02,
+            ..Crank::default()
+        };
+        let scene = Scene::new(0.05, 0.15)
+            .crank(crank)
+            .torque(drag)
+            .constant_speed(0.0, speed);
+        let found = forces(&scene)
+            .unwrap()
+            .diagrams(&scene, 0.5)
+            .expect("diagrams");
+        let moment = found.turning_moment;
+        close(moment.work_j, TAU * 0.02 * 20.0, 1.0);
+        close(moment.mean_nm, 0.02 * speed, 1.0);
+        for area in moment.areas {
+            let is_upper = area.from_rad < 0.5 * PI || area.from_rad > 1.5 * PI;
+            assert_eq!(area.energy_j > 0.0, is_upper, "{area:?}");
         }
     }
 }

@@ -9,8 +9,8 @@ use crate::support::{close, geometry};
 use proptest::prelude::*;
 use slider_crank::mechanism::{Linkage, Statics, drum_torque, friction_from_tilt};
 use slider_crank::scene::{
-    Branch, Friction, Gravity, Interpolation, Load, RodModel, Scene, Slider, Table, Variable,
-    Variables,
+    Branch, Friction, Gravity, Interpolation, Load, Period, RodModel, Scene, Slider, Table,
+    Variable, Variables,
 };
 use slider_crank::statics::{StaticAnalysis, StaticsOptions, statics};
 
@@ -535,4 +535,44 @@ fn one_range_of_locking_through_the_normal_of_the_guide() {
             1e-13,
         );
     }
+}
+
+/// A force −F sin(θ/2) of the slider repeats after two turns: what holds it is F sin(θ/2), which vanishes at 0 and 360 deg alone.
+#[test]
+fn the_equilibrium_covers_the_cycle_of_the_loads() {
+    let load = Load::function(Variables::THETA, |now| -100.0 * (0.5 * now.theta).sin())
+        .with_period(Period::turns(2).expect("two turns"));
+    let found = statics(
+        &Scene::new(0.05, 0.15).force(load),
+        &StaticsOptions::default(),
+    )
+    .unwrap();
+    let rows: Vec<_> = found.rows(PI / 12.0).collect();
+    assert_eq!(rows.len(), 49);
+    for row in rows {
+        let at_dead_centre = (row.theta / PI - (row.theta / PI).round()).abs() < 1e-9;
+        let Some(band) = row.balance.band.filter(|_| !at_dead_centre) else {
+            continue;
+        };
+        close(
+            "force",
+            band.value,
+            100.0 * (0.5 * row.theta).sin(),
+            100.0,
+            1e-12,
+        );
+    }
+    let zeros: Vec<f64> = found
+        .least
+        .iter()
+        .filter(|at| at.value.abs() < 1e-9)
+        .map(|at| at.theta_rad)
+        .collect();
+    assert!(zeros.iter().any(|at| (at - TAU).abs() < 1e-6), "{zeros:?}");
+    assert!(
+        zeros
+            .iter()
+            .all(|at| (at / TAU - (at / TAU).round()).abs() < 1e-6),
+        "{zeros:?}"
+    );
 }

@@ -53,7 +53,7 @@ impl EvenSpacing {
                 .and_then(|quantity| unit::exact_factor(last_unit, quantity)),
         };
         // Values are monotonic: a fault of any of them is a fault of one of these.
-        for index in [0, 1, count.saturating_sub(2), count - 1] {
+        for index in [0, count - 1, 1, count.saturating_sub(2)] {
             let text = spacing.value(index.min(count - 1)).text;
             value::read_text(key, &text).map_err(|error| error.to_string())?;
         }

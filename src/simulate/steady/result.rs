@@ -82,6 +82,12 @@ impl SteadyState {
         scene.run.extent = scene.run.extent.or(cycle);
         scene
     }
+
+    /// Returns the least and the largest signed speed, rad/s.
+    pub fn omegas(&self) -> [f64; 2] {
+        let [a, b] = [&self.slowest, &self.fastest].map(|extreme| extreme.omega_rad_per_s.value);
+        [a.min(b), a.max(b)]
+    }
 }
 
 /// Work of one load over a period.
