@@ -115,12 +115,19 @@ impl TableInterpolant {
         (first..=last).flat_map(again).filter(inside).collect()
     }
 
+    /// True for an argument within the range, but for its rounding.
+    fn covers(&self, at: f64) -> bool {
+        let (low, high) = self.range();
+        let rounding = 4.0 * f64::EPSILON * low.abs().max(high.abs());
+        (low - rounding..=high + rounding).contains(&at)
+    }
+
     /// Returns the value at `at`; NaN outside the range of a curve that is not periodic.
     pub fn value(&self, at: f64) -> f64 {
         let (low, high) = self.range();
         let at = match self.period {
             Some(period) => low + reduced(at - low, period, self.period_remainder),
-            None if (low..=high).contains(&at) => at,
+            None if self.covers(at) => at.clamp(low, high),
             None => return f64::NAN,
         };
         let i = self.interval(at);
@@ -148,7 +155,7 @@ impl TableInterpolant {
         } = over;
         if to - from >= high - low {
             let all = self.y.iter().map(|y| Interval::point(*y));
-            let inside = self.period.is_some() || low <= from && to <= high;
+            let inside = self.period.is_some() || self.covers(from) && self.covers(to);
             return match all.reduce(Interval::hull) {
                 Some(all) if inside => Enclosed::not_analytic(all),
                 _ => Enclosed::UNKNOWN,

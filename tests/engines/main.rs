@@ -11,6 +11,7 @@ mod closures;
 mod crossings;
 mod cycles;
 mod ends;
+mod ends_at_angles;
 mod energy_engine;
 mod energy_estimates;
 mod energy_integral;

@@ -1,4 +1,4 @@
-//! Errors of motions over the crank angle, from roundoff of times and positions and from truncation of the series.
+//! Errors of motions over the crank angle or up to an angle, from roundoff of times and positions and from truncation of the series.
 
 use super::super::energy_balance::EnergyBalance;
 use super::super::result::ErrorEstimate;
@@ -106,5 +106,24 @@ pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> Err
     ErrorEstimate {
         theta_rad: MARGIN * angle.minus(other).abs() + last.theta_rad,
         omega_rad_per_s: MARGIN * (speed - faster).abs() + last.omega_rad_per_s,
+    }
+}
+
+/// Returns the error of a run that ends at an angle: there a lead of the angle is one of the time, and the speed has what the
+/// acceleration makes of that.
+pub(super) fn error_at_angle(
+    task: &RunSetup<'_>,
+    [result, best]: [&PassResult; 2],
+    error: ErrorEstimate,
+) -> ErrorEstimate {
+    let MotionState { t, angle, speed } = result.state;
+    let slope = task.maker.forward(t, angle, speed).0 / speed;
+    let lead = angle.minus(best.state.angle);
+    let late = (speed - best.state.speed - slope * lead).abs();
+    // What the distance of the two runs does not show.
+    let omega = MARGIN * late + (slope * (error.theta_rad - MARGIN * lead.abs())).abs();
+    ErrorEstimate {
+        theta_rad: error.theta_rad,
+        omega_rad_per_s: if omega.is_finite() { omega } else { 0.0 },
     }
 }

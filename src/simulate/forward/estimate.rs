@@ -18,7 +18,7 @@ use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
 use super::errors_over_angle::{
-    TURN_ROUNDING, by_energy, error_of_delay, row_error, worst_row_error,
+    TURN_ROUNDING, by_energy, error_at_angle, error_of_delay, row_error, worst_row_error,
 };
 use super::over_angle::second_run_resolution;
 use super::stop_reason;
@@ -95,7 +95,10 @@ pub(super) fn estimate(
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
     };
-    let error = distance(pass.task, result, &best, covariance);
+    let mut error = distance(pass.task, result, &best, covariance);
+    if matches!(pass.extent, Extent::Revolutions(_)) {
+        error = error.max(error_at_angle(pass.task, [result, &best], error));
+    }
     let rows = match (&result.angle_piece, &best.angle_piece) {
         _ if !result.is_one_piece() => None,
         (Some(one), Some(other)) => wants_rows.then(|| {
