@@ -133,6 +133,7 @@ impl Trial<'_> {
 }
 
 impl Guess {
+    /// Returns the factor of the intensity.
     pub fn factor(&self) -> f64 {
         match self.is_higher {
             true => self.log.exp(),

@@ -3,14 +3,14 @@
 use super::branch_tracking::CrankAngles;
 use super::measurement_model::Sensor;
 use crate::error::Error;
-use crate::scene::Measurement;
+use crate::scene::{Measurement, Unwrapped};
 
 /// Returns a measured crank angle, continued over the turns.
 pub(super) fn unwrap<'a>(
     sensor: &Sensor<'a>,
     measurement: &Measurement,
 ) -> Result<CrankAngles<'a>, Error> {
-    let (theta, said) = measurement.unwrapped()?;
+    let Unwrapped { theta, warning } = measurement.unwrapped()?;
     let unreachable = |(sample, theta): (usize, &f64)| {
         (!sensor.linkage.pose(*theta).is_regular()).then(|| {
             let what = format!(
@@ -37,6 +37,6 @@ pub(super) fn unwrap<'a>(
         sensor: *sensor,
         theta,
         sigma: 0.0,
-        warnings: Vec::from_iter(said),
+        warnings: Vec::from_iter(warning),
     })
 }

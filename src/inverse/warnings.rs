@@ -192,18 +192,18 @@ pub(super) fn alone(measurement: &Measurement) -> String {
 fn slow(fitted: &Fitted, measurement: &Measurement) -> Option<String> {
     let times = measurement.elapsed();
     let duration = times[times.len() - 1] - times[0];
-    let speeds = || fitted.motion.iter().map(|motion| motion.value[1].abs());
+    let speeds = fitted.motion.iter().map(|motion| motion.value[1].abs());
     let steps = fitted.motion.windows(2);
     let steps = steps.map(|w| (w[1].value[0] - w[0].value[0]).abs());
     let turns = steps.sum::<f64>() / TAU;
-    let slowest = TAU * turns / duration;
-    let fastest = speeds().fold(slowest, f64::max);
+    let mean = TAU * turns / duration;
+    let fastest = speeds.fold(mean, f64::max);
     let resolved = (1.0 / fitted.summary.corner_hz?).min(duration);
     // The inertia varies twice in a turn, and harmonics that the samples determine resolve it at any speed.
     let from = PI / resolved;
     (turns > 1.0 && fitted.told < 2.0 && fastest > from).then(|| {
-        let at = match slowest > from {
-            true => format!("a turn takes {:.1e} s", TAU / slowest),
+        let at = match mean > from {
+            true => format!("a turn takes {:.1e} s", TAU / mean),
             false => format!("a turn takes less than twice that from {from:.3} rad/s on"),
         };
         format!(

@@ -34,6 +34,7 @@ pub use file::{Assigned, Draft, NumberKey, Varied, VariedValue, printable, schem
 #[cfg(feature = "cli")]
 pub(crate) use file::{DUARTE, did_you_mean};
 pub use load::Load;
+pub(crate) use measurement::Unwrapped;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use model::{LoadKey, LoadOf, MovedScene, Scene};
 #[cfg(feature = "cli")]

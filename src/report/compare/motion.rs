@@ -43,7 +43,7 @@ impl Motion {
             Measured::X => "x_m",
         };
         let values = match measured.measured() {
-            Measured::Theta => measured.unwrapped()?.0,
+            Measured::Theta => measured.unwrapped()?.theta,
             _ => measured.values().to_vec(),
         };
         let rows = measured.times().iter().zip(values);

@@ -16,6 +16,7 @@ use super::csv::lines::{Dialect, line_number, span};
 use super::{Interpolation, Load, Problem, Problems, Scene, Table, Variable, text};
 use crate::error::Error;
 pub use measured::{Beside, BesideColumn, Measured, Reading};
+pub(crate) use unwrap::Unwrapped;
 
 /// CSV text of the motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
 pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");

@@ -16,8 +16,13 @@ const ONE_PERIOD: f64 = 1.05;
 /// Ratio of the speed at a jump by more than half a turn to the median speed, above which the jump is reported.
 const JUMP: f64 = 10.0;
 
-/// Crank angles, rad, continued over the turns, and the warning about it.
-pub(crate) type Unwrapped = (Vec<f64>, Option<String>);
+/// Crank angles continued over the turns.
+pub(crate) struct Unwrapped {
+    /// Crank angle at each sample, rad.
+    pub theta: Vec<f64>,
+    /// Warning about what was continued.
+    pub warning: Option<String>,
+}
 
 impl Measurement {
     /// Returns a measured crank angle as it is, or continued if it was reduced to one turn, to a cycle of two, or by a counter.
@@ -28,15 +33,16 @@ impl Measurement {
         let mut theta = self.values.clone();
         let steps = Steps { measurement: self };
         if (1..theta.len()).all(|i| steps.change(i).abs() <= PI) {
-            return Ok((theta, None));
+            let warning = None;
+            return Ok(Unwrapped { theta, warning });
         }
-        let (offsets, said) = match period(self) {
+        let (offsets, warning) = match period(self) {
             Some(period) => steps.continued(period)?,
             None => steps.across_jumps().unwrap_or_default(),
         };
         let pairs = theta.iter_mut().skip(1).zip(offsets);
         pairs.for_each(|(theta, offset)| *theta += offset);
-        Ok((theta, said))
+        Ok(Unwrapped { theta, warning })
     }
 }
 
@@ -63,7 +69,7 @@ struct Steps<'a> {
 }
 
 /// What is to be added to the angles from the second sample on, rad, and the warning about it.
-type Continued = Unwrapped;
+type Continued = (Vec<f64>, Option<String>);
 
 impl Steps<'_> {
     fn count(&self) -> usize {
