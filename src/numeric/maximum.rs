@@ -99,16 +99,19 @@ pub fn among_rows(
         _ => best,
     };
     let mut best = rows.iter().copied().reduce(larger)?;
-    let last = rows.len() - 1;
-    let top = |row: usize| {
-        let beside = [row.saturating_sub(1), row, (row + 1).min(last)].map(|row| rows[row]);
+    let top = |rows: &[(f64, f64)], row: usize| {
+        let after = (row + 1).min(rows.len() - 1);
+        let beside = [row.saturating_sub(1), row, after].map(|row| rows[row]);
         let is_top = beside[1].1 >= beside[0].1.max(beside[2].1);
         is_top.then(|| (beside, reach(rows, row, beside)))
     };
-    let mut tops: Vec<_> = (0..=last).filter_map(top).collect();
+    let sides = between_jumps(rows);
+    let tops = sides.flat_map(|rows| (0..rows.len()).filter_map(move |row| top(rows, row)));
+    let mut tops: Vec<_> = tops.collect();
     tops.sort_by(|(_, a), (_, b)| b.likely.total_cmp(&a.likely));
-    // Bounds the work of a function that repeats or stays constant, as every row of it may be a top.
-    let mut most_refined = 8;
+    // Bounds the work of a function that repeats or stays constant, as every row of it may be a top, to that of the rows.
+    let evaluations = 32;
+    let mut most_refined = (rows.len() / evaluations).max(8);
     for (beside, reach) in tops {
         // Rounding does not tell another maximum from an equal one.
         let rounding = 4.0 * f64::EPSILON * best.1.abs();
@@ -133,13 +136,27 @@ struct Reach {
     most: f64,
 }
 
-/// Returns what the maximum beside a row that is no smaller than its neighbours may reach. A cell shorter than √ε of
-/// the other one, as at a jump, shows no slope: the row then counts as an end, as the first and the last one.
+/// Splits rows at cells shorter than √ε of a neighbouring one, as the two sides of a jump make them.
+fn between_jumps(rows: &[(f64, f64)]) -> impl Iterator<Item = &[(f64, f64)]> {
+    let cell = |i: usize| rows.get(i + 1).map_or(0.0, |next| next.0 - rows[i].0);
+    let is_jump = move |i: &usize| {
+        let beside = cell(i.saturating_sub(1)).max(cell(i + 1));
+        cell(*i) <= f64::EPSILON.sqrt() * beside
+    };
+    let ends = (0..rows.len() - 1).filter(is_jump).map(|i| i + 1);
+    let mut from = 0;
+    ends.chain([rows.len()]).map(move |to| {
+        let side = &rows[from..to];
+        from = to;
+        side
+    })
+}
+
+/// Returns what the maximum beside a row that is no smaller than its neighbours may reach.
 fn reach(rows: &[(f64, f64)], row: usize, [before, here, after]: [(f64, f64); 3]) -> Reach {
     let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
     let (left, right) = (here.0 - before.0, after.0 - here.0);
-    let shortest = f64::EPSILON.sqrt() * left.max(right);
-    if left > shortest && right > shortest {
+    if left > 0.0 && right > 0.0 {
         let (rise, fall) = (slope(before, here), -slope(here, after));
         let along = rise * right - fall * left;
         let bend = ((rise + fall) * (left + right)).max(f64::MIN_POSITIVE);

@@ -114,7 +114,40 @@ mod root {
 }
 
 mod maximum {
-    use slider_crank::numeric::maximum::largest;
+    use slider_crank::numeric::maximum::{among_rows, beside, largest};
+
+    /// Rises to 1.79 at 0.79 and falls thirty times as steeply.
+    fn corner(x: f64) -> f64 {
+        (1.0 + x).min(1.79 - 30.0 * (x - 0.79))
+    }
+
+    /// Two rows beside each other, as at a corner, may differ by rounding in either sense.
+    #[test]
+    fn a_maximum_behind_two_rows_at_one_place_is_found() {
+        let behind = 0.4f64.next_up();
+        let mut rows = [0.0, 0.2, 0.4, behind, 0.8, 0.81, 0.82].map(|x| (x, corner(x)));
+        rows[3].1 = rows[2].1.next_down();
+        let found = among_rows(&rows, |known| beside(corner, known)).expect("rows");
+        assert!((found.1 - 1.79).abs() < 1e-8, "{found:?}");
+    }
+
+    /// The slopes beside a jump promise more than there is.
+    #[test]
+    fn jumps_do_not_hide_a_maximum() {
+        let saw = |x: f64| match x < 20.0 {
+            true => 1.7 * (1.0 - x.fract()),
+            false => corner(x - 20.0),
+        };
+        let mut rows = Vec::new();
+        for i in 0..20 {
+            let x = f64::from(i);
+            rows.extend([0.0, 0.3, 0.6, 0.9].map(|share| (x + share, saw(x + share))));
+            rows.push(((x + 1.0).next_down(), 0.0));
+        }
+        rows.extend([20.0, 20.4, 20.8, 20.81].map(|x| (x, saw(x))));
+        let found = among_rows(&rows, |known| beside(saw, known)).expect("rows");
+        assert!((found.1 - 1.79).abs() < 1e-7, "{found:?}");
+    }
 
     #[test]
     fn the_top_of_a_parabola_is_found() {

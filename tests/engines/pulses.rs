@@ -11,7 +11,7 @@ use slider_crank::simulate::{Options, Simulation, simulate};
 use crate::support::pulses::{Case, Chance, MACHINE, Of, Pulse, Shape};
 
 /// Number of random scenes, unless the environment gives another number.
-const CASES: u64 = 1000;
+const CASES: u64 = 400;
 const MORE_CASES: &str = "SLIDER_CRANK_PULSES";
 
 fn machine(angle: f64, speed: f64) -> Scene {

@@ -111,8 +111,10 @@ impl<'a> PanelEnds<'a> {
         let way = Interval::between(from, to);
         let (known, ends) = &mut *self.last.borrow_mut();
         if !(known.low <= way.low && way.high <= known.high) {
-            *ends = self.between(way.low, way.high);
-            *known = way;
+            // Ways that follow each other overlap: a search as long again keeps the number of searches small.
+            let ahead = if known.contains(from) { to - from } else { 0.0 };
+            *known = Interval::between(from, to + ahead);
+            *ends = self.between(known.low, known.high);
         }
         let mut inside = ends
             .iter()
