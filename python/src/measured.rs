@@ -41,7 +41,10 @@ impl Measurement {
     ) -> PyResult<Measurement> {
         let mut columns = columns.into_iter();
         let Some((name, values)) = columns.next() else {
-            return Err(refused("no motion is given", "give theta, gamma or x"));
+            return Err(refused(
+                "no motion is given",
+                "give theta, gamma, x or omega",
+            ));
         };
         let samples = Samples::new(measured(&name)?, copied(&t), copied(&values));
         let mut samples = samples.map_err(|problems| of_scene(&problems))?;

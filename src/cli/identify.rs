@@ -16,7 +16,7 @@ use crate::scene::{Draft, Measurement};
 pub(super) struct Arguments {
     /// Scene file; its values are those from which the search sets out
     scene: PathBuf,
-    /// Measured motion as CSV, `-` for standard input: time and theta, gamma or x, units in the header
+    /// Measured motion as CSV, `-` for standard input: time and theta, gamma, x or omega, units in the header
     data: PathBuf,
     /// Keys whose values are looked for, like "torque[1].coefficient, crank.inertia"; sensor.zero is what the sensor shows
     /// where it should show 0

@@ -18,7 +18,7 @@ use crate::simulate::Stop;
 pub(super) struct Arguments {
     /// Scene file; without it the built-in Duarte engine
     scene: Option<PathBuf>,
-    /// Measured motion as CSV, `-` for standard input: time and theta, gamma or x, units in the header; of several of these
+    /// Measured motion as CSV, `-` for standard input: time and theta, gamma, x or omega, units in the header; of several of these
     /// each counts by its own noise; without it (and without a scene) the motion of Duarte et al.
     data: Option<PathBuf>,
     /// How the motion is estimated: smoother (through the equation of motion), polynomial, or auto: a polynomial where it

@@ -8,7 +8,7 @@ use crate::scene::{Measured, Reading};
 /// Options of all commands that read measured motion.
 #[derive(Debug, Args)]
 pub(super) struct ReadingArguments {
-    /// The measured column, where the file has several: theta, gamma or x
+    /// The measured column, where the file has several: theta, gamma, x or omega
     #[arg(long, value_name = "NAME")]
     column: Option<Measured>,
     /// What the columns of a file without header are, like "t [s],theta [deg]"

@@ -44,6 +44,9 @@ pub(super) fn crank_angles<'a>(
     if sensor.measured == Measured::Theta {
         return unwrap::unwrap(sensor, measurement);
     }
+    if sensor.is_of_speed() {
+        return unwrap::integrated(sensor, measurement, motion.angle);
+    }
     branch_tracking::reachable(sensor, measurement)?;
     let sensors = alignment::sensors(*sensor, measurement);
     let motions = branch_tracking::motions(&sensors, measurement)?;

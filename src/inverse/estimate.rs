@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::measurement_model::Turning;
 use super::motion_estimate::MotionEstimate;
 use super::prior::State;
 use super::problem::Problem;
@@ -24,6 +25,11 @@ impl Estimate {
     /// Returns θ (rad), ω (rad/s), θ̈ (rad/s²).
     pub fn motion(&self) -> [f64; 3] {
         [self.state[0], self.state[1], self.alpha]
+    }
+
+    /// Returns crank angle and speed.
+    pub fn turning(&self) -> Turning {
+        [self.state[0], self.state[1]]
     }
 
     /// Returns the motion with covariance and numerical errors.
@@ -59,8 +65,9 @@ impl Problem<'_> {
             false => Cow::Owned(self.motion_at(smoothed, &record.times)),
         };
         let shares = parallel::list(motion.len(), |i| {
-            let slope = record.sensor.shown(motion[i].value[0]).slope;
-            record.weights[i] * (slope / smoothed.noise.sigma).powi(2) * motion[i].covariance[0]
+            let shown = record.sensor.shown(motion[i].turning());
+            let variance = record.sensor.variance(&shown, &motion[i].covariance);
+            record.weights[i] * variance / smoothed.noise.sigma.powi(2)
         });
         shares.iter().filter(|share| share.is_finite()).sum()
     }

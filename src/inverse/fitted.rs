@@ -68,6 +68,12 @@ impl Fitted {
             FitSize::Fixed(degree) => Some(degree),
         };
         let polynomial = |reason: &str| {
+            if record.sensor.is_of_speed() {
+                return Err(
+                    "a polynomial is fitted to samples of the position, and the motion is a speed"
+                        .to_owned(),
+                );
+            }
             let found = Polynomial::new(&record, &angles.theta, degree)?;
             let fitted = Fitted::of_polynomial(measurement, &record, &found, reason);
             let degree = fitted.summary.degree;
@@ -89,7 +95,9 @@ impl Fitted {
             }
             _ => {}
         }
-        let may_be_simple = options.fit == FitKind::Auto && record.beside.is_empty();
+        let may_be_simple = options.fit == FitKind::Auto
+            && record.beside.is_empty()
+            && !record.sensor.is_of_speed();
         let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten();
@@ -237,7 +245,7 @@ impl Fitted {
         let (sensor, times) = (record.sensor, measurement.times());
         let residuals = parallel::list(motion.len(), |row| {
             let value = record.values[row];
-            let (residual, shown) = sensor.residual(value, motion[row].value[0]);
+            let (residual, shown) = sensor.residual(value, motion[row].turning());
             Residual {
                 t: times[row],
                 measured: match sensor.measured {

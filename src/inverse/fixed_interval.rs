@@ -183,6 +183,7 @@ mod tests {
             residual: (1.7 * k as f64).sin() + 0.01 * k as f64,
             slope: 1.0,
             variance: 1.0,
+            ..Observed::default()
         };
         Stretch {
             steps: vec![step; steps],

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use super::measurement_model::Turning;
 use super::prior::{Prior, State};
 use super::repeating::Repeating;
 use crate::numeric::interpolate::cubic;
@@ -98,13 +99,13 @@ impl Path {
 }
 
 impl Piece<'_> {
-    /// Crank angle at a time, rad.
-    pub fn angle(&self, grid: &Grid, t: f64) -> f64 {
+    /// Crank angle and speed at a time.
+    pub fn turning(&self, grid: &Grid, t: f64) -> Turning {
         let last = self.first + self.states.len() - 1;
         let a = grid.before(t).clamp(self.first, last - 1);
         let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
         let times = [grid.times[a], grid.times[a + 1]];
-        cubic(times, [state(a), state(a + 1)], t)[0]
+        cubic(times, [state(a), state(a + 1)], t)
     }
 }
 

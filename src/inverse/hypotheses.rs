@@ -159,7 +159,7 @@ impl Tracker<'_, '_> {
 
     /// Returns a crank angle, rad, as the place of a value that exceeds what the mechanism can take.
     fn sight(&self, theta: f64, excess: f64, sigma: f64) -> Sight {
-        let shown = self.sensor.shown(theta);
+        let shown = self.sensor.shown([theta, 0.0]);
         // At a dead centre the curvature sets the width.
         let steep = shown.slope * shown.slope + shown.curvature.abs() * (sigma + excess);
         Sight {

@@ -229,6 +229,7 @@ mod tests {
             residual: (3.0 * (k * k) as f64).sin() + 0.02 * (k * k) as f64,
             slope: 1.0,
             variance: 1.0,
+            ..Observed::default()
         };
         let mut stretch = Stretch {
             steps: vec![step; 20],

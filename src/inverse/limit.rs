@@ -40,7 +40,11 @@ pub(super) fn keeps_clear(
             let limit = nearest(*limit, state.value[0]);
             // Just inside: rounding may put the limit itself out of reach.
             let inside = limit + 8.0 * f64::EPSILON * (state.value[0] - limit).signum();
-            sensor.residual(values[sample], inside).0.abs() < reach
+            sensor
+                .residual(values[sample], [inside, state.value[1]])
+                .0
+                .abs()
+                < reach
         };
         let shown = limits.iter().any(shows);
         let turn = before.and_then(|before| turning_angle(before, state));

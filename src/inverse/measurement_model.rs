@@ -1,4 +1,4 @@
-//! Measurement model: crank angle in, reading h(θ) of a sensor and its derivatives out.
+//! Measurement model: crank angle and speed in, reading h(θ) or ω of a sensor and its derivatives out.
 
 use std::f64::consts::TAU;
 
@@ -29,14 +29,17 @@ impl Scale {
     };
 }
 
-/// Reading of a sensor at a crank angle.
+/// Crank angle, rad, and crank speed, rad/s.
+pub(super) type Turning = [f64; 2];
+
+/// Reading of a sensor of a turning crank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shown {
-    /// Reading, rad or m; a crank-pin angle has its sign and is continued over the turns.
+    /// Reading, rad, m or rad/s; a crank-pin angle has its sign and is continued over the turns.
     pub value: f64,
-    /// Derivative with respect to the crank angle.
+    /// Derivative with respect to the crank angle, or the speed for a sensor of the speed.
     pub slope: f64,
-    /// Second derivative with respect to the crank angle.
+    /// Second derivative.
     pub curvature: f64,
 }
 
@@ -55,14 +58,21 @@ impl Sensor<'_> {
         }
     }
 
-    /// Returns the reading at a crank angle, rad.
-    pub fn shown(&self, theta: f64) -> Shown {
+    /// Returns true for a sensor of the speed.
+    pub fn is_of_speed(&self) -> bool {
+        self.measured == Measured::Omega
+    }
+
+    /// Returns the reading of a turning crank.
+    pub fn shown(&self, [theta, omega]: Turning) -> Shown {
+        let itself = |value: f64| Shown {
+            value,
+            slope: 1.0,
+            curvature: 0.0,
+        };
         match self.measured {
-            Measured::Theta => Shown {
-                value: theta,
-                slope: 1.0,
-                curvature: 0.0,
-            },
+            Measured::Theta => itself(theta),
+            Measured::Omega => itself(omega),
             Measured::X => {
                 let pose = self.linkage.pose(theta);
                 let Scale { shift, stretch } = self.scale;
@@ -84,7 +94,12 @@ impl Sensor<'_> {
         }
     }
 
-    /// Returns the typical change of the reading per radian of the crank: the crank length, m, or 1.
+    /// Returns the variance of a reading due to a covariance of θ, ω, θ̈ (00, 01, 11, 02, 12, 22).
+    pub fn variance(&self, shown: &Shown, covariance: &[f64; 6]) -> f64 {
+        shown.slope * shown.slope * covariance[if self.is_of_speed() { 2 } else { 0 }]
+    }
+
+    /// Returns the typical change of the reading per radian, or per rad/s, of the crank: the crank length, m, or 1.
     pub fn size(&self) -> f64 {
         match self.measured {
             Measured::X => self.linkage.r,
@@ -94,8 +109,8 @@ impl Sensor<'_> {
 
     /// Returns measured value minus reading, and the reading. A crank-pin protractor shows no sign: the sign nearer to
     /// the reading counts.
-    pub fn residual(&self, value: f64, theta: f64) -> (f64, Shown) {
-        let shown = self.shown(theta);
+    pub fn residual(&self, value: f64, turning: Turning) -> (f64, Shown) {
+        let shown = self.shown(turning);
         let off = |value: f64| {
             let off = value - shown.value;
             off - (off / TAU).round() * TAU

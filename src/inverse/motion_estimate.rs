@@ -1,5 +1,7 @@
 //! Crank angle, speed and acceleration at one time with their covariance.
 
+use super::measurement_model::Turning;
+
 /// θ (rad), ω (rad/s) and θ̈ (rad/s²) with their errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct MotionEstimate {
@@ -18,6 +20,11 @@ impl MotionEstimate {
         let rounding =
             DEVIATION_PER_BOUND * DEVIATION_PER_BOUND * (rounding * rounding + more * more);
         (quadratic(&self.covariance, gradient) + rounding).sqrt()
+    }
+
+    /// Returns crank angle and speed.
+    pub fn turning(&self) -> Turning {
+        [self.value[0], self.value[1]]
     }
 
     /// Returns the standard error of the crank angle, rad.

@@ -35,9 +35,9 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
     let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
             let estimate = problem.at(smoothed, record.times[i]);
-            let (residual, shown) = record.sensor.residual(record.values[i], estimate.state[0]);
+            let (residual, shown) = record.sensor.residual(record.values[i], estimate.turning());
             // Part of the error of a weighted sample is in the path.
-            let variance = shown.slope * shown.slope * estimate.covariance[0] / (sigma * sigma);
+            let variance = record.sensor.variance(&shown, &estimate.covariance) / (sigma * sigma);
             let leverage = record.weights[i] * variance;
             // The path between samples follows one of large leverage, right or wrong; at an end the prior predicts it.
             let is_end = i == 0 || i + 1 == record.times.len();

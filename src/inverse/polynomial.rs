@@ -37,7 +37,7 @@ impl Polynomial {
         let mut degree = degree;
         for iteration in 0..ITERATIONS {
             let lines = parallel::list(theta.len(), |i| {
-                let (residual, shown) = record.sensor.residual(record.values[i], theta[i]);
+                let (residual, shown) = record.sensor.residual(record.values[i], [theta[i], 0.0]);
                 (residual + shown.slope * theta[i], shown.slope)
             });
             let (target, weight): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::grid::{Grid, Piece};
-use super::measurement_model::{Scale, Sensor, Shown};
+use super::measurement_model::{Scale, Sensor, Shown, Turning};
 use super::quantised::{Codes, Interval};
 use super::residual_tests;
 use super::state_space::Observed;
@@ -136,11 +136,14 @@ impl Record<'_> {
         self.codes.is_none() && noise.max(of_codes) < self.instrument_noise()
     }
 
-    /// Returns the crank angle of a path at a sample of a node, rad.
-    pub fn angle(&self, grid: &Grid, path: &Piece<'_>, node: usize, sample: usize) -> f64 {
+    /// Returns the motion of a path at a sample of a node.
+    fn turning(&self, grid: &Grid, path: &Piece<'_>, node: usize, sample: usize) -> Turning {
         match grid.block > 0.0 {
-            true => path.angle(grid, self.times[sample]),
-            false => path.states[node - path.first][0],
+            true => path.turning(grid, self.times[sample]),
+            false => {
+                let [theta, omega, ..] = path.states[node - path.first];
+                [theta, omega]
+            }
         }
     }
 
@@ -149,7 +152,7 @@ impl Record<'_> {
     pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
         let mut sums = [0.0; 5];
         for i in grid.first[node]..grid.first[node + 1] {
-            let theta = self.angle(grid, path, node, i);
+            let turning = self.turning(grid, path, node, i);
             let beside = self.beside.iter();
             let beside = beside.map(|other| {
                 (
@@ -160,7 +163,7 @@ impl Record<'_> {
             });
             let own = (&self.sensor, self.values[i], self.weights[i]);
             for (sensor, value, weight) in std::iter::once(own).chain(beside) {
-                let (residual, Shown { slope, .. }) = sensor.residual(value, theta);
+                let (residual, Shown { slope, .. }) = sensor.residual(value, turning);
                 if weight > 0.0 && residual.is_finite() && slope.is_finite() {
                     let parts = [1.0, residual, slope, slope * residual, slope * slope];
                     (0..5).for_each(|k| sums[k] += weight * parts[k]);
@@ -176,6 +179,7 @@ impl Record<'_> {
             residual: sum / weight,
             slope,
             variance: 1.0 / weight,
+            is_speed: self.sensor.is_of_speed(),
         }
     }
 

@@ -25,6 +25,8 @@ pub(super) struct Scales {
     pub floor: f64,
     /// Standard deviation of a sample of weight 1, rad, where it is known (codes).
     pub known: Option<f64>,
+    /// Whether the crank angle before the first sample is known, as it has to be for samples of the speed.
+    pub begins_at_angle: bool,
     /// Number of values of the scene that are estimated beside a torque that begins at 0; none where it begins anywhere.
     pub identified: Option<usize>,
 }
@@ -75,7 +77,10 @@ impl Scales {
     pub fn spread(&self) -> State {
         let mut size = DIFFUSE / self.slope;
         std::array::from_fn(|k| {
-            let spread = size;
+            let spread = match self.begins_at_angle && k == 0 {
+                true => size / (DIFFUSE * DIFFUSE),
+                false => size,
+            };
             size /= if k == 1 {
                 self.spacing * self.lever
             } else {

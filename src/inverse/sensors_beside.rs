@@ -41,8 +41,8 @@ impl Problem<'_> {
         let mut largest = 0.0f64;
         for (t, value) in self.record.times.iter().zip(other.values.iter()) {
             let estimate = self.at(smoothed, *t);
-            let (residual, shown) = other.sensor.residual(*value, estimate.state[0]);
-            let spread = shown.slope * shown.slope * estimate.covariance[0];
+            let (residual, shown) = other.sensor.residual(*value, estimate.turning());
+            let spread = other.sensor.variance(&shown, &estimate.covariance);
             if residual.is_finite() && spread.is_finite() {
                 squares += residual * residual;
                 sum += residual;
@@ -66,7 +66,7 @@ impl SensorBeside<'_> {
     pub fn summary(&self, motion: &[MotionEstimate]) -> SensorSummary {
         let pairs = self.values.iter().zip(motion);
         let residuals =
-            pairs.map(|(value, at)| self.sensor.residual(*value, at.value[0]).0 - self.mean);
+            pairs.map(|(value, at)| self.sensor.residual(*value, at.turning()).0 - self.mean);
         SensorSummary {
             column: self.sensor.measured.name(),
             sigma: self.sigma,

@@ -34,10 +34,12 @@ pub(super) use with_dimension;
 pub(super) struct Observed {
     /// Measured minus nominal, rad or m.
     pub residual: f64,
-    /// d measured/dθ, rad or m per rad.
+    /// d measured/dθ, rad or m per rad, or d measured/dω.
     pub slope: f64,
     /// Variance over that of one sample; infinite without a sample.
     pub variance: f64,
+    /// Whether the speed is measured in the place of the angle.
+    pub is_speed: bool,
 }
 
 /// Steps and samples of a stretch of nodes.
@@ -114,7 +116,7 @@ impl Deviations<'_> {
             return None;
         }
         let mut row = [0.0; N];
-        row[0] = observed.slope;
+        row[usize::from(observed.is_speed)] = observed.slope;
         let mut variance = observed.variance;
         if self.correlated.is_some() {
             row[N - 1] = 1.0;

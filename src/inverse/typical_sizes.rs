@@ -10,15 +10,27 @@ use super::scales::Scales;
 use super::smoother::Smoothed;
 
 impl Problem<'_> {
-    /// Returns the root mean square of d measured/dθ along a path.
+    /// Returns the root mean square of d measured/dθ along a path; a sample of the speed is one of the way in the mean time
+    /// between samples, over that time.
     pub fn slope(&self, path: &Path) -> f64 {
         let stride = path.states.len().div_ceil(1000);
         let slopes = path.states.iter().step_by(stride);
-        let slopes = slopes.map(|state| self.record.sensor.shown(state[0]).slope.powi(2));
+        let slopes =
+            slopes.map(|state| self.record.sensor.shown([state[0], state[1]]).slope.powi(2));
         let (sum, count) = slopes
             .filter(|s| s.is_finite())
             .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-        (sum / f64::max(count, 1.0)).sqrt()
+        let by_time = match self.record.sensor.is_of_speed() {
+            true => self.spacing(),
+            false => 1.0,
+        };
+        (sum / f64::max(count, 1.0)).sqrt() / by_time
+    }
+
+    /// Returns the mean time between samples, s.
+    fn spacing(&self) -> f64 {
+        let times = &self.grid.times;
+        (times[times.len() - 1] - times[0]) / (self.record.times.len() as f64 - 1.0)
     }
 
     /// Returns the turns from one end of a smoothed motion to the other, without sign.
@@ -32,7 +44,6 @@ impl Problem<'_> {
     pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, sigma: f64) -> Scales {
         let times = &self.grid.times;
         let duration = times[times.len() - 1] - times[0];
-        let samples = self.record.times.len() as f64;
         let stride = path.states.len().div_ceil(1000);
         let (mut lever, mut torque, mut count) = (0.0, 0.0, 0.0);
         for (node, state) in path.nodes().step_by(stride) {
@@ -44,7 +55,7 @@ impl Problem<'_> {
             }
         }
         Scales {
-            spacing: duration / (samples - 1.0),
+            spacing: self.spacing(),
             duration,
             slope,
             lever: (lever / count).sqrt(),
@@ -57,6 +68,7 @@ impl Problem<'_> {
             torque: f64::sqrt(torque / count) / sigma,
             floor: self.record.floor,
             known: self.record.codes.map(Codes::spread),
+            begins_at_angle: self.record.sensor.is_of_speed(),
             identified: None,
         }
     }

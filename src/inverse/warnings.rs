@@ -41,7 +41,8 @@ pub(super) fn of_motion(scene: &Scene, measured: Measured, rows: &[InverseRow]) 
     let rotates = turns.abs() >= 1.0;
     let mut warnings = Vec::new();
     let stated = scene.motion.speed;
-    if rotates && measured == Measured::Theta && turns * stated < 0.0 {
+    let shows_sense = matches!(measured, Measured::Theta | Measured::Omega);
+    if rotates && shows_sense && turns * stated < 0.0 {
         warnings.push(format!("the crank turns against the sense of the scene's [motion] speed: {turns:.2} turns, positive anticlockwise"));
     }
     let speeds = || rows.iter().map(|row| row.omega.abs());

@@ -5,6 +5,7 @@ use super::csv;
 use super::key_values::{Facts, digits, fact, rounded, six};
 use crate::error::Error;
 use crate::inverse::identify::Identification;
+use crate::scene::Measured;
 
 /// Returns the identified values with 95 % bands, strong correlations, noise and warnings, as text.
 pub fn identification(result: &Identification) -> String {
@@ -26,7 +27,7 @@ pub fn identification(result: &Identification) -> String {
             }
         }
     }
-    let unit = if result.column == "x" { "m" } else { "rad" };
+    let unit = Measured::named(&result.column).map_or("", Measured::unit);
     fact!(facts, "noise", "{} {unit} of a sample", six(result.sigma));
     let missed = six(result.missing_torque_rms_nm);
     fact!(facts, "torque missed", "{missed} N m, root mean square");

@@ -76,6 +76,7 @@ fn shown(scene: &Scene, measured: Measured, theta: &[f64]) -> Vec<f64> {
         match measured {
             Measured::Theta => *theta,
             Measured::X => pose.x,
+            Measured::Omega => panic!("an angle alone has no speed"),
             // Angle between the directions from the crank pin to the pivot and to the wrist pin.
             Measured::Gamma => {
                 let to_pin = [pose.x - place[0], -linkage.e - place[1]];

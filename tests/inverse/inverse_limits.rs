@@ -116,6 +116,7 @@ fn invert(
         let exact = match measured {
             Measured::Theta => s.theta,
             Measured::X => s.x,
+            Measured::Omega => panic!("a sample has no speed"),
             Measured::Gamma => s.gamma,
         };
         exact + noise * unit * random.normal()

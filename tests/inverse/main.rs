@@ -17,6 +17,7 @@ mod noise;
 mod outliers;
 mod polynomial;
 mod simulated;
+mod speed;
 mod uncertain;
 mod unwrapping;
 mod white_snap;

@@ -18,15 +18,24 @@ const INERTIA: f64 = 0.02;
 /// Slider mass, kg.
 const MASS: f64 = 1.5;
 
+/// Returns the mechanism of the records.
+pub(super) fn crank_and_slider() -> Scene {
+    stretched(1.0)
+}
+
 fn scene(motion: &Motion, stretch: f64) -> Scene {
+    stretched(stretch).start(motion.start[0], motion.start[1])
+}
+
+/// Returns the mechanism with a crank of another length.
+fn stretched(stretch: f64) -> Scene {
     let crank = Crank {
         mass: 2.0,
         inertia: INERTIA,
         ..Crank::default()
     };
     let scene = Scene::new(CRANK * stretch, ROD).offset(OFFSET).crank(crank);
-    let scene = scene.slider(Slider { mass: MASS });
-    scene.start(motion.start[0], motion.start[1])
+    scene.slider(Slider { mass: MASS })
 }
 
 /// Returns x and its two derivatives with respect to the crank angle.
@@ -44,7 +53,7 @@ fn position(theta: f64) -> [f64; 3] {
 }
 
 /// Returns the torque that the motion needs: M θ̈ + ½ M′ ω².
-fn needed([theta, omega, alpha]: [f64; 3]) -> f64 {
+pub(super) fn needed([theta, omega, alpha]: [f64; 3]) -> f64 {
     let [_, x1, x2] = position(theta);
     (INERTIA + MASS * x1 * x1) * alpha + MASS * x1 * x2 * omega * omega
 }

@@ -13,6 +13,7 @@ pub fn shown(scene: &Scene, measured: Measured, theta: f64) -> f64 {
     match measured {
         Measured::Theta => theta,
         Measured::X => pose.x,
+        Measured::Omega => panic!("an angle alone has no speed"),
         Measured::Gamma => (px * ay - py * ax).abs().atan2(-ax * px - ay * py),
     }
 }

@@ -64,7 +64,7 @@ class Measurement:
         skip: int = 0,
         decimal_comma: bool = False,
     ) -> Measurement:
-        """Reads a CSV file with time and theta, gamma or x, units in the header or named here.
+        """Reads a CSV file with time and theta, gamma, x or omega, units in the header or named here.
 
         Args:
             column: the measured column, where the file has several.

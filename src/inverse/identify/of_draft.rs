@@ -54,6 +54,11 @@ impl FreeKey {
                     is_sensor_zero: false,
                 }
             }
+            FreeKey::SensorZero if measured == Measured::Omega => {
+                let what =
+                    "sensor.zero belongs to a sensor of the position, and the motion is a speed";
+                return Err(Error::refused(what, "leave it out"));
+            }
             FreeKey::SensorZero => {
                 let is_length = measured == Measured::X;
                 FreeValue {

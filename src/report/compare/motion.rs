@@ -41,6 +41,7 @@ impl Motion {
             Measured::Theta => "theta_rad",
             Measured::Gamma => "gamma_rad",
             Measured::X => "x_m",
+            Measured::Omega => "omega_rad_per_s",
         };
         let values = match measured.measured() {
             Measured::Theta => measured.unwrapped()?.theta,

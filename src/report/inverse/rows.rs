@@ -79,7 +79,7 @@ fn rows(result: &Inverse, printed: Option<&AsPrinted>, stride: usize) -> Table {
     let measured = format!(
         "{}_measured_{unit},residual_{unit}",
         data.column,
-        unit = data.unit
+        unit = data.unit.replace('/', "_per_")
     );
     let mut columns = vec![COLUMNS];
     columns.extend(result.with_reactions().then_some(REACTIONS));
@@ -131,7 +131,8 @@ pub fn mean_cycle_table(result: &Inverse) -> Table {
 
 /// Returns measured values, fitted values and residuals as a table.
 pub fn residual_table(result: &Inverse) -> Table {
-    let (name, unit) = (result.summary.data.column, result.summary.data.unit);
+    let data = &result.summary.data;
+    let (name, unit) = (data.column, data.unit.replace('/', "_per_"));
     let rows = result.residuals.iter().map(|row| {
         let fitted = row.measured - row.residual;
         [row.t, row.measured, fitted, row.residual]

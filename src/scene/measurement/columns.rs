@@ -13,7 +13,7 @@ use crate::scene::unit::{self, Quantity};
 const TIME: [&str; 6] = ["t", "time", "zeit", "temps", "tiempo", "elapsed time"];
 
 /// Header names of measured quantities, beside [`Measured::name`].
-const WORDS: [(&str, Measured); 8] = [
+const WORDS: [(&str, Measured); 14] = [
     ("crank angle", Measured::Theta),
     ("crankangle", Measured::Theta),
     ("angle", Measured::Theta),
@@ -22,6 +22,12 @@ const WORDS: [(&str, Measured); 8] = [
     ("crank pin angle", Measured::Gamma),
     ("slider position", Measured::X),
     ("position", Measured::X),
+    ("crank speed", Measured::Omega),
+    ("speed", Measured::Omega),
+    ("rotational speed", Measured::Omega),
+    ("angular speed", Measured::Omega),
+    ("angular velocity", Measured::Omega),
+    ("drehzahl", Measured::Omega),
 ];
 
 /// Units, and names without a unit, of a column of encoder counts.
@@ -30,7 +36,7 @@ const COUNTS: [&str; 5] = ["count", "counts", "pulses", "ticks", "increments"];
 /// Largest number of columns read from a file; the cells of a row are kept in arrays of this size.
 pub(super) const MOST_COLUMNS: usize = 8;
 
-const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma or x; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";
+const HELP: &str = "the header names the columns with their units, as `t [s],theta [deg]`, the motion theta, gamma, x or omega; or say which they are, by name or number: --time \"1[s]\" --motion \"2[deg]\"; lines above the header: --skip 3";
 
 /// Whether a word marks a column of encoder counts.
 pub(super) fn is_count(word: &str) -> bool {
@@ -77,6 +83,8 @@ impl Named {
         if has(Quantity::Angle) || self.header.unit.is_empty() && reading.counts_per_turn.is_some()
         {
             Some(Measured::Theta)
+        } else if has(Quantity::AngularSpeed) {
+            Some(Measured::Omega)
         } else {
             has(Quantity::Length).then_some(Measured::X)
         }
@@ -170,7 +178,11 @@ impl Columns {
             .ok_or_else(|| none("no column holds the time: none is called t or time".to_owned()))?;
         let mut found = Vec::new();
         for measured in Measured::ALL {
-            let is_wanted = reading.column.is_none_or(|wanted| wanted == measured);
+            // A speed serves where nothing shows the position.
+            let is_wanted = match reading.column {
+                None => measured != Measured::Omega || found.is_empty(),
+                Some(wanted) => wanted == measured,
+            };
             if is_wanted && (reading.motion.is_none() || found.is_empty()) {
                 let is_it = |column: &Named| column.named() == Some(measured);
                 found.extend(choose(list, "--motion", reading.motion.as_deref(), is_it)?);
@@ -178,7 +190,7 @@ impl Columns {
         }
         let [column, others @ ..] = &found[..] else {
             let wanted = reading.column.map(|wanted| format!("`{}`", wanted.name()));
-            let wanted = wanted.unwrap_or("theta, gamma or x".to_owned());
+            let wanted = wanted.unwrap_or("theta, gamma, x or omega".to_owned());
             return Err(none(format!("no column is called {wanted}")));
         };
         let (measured, value) = motion(column, reading)?;
@@ -244,11 +256,7 @@ fn motion(column: &Named, reading: &Reading) -> Result<(Measured, Column), Probl
     let (raw, unit) = (&column.raw, &column.header.unit);
     let measured = reading.column.or_else(|| column.named());
     let Some(measured) = measured.or_else(|| column.by_unit(reading)) else {
-        let what = match unit::factor(unit, Quantity::AngularSpeed) {
-            Ok(_) => format!("`{raw}` is a speed, and the motion is theta, gamma or x"),
-            Err(_) => format!("nothing says what `{raw}` is"),
-        };
-        return Err(column.wrong(what, HELP));
+        return Err(column.wrong(format!("nothing says what `{raw}` is"), HELP));
     };
     let counts = reading.counts_per_turn;
     let is_count = column.is_count() || unit.is_empty() && counts.is_some();

@@ -11,6 +11,8 @@ named! {
         Gamma = "gamma",
         /// Slider position x, m.
         X = "x",
+        /// Crank speed ω, rad/s; the first sample has the crank angle of the scene's motion.
+        Omega = "omega",
     }
 }
 
@@ -26,13 +28,15 @@ impl Measured {
             Measured::Theta => "the crank angle theta",
             Measured::Gamma => "the angle gamma at the crank pin",
             Measured::X => "the slider position x, counted from the crank pivot",
+            Measured::Omega => "the crank speed omega",
         }
     }
 
     pub(super) fn quantity(self) -> Quantity {
         match self {
             Measured::X => Quantity::Length,
-            _ => Quantity::Angle,
+            Measured::Omega => Quantity::AngularSpeed,
+            Measured::Theta | Measured::Gamma => Quantity::Angle,
         }
     }
 }
@@ -61,7 +65,8 @@ impl std::str::FromStr for Measured {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Measured, String> {
-        Measured::named(text).ok_or_else(|| format!("`{text}` is none of theta, gamma and x"))
+        Measured::named(text)
+            .ok_or_else(|| format!("`{text}` is none of theta, gamma, x and omega"))
     }
 }
 
