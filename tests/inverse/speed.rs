@@ -57,18 +57,19 @@ fn read(text: &str, reading: &Reading) -> Measurement {
 #[test]
 fn a_column_of_the_speed_is_found_by_name_or_unit() {
     let plain = Reading::default();
-    let named = read("t [s],Speed [rpm]\n0,60\n1,60\n2,120\n", &plain);
+    let rows = "0,60\n1,60\n2,120\n3,120\n4,60\n5,60\n6,60\n";
+    let named = read(&format!("t [s],Speed [rpm]\n{rows}"), &plain);
     assert_eq!(named.measured(), Measured::Omega);
     assert!((named.values()[2] - 4.0 * PI).abs() < 1e-14);
     let by_unit = Reading {
         motion: Some("2".to_owned()),
         ..Reading::default()
     };
-    let chosen = read("t [s],tacho [rad/s]\n0,60\n1,60\n2,120\n", &by_unit);
+    let chosen = read(&format!("t [s],tacho [rad/s]\n{rows}"), &by_unit);
     assert_eq!(chosen.measured(), Measured::Omega);
     // The position tells more.
     let both = read(
-        "t [s],omega [rad/s],theta [rad]\n0,1,0\n1,1,1\n2,1,2\n",
+        "t [s],omega [rad/s],theta [rad]\n0,1,0\n1,1,1\n2,1,2\n3,1,3\n4,1,4\n5,1,5\n6,1,6\n",
         &plain,
     );
     assert_eq!(both.measured(), Measured::Theta);

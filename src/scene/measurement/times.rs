@@ -66,11 +66,14 @@ impl Measurement {
     }
 
     /// Replaces times that are rounded values of even times by the even times, but within the written ones, which the rows
-    /// of tables over the time may not exceed; returns the note on it.
+    /// of tables over the time may not exceed; returns a note where a value changes by more than its last digit meanwhile.
     pub(super) fn space_evenly(&mut self) -> Option<String> {
         let times = self.elapsed();
         let even = Even::of(times)?;
         let (count, first, last) = (times.len(), times[0], times[times.len() - 1]);
+        let steps = times.windows(2).zip(self.values.windows(2));
+        let changes = steps.map(|(t, value)| (value[1] - value[0]).abs() / (t[1] - t[0]));
+        let is_seen = changes.fold(0.0, f64::max) * even.step > self.resolution;
         if self.lost().is_some() {
             self.origin = self.times[0];
         }
@@ -81,7 +84,7 @@ impl Measurement {
         };
         self.period_uncertainty = even.step / ((count as f64).sqrt() * (last - first));
         self.elapsed = Some(even.places.iter().map(time).collect());
-        Some(format!(
+        is_seen.then(|| format!(
             "the times are those of samples {} s apart, rounded to {} s: the fit takes them as even",
             computed(even.period),
             computed(even.step)
