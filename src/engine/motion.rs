@@ -117,10 +117,6 @@ impl<'a> Counted<'a> {
 
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         self.evaluations.set(self.evaluations.get() + 1);
-        self.remember(acceleration, t, angle, speed);
-    }
-
-    fn remember(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         // A non-finite state results from an earlier non-finite evaluation.
         let asked = angle.rest.is_finite() && speed.is_finite();
         if asked && !acceleration.is_finite() {
@@ -172,10 +168,9 @@ impl Motion for Counted<'_> {
 
     fn fill(&self, batch: &mut Batch) {
         self.motion.fill(batch);
-        self.evaluations.set(self.evaluations.get() + NODES as u64);
         for i in 0..NODES {
             let angle = Angle::new(batch.turns, batch.theta[i]);
-            self.remember(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
+            self.note(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
         }
     }
 }

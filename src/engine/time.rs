@@ -9,7 +9,6 @@ use super::runge_kutta::Call;
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
-use crate::numeric::angle::Angle;
 
 pub use super::run_in_time::{Ends, Finish, Method, MotionState, Settings, UNLIMITED_TIME};
 
@@ -116,7 +115,11 @@ fn in_calls(
         if let Some(finish) = finish {
             return (finish, last, steps);
         }
-        (angle, node) = carried_on(&last);
+        angle = last.angle(last.end.theta).reduced();
+        node = Node {
+            theta: angle.rest,
+            ..last.end
+        };
         first_step = last.length();
         match rejected {
             Some(Rejected::TooLong(shorter)) => first_step = shorter,
@@ -159,16 +162,6 @@ impl Rejected {
             _ => Rejected::Unresolved(t),
         })
     }
-}
-
-/// Converts the end of a step to the start of a call.
-fn carried_on(last: &Step) -> (Angle, Node) {
-    let angle = last.angle(last.end.theta).reduced();
-    let node = Node {
-        theta: angle.rest,
-        ..last.end
-    };
-    (angle, node)
 }
 
 /// Integrates a step anew up to a time `t_end` (s) inside it; `sink` sees the new steps, the last is returned.

@@ -1,6 +1,7 @@
 //! Propagation of errors of the kinetic energy through a run over the angle.
 
 use crate::engine::energy::piece::Piece;
+use crate::numeric::median::range;
 
 /// Errors of energy and time: an error of the energy shifts the time, the more the slower the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,9 +39,6 @@ impl Errors {
 
 /// Returns the error of the work of these forces (N m) over a piece due to rounded angles, over machine epsilon, J.
 pub(super) fn uncertain(piece: &Piece, forces: &[f64]) -> f64 {
-    let none = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = forces.iter().fold(none, |(low, high), force| {
-        (low.min(*force), high.max(*force))
-    });
+    let (low, high) = range(forces);
     0.5 * piece.from.abs().max(piece.to.abs()) * (high - low)
 }

@@ -8,6 +8,7 @@ use super::super::{Batch, Motion, NODES};
 use super::state::State;
 use super::step::Collocation;
 use super::tableau::Tableau;
+use crate::numeric::median::range;
 
 /// LU factors of 1 − h ∂f/∂ω A − h² ∂f/∂θ Â, where A integrates accelerations up to the nodes once, and Â twice.
 pub(super) struct Newton {
@@ -70,8 +71,7 @@ impl Collocation<'_> {
 /// True if sweeps do not converge for these ∂f/∂ω, 1/s: |h ∂f/∂ω| > 1, and the slopes differ by at most half of the
 /// largest, as the simplified method presumes.
 fn is_steep(slopes: &[f64; NODES], h: f64) -> bool {
-    let low = slopes.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = slopes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (low, high) = range(slopes);
     let largest = low.abs().max(high.abs());
     h * largest > 1.0 && high - low <= 0.5 * largest
 }

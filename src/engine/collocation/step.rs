@@ -19,8 +19,6 @@ pub struct Collocation<'a> {
     sweep_error: f64,
     /// Leading steps of another run from the same start.
     pub(super) guide: &'a [Step],
-    varies_between_nodes: bool,
-    has_power: bool,
     pub(super) batch: Batch,
     /// Length (s) and Legendre coefficients of the acceleration (rad/s²) of the last step.
     pub(super) last: Option<(f64, [f64; NODES])>,
@@ -45,8 +43,6 @@ impl<'a> Collocation<'a> {
                 1e-3
             },
             guide: settings.guide,
-            varies_between_nodes: motion.varies_between_nodes(),
-            has_power: motion.has_power(),
             batch: Batch::default(),
             last: None,
             alpha,
@@ -65,7 +61,7 @@ impl<'a> Collocation<'a> {
     pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Rejection> {
         let result = self.attempt_whole(state, step);
         match result {
-            Err(Rejection::TooLong(factor)) if self.varies_between_nodes => {
+            Err(Rejection::TooLong(factor)) if self.motion.varies_between_nodes() => {
                 match self.obstacle(state, step.h) {
                     Some(found) if found.feature == Feature::Corner => {
                         let at = found.at;
@@ -247,7 +243,7 @@ impl<'a> Collocation<'a> {
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
     fn hides(&self, state: &State, step: &Step, coefficients: &[f64; NODES]) -> Option<Unresolved> {
-        if !self.varies_between_nodes {
+        if !self.motion.varies_between_nodes() {
             return None;
         }
         let h = step.length();
@@ -274,7 +270,7 @@ impl<'a> Collocation<'a> {
         let tableau = self.tableau;
         let speed = h * dot(&tableau.end_speed, alpha);
         let angle = h * h * dot(&tableau.end_angle, alpha);
-        let work = match self.has_power {
+        let work = match self.motion.has_power() {
             true => h * dot(&tableau.end_speed, power),
             false => 0.0,
         };
