@@ -133,83 +133,59 @@ fn bracket(
     step: f64,
 ) -> Result<(CycleGain, CycleGain, bool), NoCycle> {
     let at_first = evaluate(map, first)?;
-    let gain = at_first.map(|cycle| cycle.gain);
-    if let Some(cycle) = at_first.filter(|cycle| cycle.gain <= 0.0)
-        && let Some((low, high)) = below(map, cycle, step)?
-    {
-        return Ok((low, high, true));
+    let gain = at_first.map_or(f64::NAN, |cycle| cycle.gain);
+    if let Some(cycle) = at_first.filter(|cycle| cycle.gain == 0.0) {
+        return Ok((cycle, cycle, true));
     }
-    let (low, high) = above(map, at_first, first, step)?;
-    Ok((low, high, gain.is_some_and(|gain| gain > 0.0)))
-}
-
-/// True if the search goes on at this ratio of energies; no machine turns beyond it, with speeds in the ratio 1e13.
-fn is_in_range(ratio: f64) -> bool {
-    ratio.ln() < 60.0
-}
-
-/// Returns the next search step, as ln of the energy ratio: twice this one, up to a factor of 1.5.
-fn longer(step: f64) -> f64 {
-    let longest = 0.4;
-    (2.0 * step).min(longest)
-}
-
-/// Returns the nearest bracket below a cycle that loses.
-fn below(
-    map: &mut dyn CycleMap,
-    first: CycleGain,
-    mut step: f64,
-) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
-    let mut high = first;
-    if first.gain == 0.0 {
-        return Ok(Some((first, first)));
-    }
-    while is_in_range(first.kinetic / high.kinetic) {
-        let kinetic = high.kinetic * (-step).exp();
-        match evaluate(map, kinetic)? {
-            Some(cycle) if cycle.gain >= 0.0 => return Ok(Some((cycle, high))),
-            Some(cycle) => high = cycle,
-            None => return near_stop(map, kinetic, high),
+    if gain < 0.0 {
+        match search(map, first, at_first, -step) {
+            Ok((low, high)) => return Ok((low, high, true)),
+            Err(NoCycle::NotApplicable(why)) => return Err(why.into()),
+            Err(_) => {}
         }
-        step = longer(step);
     }
-    Ok(None)
+    let (low, high) = search(map, first, at_first, step)?;
+    Ok((low, high, gain > 0.0))
 }
 
-/// Returns the nearest bracket above the first energy.
-fn above(
+/// Walks from the first energy by steps in its logarithm, downwards if they are negative, to a cycle that gains and the
+/// next one above, which loses.
+fn search(
     map: &mut dyn CycleMap,
-    at_first: Option<CycleGain>,
     first: f64,
+    at_first: Option<CycleGain>,
     mut step: f64,
 ) -> Result<(CycleGain, CycleGain), NoCycle> {
-    let mut kinetic = first;
-    let (mut gains, mut stops, mut turned) = (None, None, false);
-    let mut cycle = at_first;
-    while is_in_range(kinetic / first) {
-        turned |= cycle.is_some();
-        match cycle {
-            None => (gains, stops) = (None, Some(kinetic)),
-            Some(cycle) if cycle.gain >= 0.0 => gains = Some(cycle),
-            Some(loses) => {
-                if let Some(low) = gains {
-                    return Ok((low, loses));
-                }
-                if let Some(stops) = stops.take()
-                    && let Some(found) = near_stop(map, stops, loses)?
-                {
-                    return Ok(found);
-                }
+    // No machine turns beyond this ratio of energies, with speeds in the ratio 1e13. Steps grow up to a factor of 1.5.
+    let (widest, longest): (f64, f64) = (60.0, 0.4);
+    let (mut kinetic, mut here, mut turned) = (first, at_first, at_first.is_some());
+    while (kinetic / first).ln().abs() < widest {
+        let ahead = kinetic * step.exp();
+        let next = evaluate(map, ahead)?;
+        let (lowest, [low, high]) = match step > 0.0 {
+            true => (kinetic, [here, next]),
+            false => (ahead, [next, here]),
+        };
+        if let Some(high) = high.filter(|high| high.gain < 0.0) {
+            let found = match low {
+                Some(low) => (low.gain >= 0.0).then_some((low, high)),
+                None => near_stop(map, lowest, high)?,
+            };
+            if let Some(found) = found {
+                return Ok(found);
+            }
+            if low.is_none() && step < 0.0 {
+                break;
             }
         }
-        kinetic *= step.exp();
-        step = longer(step);
-        cycle = evaluate(map, kinetic)?;
+        turned |= next.is_some();
+        (kinetic, here) = (ahead, next);
+        step = (2.0 * step).clamp(-longest, longest);
     }
-    Err(match (gains, turned) {
-        (Some(_), _) => NoCycle::Gains,
-        (None, true) => NoCycle::Stops,
-        (None, false) => NoCycle::Incomplete,
+    Err(match here {
+        Some(cycle) if cycle.gain >= 0.0 => NoCycle::Gains,
+        _ if turned => NoCycle::Stops,
+        _ => NoCycle::Incomplete,
     })
 }
 
