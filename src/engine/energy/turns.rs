@@ -177,25 +177,16 @@ impl Turns {
     /// Returns the smallest and largest |speed| up to a time (s), rad/s.
     pub fn speed_range(&self, until: f64) -> (f64, f64) {
         let last = self.find(Goal::Time(until));
-        let by_energy = |a: &&TurnStart, b: &&TurnStart| a.kinetic.total_cmp(&b.kinetic);
-        let whole = || self.marks.iter().filter(|mark| mark.turns < last.turns);
         let mut range = self.on_turn(&last, |segment| segment.speed_range(0.0, last.until(until)));
-        let first = whole().next().copied();
-        // The energies of the turns are monotone, but not all turns have marks.
+        let first = self.marks[0];
+        // The energies of the turns are monotone.
         let cycle = match &self.map {
             Map::Interpolated(map) => map.cells.first().map_or(1.0, |cell| cell.count),
             Map::Gaining(_) => 1.0,
         };
-        let before_last = last.turns - cycle;
-        let before_last =
-            (before_last >= self.marks[0].turns).then(|| self.find(Goal::Turns(before_last)));
-        let marks = [
-            whole().min_by(by_energy).copied(),
-            whole().max_by(by_energy).copied(),
-            first,
-            before_last,
-        ];
-        for mark in marks.into_iter().flatten() {
+        let whole = (last.turns - cycle >= first.turns).then_some(last.turns - cycle);
+        let ends = whole.map(|before_last| [first, self.find(Goal::Turns(before_last))]);
+        for mark in ends.into_iter().flatten() {
             let (low, high) =
                 self.on_turn(&mark, |segment| segment.speed_range(0.0, f64::INFINITY));
             range = (range.0.min(low), range.1.max(high));
@@ -208,14 +199,11 @@ impl Turns {
         self.last_mark().t.0 + self.last.duration.0
     }
 
-    /// Returns the largest kinetic energy at the starts of turns and in the last turns, up to a time (s), J.
+    /// Returns the largest kinetic energy at the starts of turns, whose energies are monotone, and in the last turns, up
+    /// to a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
         let reached = self.find(Goal::Time(until));
-        let marks = self
-            .marks
-            .iter()
-            .take_while(|mark| mark.until(until) >= 0.0);
-        let most = marks.fold(reached.kinetic, |most, mark| most.max(mark.kinetic));
+        let most = reached.kinetic.max(self.marks[0].kinetic);
         if reached.turns < self.last_mark().turns {
             most
         } else {
