@@ -6,7 +6,7 @@ use super::angle_run::work_until;
 use super::poincare_map::{self, SINGLE_TURNS};
 use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{AngleRun, Dynamics, EarlyEnd, Goal, Resolution};
+use super::{AngleRun, Dynamics, Goal, Resolution};
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
 use crate::engine::energy::{NotApplicable, Orbit};
@@ -61,21 +61,13 @@ pub fn run<D: Dynamics>(
             Goal::Turned(way) => turned >= way - SAME_ANGLE,
         };
         if passed {
-            let orbit = Orbit::one_way(angle, speed, segment);
+            let orbit = Orbit::one_way(angle, speed, segment, None);
             let end = match goal {
                 Goal::Time(until) => until,
                 Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
             };
             let work = stepper.progress.work - work + work_until(orbit.last_segment(), end, &force);
-            return Ok(AngleRun {
-                shapes: stepper.leave_panels(),
-                orbit,
-                end,
-                work,
-                errors: stepper.progress.errors,
-                evaluations: stepper.evaluations,
-                early_end: None,
-            });
+            return Ok(stepper.finished(orbit, end, work, None));
         }
     }
 }
@@ -100,22 +92,13 @@ fn forecast<'a, D: Dynamics>(
 
 /// Makes the result of a run that ended before its goal.
 fn ended<D: Dynamics>(
-    mut stepper: PanelStepper<'_, D>,
+    stepper: PanelStepper<'_, D>,
     segment: Segment,
     why: NotApplicable,
 ) -> AngleRun {
     let MotionState { angle, speed, .. } = stepper.start;
-    AngleRun {
-        shapes: stepper.leave_panels(),
-        early_end: segment.last_angle(angle.turns).map(|angle| EarlyEnd {
-            why,
-            angle,
-            kinetic: stepper.progress.kinetic,
-        }),
-        end: segment.duration.0,
-        orbit: Orbit::one_way(angle, speed, segment),
-        work: stepper.progress.work,
-        errors: stepper.progress.errors,
-        evaluations: stepper.evaluations,
-    }
+    let early_end = stepper.early_end(&segment, angle.turns, why);
+    let (end, work) = (segment.duration.0, stepper.progress.work);
+    let orbit = Orbit::one_way(angle, speed, segment, None);
+    stepper.finished(orbit, end, work, early_end)
 }

@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 
-use super::super::energy::NotApplicable;
 use super::super::energy::piece::Piece;
-use super::cycle_panels::{self, CyclePanels, PanelShape};
+use super::super::energy::segment::Segment;
+use super::super::energy::{NotApplicable, Orbit};
+use super::cycle_panels::{self, CyclePanels};
 use super::guide::Guide;
 use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable};
@@ -12,7 +13,7 @@ use super::progress::{Progress, SolvedPanel};
 use super::solution::PanelSolution;
 use super::sweep::sweep;
 use super::switch::{Switching, begins_beyond, switching};
-use super::{Dynamics, Panels, Resolution};
+use super::{AngleRun, Dynamics, EarlyEnd, Panels, Resolution};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::MotionState;
 use crate::numeric::enclosure::Interval;
@@ -101,13 +102,38 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         self.gives_up = gives_up;
     }
 
-    /// Leaves the panels to the next run, if they are shared, and returns their shapes.
-    pub fn leave_panels(&mut self) -> Vec<PanelShape> {
+    /// Returns the early end of a run whose last turns are on a segment that began after so many turns, for a reason.
+    pub fn early_end(&self, segment: &Segment, turns: f64, why: NotApplicable) -> Option<EarlyEnd> {
+        let (angle, kinetic) = (segment.last_angle(turns)?, self.progress.kinetic);
+        Some(EarlyEnd {
+            why,
+            angle,
+            kinetic,
+        })
+    }
+
+    /// Ends the run with this motion up to a time (s) and this work (J), and leaves the panels to the next run, if they
+    /// are shared.
+    pub fn finished(
+        self,
+        orbit: Orbit,
+        end: f64,
+        work: f64,
+        early_end: Option<EarlyEnd>,
+    ) -> AngleRun {
         let shapes = self.panels.shapes();
         if let Some(shared) = self.shared {
-            shared.replace(Panels(std::mem::take(&mut self.panels.panels)));
+            shared.replace(Panels(self.panels.panels));
         }
-        shapes
+        AngleRun {
+            orbit,
+            shapes,
+            end,
+            work,
+            errors: self.progress.errors,
+            evaluations: self.evaluations,
+            early_end,
+        }
     }
 
     /// Returns the number of load evaluations and tabulated positions.

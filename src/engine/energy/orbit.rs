@@ -106,8 +106,13 @@ impl Orbit {
         })
     }
 
-    /// Makes a motion in one direction that does not repeat.
-    pub(in crate::engine) fn one_way(start: Angle, speed: f64, segment: Segment) -> Orbit {
+    /// Makes a motion in one direction that does not repeat, of many turns if there are later ones.
+    pub(in crate::engine) fn one_way(
+        start: Angle,
+        speed: f64,
+        segment: Segment,
+        later: Option<Turns>,
+    ) -> Orbit {
         Orbit {
             start,
             direction: speed.signum(),
@@ -116,20 +121,7 @@ impl Orbit {
             energy_error: 0.0,
             forward: segment,
             backward: None,
-            later: None,
-        }
-    }
-
-    /// Makes a motion of many turns in one direction, the first of them on a segment.
-    pub(in crate::engine) fn of_turns(
-        start: Angle,
-        speed: f64,
-        segment: Segment,
-        later: Turns,
-    ) -> Orbit {
-        Orbit {
-            later: Some(Box::new(later)),
-            ..Orbit::one_way(start, speed, segment)
+            later: later.map(Box::new),
         }
     }
 

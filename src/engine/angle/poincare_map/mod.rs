@@ -12,7 +12,7 @@ use super::super::energy::{NotApplicable, Orbit};
 use super::angle_run::work_until;
 use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{AngleRun, Dynamics, EarlyEnd, Errors, Goal};
+use super::{AngleRun, Dynamics, Errors, Goal};
 use crate::engine::WorkLimit;
 use crate::engine::run_in_time::MotionState;
 
@@ -55,11 +55,7 @@ pub(super) fn run<D: Dynamics>(
         MapEnd::AtGoal(_) => None,
         MapEnd::Early(why) => {
             let whole = angle.turns + speed.signum() * last.turns;
-            turns.last.last_angle(whole).map(|angle| EarlyEnd {
-                why: *why,
-                angle,
-                kinetic: stepper.progress.kinetic,
-            })
+            stepper.early_end(&turns.last, whole, *why)
         }
     };
     let turns = Turns {
@@ -69,7 +65,7 @@ pub(super) fn run<D: Dynamics>(
         recent: RecentTurn::default(),
         error: 0.0,
     };
-    let orbit = Orbit::of_turns(angle, speed, segment, turns);
+    let orbit = Orbit::one_way(angle, speed, segment, Some(turns));
     let end = match goal {
         _ if early_end.is_some() => orbit.length(),
         Goal::Time(until) => until,
@@ -83,18 +79,14 @@ pub(super) fn run<D: Dynamics>(
         }
     };
     Ok(AngleRun {
-        orbit,
         shapes: Vec::new(),
-        end,
-        work,
         // Errors grow as in the first turns.
         errors: Errors {
             time: errors.time * end / first,
             advance: errors.advance * end / first,
             ..errors
         },
-        evaluations: stepper.evaluations,
-        early_end,
+        ..stepper.finished(orbit, end, work, early_end)
     })
 }
 
