@@ -1,9 +1,5 @@
 //! Known run as first guess of a finer one: the change made by a sweep is then the defect of the guide.
 
-use std::cmp::Ordering;
-
-use super::super::energy::panel::Panel;
-use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::AngleRun;
 use super::cycle_panels::PanelShape;
@@ -16,8 +12,6 @@ use crate::numeric::chebyshev::Values;
 pub struct Guide<'a> {
     segment: &'a Segment,
     shapes: &'a [PanelShape],
-    /// Index of the panel of the last request.
-    index: usize,
 }
 
 impl<'a> Guide<'a> {
@@ -26,7 +20,6 @@ impl<'a> Guide<'a> {
         Guide {
             segment: run.orbit.last_segment(),
             shapes: &run.shapes,
-            index: 0,
         }
     }
 
@@ -39,7 +32,7 @@ impl<'a> Guide<'a> {
     /// Returns the kinetic energy (J) of the guide at the points of a panel after `turns` whole turns, shifted to
     /// `start` at the first point. None beyond the end of the guide, and where the energy is not positive.
     pub(super) fn kinetic<P: Copy>(
-        &mut self,
+        &self,
         panel: &PanelTable<P>,
         turns: f64,
         start: f64,
@@ -49,12 +42,13 @@ impl<'a> Guide<'a> {
         let mut kinetic = panel.rule.values(|x| panel.piece.angle(x));
         let mut done = 0;
         while done < count {
-            let known = self.panel(turns, kinetic[done])?;
-            let local = |angle: &f64| Self::local(known, turns, *angle);
+            let (index, _) = self.segment.located(Angle::new(turns, kinetic[done]))?;
+            let (known, _) = self.segment.panel(index)?;
+            let local = |angle: &f64| known.local(Angle::new(turns, *angle));
             let left = &mut kinetic[done..count];
-            let is_on = |angle: &&f64| Self::compare(known, local(angle)) == Ordering::Equal;
-            let here = left.iter().take_while(is_on).count();
-            let points = &mut left[..here];
+            let is_on = |angle: &&f64| known.piece.nearest(local(angle)).is_some();
+            let more = left.iter().skip(1).take_while(is_on).count();
+            let points = &mut left[..=more];
             points.iter_mut().for_each(|angle| *angle = local(angle));
             known.slowness(points);
             for (point, inertia) in points.iter_mut().zip(&panel.table.inertia[done..]) {
@@ -68,34 +62,5 @@ impl<'a> Guide<'a> {
         // Between its points a series is no guide where the inertia nearly vanishes.
         let is_energy = |one: &f64| *one > 0.0 && one.is_finite();
         kinetic[..count].iter().all(is_energy).then_some(kinetic)
-    }
-
-    fn local(panel: &Panel, turns: f64, angle: f64) -> f64 {
-        Angle::new(turns - panel.turns, angle).radians()
-    }
-
-    /// Compares an angle, rad, with the range of a panel in the direction of motion.
-    fn compare(panel: &Panel, angle: f64) -> Ordering {
-        let direction = panel.piece.span().signum();
-        if (angle - panel.piece.to) * direction > SAME_ANGLE {
-            Ordering::Greater
-        } else if (panel.piece.from - angle) * direction > SAME_ANGLE {
-            Ordering::Less
-        } else {
-            Ordering::Equal
-        }
-    }
-
-    /// Returns the panel in which an angle lies.
-    fn panel(&mut self, turns: f64, angle: f64) -> Option<&'a Panel> {
-        let segment = self.segment;
-        loop {
-            let (panel, _) = segment.panel(self.index)?;
-            match Self::compare(panel, Self::local(panel, turns, angle)) {
-                Ordering::Greater => self.index += 1,
-                Ordering::Less => self.index = self.index.checked_sub(1)?,
-                Ordering::Equal => return Some(panel),
-            }
-        }
     }
 }

@@ -227,7 +227,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         if panel.is_in_closed_form(dynamics) {
             return;
         }
-        let guide = self.guide.as_mut();
+        let guide = self.guide.as_ref();
         let known = guide
             .filter(|_| panel.table.switch.is_none())
             .and_then(|guide| guide.kinetic(panel, self.progress.turns, start.kinetic));

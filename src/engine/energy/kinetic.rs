@@ -97,6 +97,32 @@ impl Energy<'_> {
             _ => Attempt::Unresolved,
         }
     }
+
+    /// Returns the relative error of the duration of the piece due to an error (J) of the kinetic energy. `slopes` and
+    /// `kinetic` are dt/dx and the kinetic energy (J) at the points.
+    pub fn duration_error(
+        &self,
+        sensitivity: &TimeSensitivity,
+        slopes: &Values,
+        kinetic: &Values,
+        error: f64,
+    ) -> f64 {
+        let (piece, rule) = (&self.piece, self.rule);
+        let truncation = self.truncation_error();
+        match piece.turning {
+            Turning::Nowhere => {
+                // dT/dK is the integral of dt/2K.
+                let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
+                let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
+                error * rule.rounded_integral(&early) / rule.rounded_integral(slopes)
+                    + truncation / least
+            }
+            Turning::AtStart => sensitivity.at_turn(piece, f64::INFINITY, error),
+            Turning::AtEnd => {
+                sensitivity.at_turn(piece, self.kinetic, error) + truncation / self.kinetic
+            }
+        }
+    }
 }
 
 /// Rounding floor of the last terms of series, relative to the largest term.

@@ -5,6 +5,7 @@ use super::extreme::{Peak, extremes};
 use super::kinetic::{Energy, Noise, TimeSensitivity};
 use super::piece::{Piece, Turning};
 use super::profile::{NotApplicable, Profile};
+use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
 /// Piece of the crank angle with the series of the time on it.
@@ -121,7 +122,7 @@ impl Panel {
             KnownEnergy::AtStart(error) => (error + sensitivity.energy).hypot(residual),
             KnownEnergy::AtTurn(error) => error,
         };
-        let rounding = duration_error(&energy, &sensitivity, &slopes, &kinetic, energy_error);
+        let rounding = energy.duration_error(&sensitivity, &slopes, &kinetic, energy_error);
         let kinetic_at_end = match piece.turning {
             Turning::Nowhere => kinetic[MAX_DEGREE],
             Turning::AtStart => 2.0 * span * energy.mean_force(1.0),
@@ -188,6 +189,11 @@ impl Panel {
             extremes: extremes(&first.piece, first.rule, &slopes),
             ..first.clone()
         })
+    }
+
+    /// Returns an angle without the whole turns of the panel, rad.
+    pub fn local(&self, angle: Angle) -> f64 {
+        Angle::new(angle.turns - self.turns, angle.rest).radians()
     }
 
     /// Returns the truncation error of the time inside the panel, s.
@@ -270,31 +276,5 @@ impl Panel {
     pub(super) fn at(&self, theta: f64) -> (f64, f64) {
         let x = self.piece.variable(theta);
         (self.time(x), self.speed(x))
-    }
-}
-
-/// Returns the relative error of the duration of a panel due to an error (J) of the kinetic energy. `slopes` and
-/// `kinetic` are dt/dx and the kinetic energy (J) at the points.
-fn duration_error(
-    energy: &Energy<'_>,
-    sensitivity: &TimeSensitivity,
-    slopes: &Values,
-    kinetic: &Values,
-    error: f64,
-) -> f64 {
-    let (piece, rule) = (&energy.piece, energy.rule);
-    let truncation = energy.truncation_error();
-    match piece.turning {
-        Turning::Nowhere => {
-            // dT/dK is the integral of dt/2K.
-            let early: Values = std::array::from_fn(|j| 0.5 * slopes[j] / kinetic[j]);
-            let least = kinetic.iter().fold(f64::INFINITY, |m, k| m.min(*k));
-            error * rule.rounded_integral(&early) / rule.rounded_integral(slopes)
-                + truncation / least
-        }
-        Turning::AtStart => sensitivity.at_turn(piece, f64::INFINITY, error),
-        Turning::AtEnd => {
-            sensitivity.at_turn(piece, energy.kinetic, error) + truncation / energy.kinetic
-        }
     }
 }

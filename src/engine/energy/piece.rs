@@ -127,6 +127,12 @@ impl Piece {
         }
     }
 
+    /// Returns the nearest angle of the piece, rad; none if that is another one by more than rounding.
+    pub fn nearest(&self, theta: f64) -> Option<f64> {
+        let on_it = theta.clamp(self.from.min(self.to), self.from.max(self.to));
+        ((theta - on_it).abs() <= SAME_ANGLE).then_some(on_it)
+    }
+
     /// Returns x at an angle (rad) of the piece.
     pub fn variable(&self, theta: f64) -> f64 {
         let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);

@@ -2,7 +2,7 @@
 
 use super::extreme::extreme;
 use super::panel::Panel;
-use super::piece::{Piece, SAME_ANGLE};
+use super::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
@@ -117,22 +117,21 @@ impl Segment {
     /// Returns the time (s) at which an angle is reached and the speed there (rad/s); none off the segment. Angles off
     /// its ends by rounding count as the ends.
     pub fn at(&self, angle: Angle) -> Option<(f64, f64)> {
-        let local = |panel: &Panel| {
-            let turns = angle.turns - panel.turns;
-            Angle { turns, ..angle }.radians()
-        };
+        let (index, local) = self.located(angle)?;
+        let (after, speed) = self.panels[index].at(local);
+        Some((self.begins[index] + after, speed))
+    }
+
+    /// Returns the index of the panel that passes an angle, and the angle as one of the panel, rad; none off the segment.
+    pub fn located(&self, angle: Angle) -> Option<(usize, f64)> {
         // Panels follow each other in one direction.
         let is_begun = |panel: &Panel| {
             let piece = &panel.piece;
-            (local(panel) - piece.from) * (piece.to - piece.from) >= 0.0
+            (panel.local(angle) - piece.from) * (piece.to - piece.from) >= 0.0
         };
         let index = self.panels.partition_point(is_begun).saturating_sub(1);
         let panel = self.panels.get(index)?;
-        let (piece, at) = (&panel.piece, local(panel));
-        let on_it = at.clamp(piece.from.min(piece.to), piece.from.max(piece.to));
-        let is_near = (at - on_it).abs() <= SAME_ANGLE;
-        let (after, speed) = panel.at(on_it);
-        is_near.then(|| (self.begins[index] + after, speed))
+        Some((index, panel.piece.nearest(panel.local(angle))?))
     }
 
     /// Returns the smallest and largest |speed| between two times (s), rad/s.
