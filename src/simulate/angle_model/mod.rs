@@ -42,9 +42,10 @@ pub(super) struct AngleModel<'a> {
     corners: Vec<f64>,
     /// Number of turns after which the loads repeat.
     cycle: u32,
-    /// Corners of loads in a cycle, rad, without and with the dead centres of the cycle.
+    /// Corners of loads in a cycle, rad.
     load_corners: Vec<f64>,
-    cycle_corners: Vec<f64>,
+    /// Corners of loads and dead centres of a cycle, rad.
+    pub cycle_corners: Vec<f64>,
     /// Corners and narrow parts of formulas; the flag is set where they are corners of each turn.
     panel_ends: PanelEnds<'a>,
     panel_ends_are_corners: bool,
@@ -140,11 +141,6 @@ impl<'a> AngleModel<'a> {
             self.variation(&reach, 1.0).deviation > 0.0
         };
         self.has_state_loads() && self.dead_centres.iter().any(is_kink)
-    }
-
-    /// Returns the corners of loads and the dead centres of a cycle, rad.
-    pub fn events(&self) -> &[f64] {
-        &self.cycle_corners
     }
 
     /// Returns the angle with the whole turns of the start.

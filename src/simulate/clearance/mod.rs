@@ -148,19 +148,16 @@ impl<'a, const N: usize> Loose<'a, N> {
     }
 
     fn stopped(&self, ended: &ContactEnd<N>, last: &LooseState) -> Option<Why> {
-        match ended.finish {
-            Finish::AtEnd => match self.task.extent {
-                Extent::Revolutions(turns) if last.t >= UNLIMITED_TIME => {
-                    Some(Why::TurnsNeverComplete(turns))
-                }
-                _ => None,
-            },
-            Finish::Stopped => None,
-            Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns => {
-                Some(self.task.limited())
+        Some(match (ended.finish, self.task.extent) {
+            (Finish::AtEnd, Extent::Revolutions(turns)) if last.t >= UNLIMITED_TIME => {
+                Why::TurnsNeverComplete(turns)
             }
-            Finish::StepTooSmall | Finish::NoValue | Finish::NoStart => Some(self.too_small(last)),
-        }
+            (Finish::AtEnd | Finish::Stopped, _) => return None,
+            (Finish::WorkLimit | Finish::WorkLimitAhead | Finish::TooManyTurns, _) => {
+                self.task.limited()
+            }
+            (Finish::StepTooSmall | Finish::NoValue | Finish::NoStart, _) => self.too_small(last),
+        })
     }
 
     /// Returns the reason for steps that became too small.

@@ -185,7 +185,7 @@ impl ResumeCondition<'_, '_> {
 
     /// Whether an angle is apart from all places of events.
     fn is_apart(&self, angle: Angle) -> bool {
-        let mut corners = self.pass.model.events().iter();
+        let mut corners = self.pass.model.cycle_corners.iter();
         corners.all(|corner| circular_distance(angle.rest, *corner) > NEARBY_ANGLE)
     }
 }
