@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::forces::ForceAnalysis;
 use super::turning_moment::{TurningMoment, areas};
-use crate::mechanism::Limits;
+use crate::mechanism::{Limits, single};
 use crate::numeric::{fourier, gauss, maximum};
 use crate::scene::{Load, Scene};
 
@@ -105,29 +105,23 @@ impl ForceAnalysis {
 
     /// Computes the work of all pressures of the scene.
     fn indicated(&self, scene: &Scene) -> Option<Indicated> {
-        let gases = scene.forces.iter().filter_map(|load| match load {
-            Load::Gas {
-                pressure,
-                ambient,
-                area,
-                towards_crank,
-            } => Some((pressure, *ambient, *area * towards_crank)),
+        let area = |load: &Load| match load {
+            Load::Gas { area, .. } => Some(*area),
             _ => None,
-        });
-        let gases: Vec<_> = gases.collect();
-        let area = gases.iter().map(|(.., area)| area.abs());
-        let area = area.fold(0.0, f64::max);
-        if gases.is_empty() {
-            return None;
-        }
+        };
+        let forces = scene.forces.iter();
+        let gases: Vec<_> = forces.filter(|load| area(load).is_some()).collect();
+        let area = gases
+            .iter()
+            .filter_map(|load| area(load))
+            .reduce(f64::max)?;
         let linkage = self.linkage();
         let scene_stroke = Limits::new(linkage, self.speed_rad_per_s).stroke;
         let power = |theta: f64| {
-            let force: f64 = gases
-                .iter()
-                .map(|(pressure, ambient, area)| (pressure.value(theta) - ambient) * area)
-                .sum();
-            force * linkage.pose(theta).dx
+            let pose = linkage.pose(theta);
+            let now = pose.instant(0.0, theta, 0.0);
+            let force: f64 = gases.iter().map(|load| single(load, true, &now)).sum();
+            force * pose.dx
         };
         let pieces = self.pieces();
         let work_between = areas(&power, &pieces);

@@ -124,22 +124,6 @@ impl CurveEquation {
         self.loads().at(&self.instant(pose, t, q, speed))
     }
 
-    /// Returns torque and force of the loads, with a known value of the dry ones.
-    pub fn load_beside(
-        &self,
-        dry: LoadValue,
-        pose: &CurvePose,
-        t: f64,
-        q: Angle,
-        speed: f64,
-    ) -> LoadValue {
-        let non_conservative = self
-            .loads()
-            .non_conservative(&self.instant(pose, t, q, speed));
-        let potential = self.loads().with_potential_at(pose.x);
-        potential.plus(non_conservative).plus(dry)
-    }
-
     /// Returns acceleration and normal force without guide friction, and their derivatives with respect to a force
     /// along the guide. Dry loads oppose the speed (rad/s) of the coordinate.
     pub fn free(&self, t: f64, q: Angle, speed: f64) -> Free {

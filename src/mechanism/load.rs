@@ -260,7 +260,7 @@ impl Loads {
     }
 
     /// Returns torque and force of the loads whose work must be integrated, without dry loads.
-    pub(super) fn non_conservative(&self, now: &Instant) -> LoadValue {
+    pub fn non_conservative(&self, now: &Instant) -> LoadValue {
         let [called] = NonlinearLoads::sums([&self.placed, &self.mixed], &[*now]);
         self.damped(now).plus(self.of_time(now.t)).plus(called)
     }

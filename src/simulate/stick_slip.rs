@@ -96,15 +96,16 @@ impl CurveMotion<'_> {
 
     /// Returns torque and force of the loads at a position, dry loads included.
     pub fn load(&self, place: &CurvePose, t: f64, angle: Angle, speed: f64) -> LoadValue {
-        let equation = self.equation;
+        let loads = self.equation.loads();
+        let now = self.equation.instant(place, t, angle, speed);
         let dry = match self.phase {
-            StickSlipPhase::Sliding { opposed, .. } => {
-                let now = equation.instant(place, t, angle, speed);
-                equation.loads().dry(&now, opposed)
-            }
-            StickSlipPhase::Sticking => equation.at_rest(angle).held(t).dry,
+            StickSlipPhase::Sliding { opposed, .. } => loads.dry(&now, opposed),
+            StickSlipPhase::Sticking => self.equation.at_rest(angle).held(t).dry,
         };
-        equation.load_beside(dry, place, t, angle, speed)
+        let smooth = loads
+            .with_potential_at(place.x)
+            .plus(loads.non_conservative(&now));
+        smooth.plus(dry)
     }
 }
 

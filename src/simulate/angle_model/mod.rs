@@ -85,16 +85,19 @@ impl<'a> AngleModel<'a> {
         let load_corners = sorted_corners(of_loads.into_iter().chain(ends_in_cycle));
         let in_cycle = angle::in_turns(&dead_centres, 0..cycle.into());
         let cycle_corners = sorted_corners(in_cycle.chain(load_corners.iter().copied()));
+        let of_turn = if cycle == 1 {
+            load_corners.clone()
+        } else {
+            in_turn
+        };
         let mut model = AngleModel {
             equation,
             guide: task.maker.guide.as_deref(),
             speed: task.speed,
             turns: start.turns,
-            corners: match (cycle, inertia_vanishes) {
-                (1, true) => cycle_corners.clone(),
-                (1, false) => load_corners.clone(),
-                (_, true) => sorted_corners(dead_centres.iter().copied().chain(in_turn)),
-                (_, false) => in_turn,
+            corners: match inertia_vanishes {
+                true => sorted_corners(dead_centres.iter().copied().chain(of_turn)),
+                false => of_turn,
             },
             cycle,
             inertia_vanishes,
