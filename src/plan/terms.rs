@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::scene::{Clearance, Friction, Joint, Load, LoadOf, RodModel, Scene, Variables};
+use crate::scene::{Clearance, Friction, Load, LoadOf, RodModel, Scene, Variables};
 
 /// Term of the equation, modelled or left out.
 #[derive(Clone, Debug, Serialize)]
@@ -84,10 +84,7 @@ impl fmt::Display for TermReason {
                 write!(f, "at the guide, coefficient {kinetic}, static {held}")
             }
             TermReason::Clearance(clearance) => {
-                let joint = match clearance.joint {
-                    Joint::CrankPin => "crank pin",
-                    Joint::WristPin => "wrist pin",
-                };
+                let joint = clearance.joint.name().replace('-', " ");
                 let (radial, law) = (clearance.radial, clearance.law.name());
                 write!(f, "{radial} m at the {joint}, contact law {law}")
             }

@@ -105,17 +105,20 @@ impl LooseMechanism {
 
     #[inline(always)]
     pub(super) fn load(&self, s: &LooseState) -> LoadValue {
-        let Some(loads) = &self.loads else {
-            return LoadValue::default();
-        };
-        let theta = Angle::new(self.turns, s.theta);
-        loads.at(&Instant {
+        let loads = self.loads.as_ref();
+        loads.map_or_else(LoadValue::default, |loads| loads.at(&self.instant(s)))
+    }
+
+    /// Returns the variables of the loads at a state.
+    #[inline(always)]
+    pub fn instant(&self, s: &LooseState) -> Instant {
+        Instant {
             t: s.t,
-            theta: theta.radians(),
+            theta: Angle::new(self.turns, s.theta).radians(),
             omega: s.omega,
             x: s.x,
             v: s.v,
-        })
+        }
     }
 
     /// Returns the moment of gravity on the crank, N m.

@@ -122,18 +122,10 @@ fn out_of_reach(theta: Angle, reach: &[[f64; 2]]) -> Problem {
 }
 
 fn loose(scene: &Scene, reduced: &Scene, clearance: Clearance, list: &mut Vec<Problem>) {
-    let start = LooseMechanism::new(reduced, clearance).and_then(|loose| loose.start(scene));
+    let mechanism = LooseMechanism::new(reduced, clearance);
+    let start = mechanism.and_then(|loose| Ok(loose.instant(&loose.start(scene)?)));
     match start {
-        Ok(at) => {
-            let now = Instant {
-                t: 0.0,
-                theta: scene.motion.angle,
-                omega: at.omega,
-                x: at.x,
-                v: at.v,
-            };
-            loads(reduced, &now, list);
-        }
+        Ok(now) => loads(reduced, &now, list),
         Err(problems) => list.extend(problems.list().iter().cloned()),
     }
 }

@@ -25,7 +25,7 @@ use crate::engine::contact::{self, ContactEnd, ContactSettings};
 use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
-use crate::scene::{ContactLaw, Extent, Instant as State, Load, MotionKind};
+use crate::scene::{ContactLaw, Extent, Load, MotionKind};
 use contact_follower::{ContactFollower, ContactHistory};
 use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
@@ -175,16 +175,15 @@ impl<'a, const N: usize> Loose<'a, N> {
     /// Returns the load without a value at a state, or a few roundings after it.
     fn without_value(&self, last: &LooseState) -> Option<&Load> {
         let dt = 64.0 * f64::EPSILON * last.t.max(f64::MIN_POSITIVE);
-        let at = |dt: f64| State {
+        let after = LooseState {
             t: last.t + dt,
-            theta: self.task.angle(last.theta).radians() + last.omega * dt,
-            omega: last.omega,
+            theta: last.theta + last.omega * dt,
             x: last.x + last.v * dt,
-            v: last.v,
+            ..*last
         };
         let loads = self.task.equation().loads();
-        let found = loads.without_value(&at(0.0));
-        found.or_else(|| loads.without_value(&at(dt)))
+        let at = |s: &LooseState| loads.without_value(&self.mechanism.instant(s));
+        at(last).or_else(|| at(&after))
     }
 }
 

@@ -9,7 +9,7 @@ use super::{MARGIN, Verified};
 use crate::mechanism::{Equation, Limits, Linkage, single};
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::gauss;
-use crate::scene::{Load, LoadOf, Scene};
+use crate::scene::{Load, Scene};
 
 /// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
@@ -33,7 +33,11 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
         });
     };
     for of in scene.loads() {
-        let torque = |angle: Angle, omega: f64| crank_torque(linkage, &of, angle, omega);
+        let torque = |angle: Angle, omega: f64| {
+            let pose = linkage.pose(angle.rest);
+            let arm = if of.key.on_slider { pose.dx } else { 1.0 };
+            arm * single(of.load, of.key.on_slider, &pose.instant(0.0, angle, omega))
+        };
         let name = format!("{}: {}", of.key, of.load);
         add(name, Some(of.load), &torque);
     }
@@ -51,13 +55,6 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
 
 /// Crank torque (N m) as a function of crank angle and speed (rad/s).
 type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
-
-/// Returns the crank torque that is equivalent to a load, N m.
-fn crank_torque(linkage: &Linkage, of: &LoadOf<'_>, angle: Angle, omega: f64) -> f64 {
-    let pose = linkage.pose(angle.rest);
-    let arm = if of.key.on_slider { pose.dx } else { 1.0 };
-    arm * single(of.load, of.key.on_slider, &pose.instant(0.0, angle, omega))
-}
 
 /// Lists the rotations (rad) at the corners of a load, at the dead centres of a period and at equal parts of each turn.
 fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f64> {
