@@ -6,7 +6,7 @@
 mod assemble;
 mod bodies;
 mod draft;
-mod even_spacing;
+mod evenly;
 mod key_path;
 mod keys;
 mod loads;

@@ -1,11 +1,11 @@
-//! Values of a key that a sweep varies: a list, an even spread or a distribution.
+//! Values of a key that a sweep varies: a list or a distribution.
 
 use std::fmt;
 use std::str::FromStr;
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::even_spacing::EvenSpacing;
+use super::evenly::evenly;
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
 use super::value;
@@ -53,7 +53,6 @@ pub struct VariedValue {
 #[derive(Clone, Debug)]
 enum Variation {
     Listed(Vec<VariedValue>),
-    Even(EvenSpacing),
     /// Uniform distribution between two numbers, SI.
     Uniform([f64; 2]),
     /// Normal distribution with mean and standard deviation, SI.
@@ -66,7 +65,6 @@ impl Varied {
     pub fn len(&self) -> usize {
         match &self.values {
             Variation::Listed(list) => list.len(),
-            Variation::Even(spacing) => spacing.len(),
             Variation::Uniform(_) | Variation::Normal(_) => 1,
         }
     }
@@ -115,7 +113,6 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Variation::Listed(list) => list[index].clone(),
-            Variation::Even(spacing) => spacing.value(index),
             Variation::Uniform(_) | Variation::Normal(_) => self.quantile(0.5),
         }
     }
@@ -123,9 +120,7 @@ impl Varied {
     /// Returns the `p` quantile of a distribution, 0 < p < 1; listed values are equally likely.
     pub fn quantile(&self, p: f64) -> VariedValue {
         let number = match &self.values {
-            Variation::Listed(_) | Variation::Even(_) => {
-                return self.value((p * self.len() as f64) as usize);
-            }
+            Variation::Listed(list) => return list[(p * list.len() as f64) as usize].clone(),
             Variation::Uniform([low, high]) => low + p * (high - low),
             Variation::Normal(normal) => normal.inverse_cdf(p),
         };
@@ -134,7 +129,7 @@ impl Varied {
 }
 
 impl VariedValue {
-    fn read(key: &Key, text: String) -> Result<VariedValue, String> {
+    pub(super) fn read(key: &Key, text: String) -> Result<VariedValue, String> {
         let number = number(key, &text)?.map(|number| number.value);
         Ok(VariedValue { text, number })
     }
@@ -167,7 +162,6 @@ impl FromStr for Varied {
         let values = read(path.key, values)?;
         let has_numbers = match &values {
             Variation::Listed(list) => list.iter().all(|value| value.number.is_some()),
-            Variation::Even(spacing) => spacing.value(0).number.is_some(),
             Variation::Uniform(_) | Variation::Normal(_) => true,
         };
         Ok(Varied {
@@ -203,10 +197,10 @@ fn read(key: &Key, text: &str) -> Result<Variation, String> {
             };
         }
         ([from, to, count], _) => {
-            return EvenSpacing::new(key, [from, to], count, false).map(Variation::Even);
+            return evenly(key, [from, to], count, false).map(Variation::Listed);
         }
         ([from, to, count, "log"], _) => {
-            return EvenSpacing::new(key, [from, to], count, true).map(Variation::Even);
+            return evenly(key, [from, to], count, true).map(Variation::Listed);
         }
         _ => {
             return Err(format!(

@@ -12,7 +12,7 @@ use super::number;
 #[cfg(feature = "cli")]
 pub(super) use pattern::pattern;
 pub use quantity::Quantity;
-pub(super) use symbol::Factor;
+use symbol::Factor;
 
 /// Reason why a text is not the requested quantity.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -102,12 +102,6 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
         return Err(wrong(what, quantity, false));
     }
     Ok(found)
-}
-
-/// Returns the factor of a unit, for the conversion of many numbers; none if `unit` is no unit of `quantity`.
-#[cfg(feature = "cli")]
-pub(super) fn exact_factor(unit: &str, quantity: Quantity) -> Option<Factor> {
-    grammar::unit_factor(unit).ok()?.of(quantity)
 }
 
 /// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.

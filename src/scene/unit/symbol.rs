@@ -7,7 +7,7 @@ pub(super) type Dimension = [i8; 4];
 
 /// Factor numerator/denominator · 10^ten · pi^pi to SI, times metre, kilogram, second, radian to `dimension`.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::scene) struct Factor {
+pub(super) struct Factor {
     numerator: f64,
     denominator: f64,
     ten: i32,
@@ -57,7 +57,7 @@ impl Factor {
     }
 
     /// Returns the value of these digits, in SI units and radians.
-    pub(in crate::scene) fn apply(self, digits: &str) -> Option<f64> {
+    pub(super) fn apply(self, digits: &str) -> Option<f64> {
         let (mantissa, exponent) = match digits.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
             None => (digits, 0),
