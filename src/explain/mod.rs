@@ -2,8 +2,6 @@
 
 mod friction;
 
-use std::time::Instant;
-
 use serde::Serialize;
 
 pub use friction::FrictionAt;
@@ -25,8 +23,6 @@ pub struct Explanation {
     pub equation: Vec<String>,
     /// Sign conventions.
     pub conventions: Vec<&'static str>,
-    /// Measured time of one evaluation of the equation, ns.
-    pub evaluation_ns: f64,
     /// Terms at the requested crank angle, if one was requested.
     pub at: Option<TermsAt>,
 }
@@ -92,7 +88,6 @@ pub fn explain(scene: &Scene, method: Method, at: Option<f64>) -> Result<Explana
         plan,
         equation: written_out(&scene.reduced()),
         conventions: CONVENTIONS.to_vec(),
-        evaluation_ns: evaluation_ns(&equation, scene.motion.speed),
         at: at
             .map(|theta| terms_at(scene, &equation, theta))
             .transpose()?,
@@ -148,27 +143,6 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
         holding_torque_nm: equation.driving_torque(0.0, theta, omega, 0.0),
         friction,
     })
-}
-
-/// Measures the time of one evaluation, ns: the shortest of 7 rounds of 2000 evaluations over angles of a turn.
-fn evaluation_ns(equation: &Equation, speed: f64) -> f64 {
-    let count = 2000u32;
-    (0..7)
-        .map(|_| {
-            let begun = Instant::now();
-            let mut theta = 0.1;
-            for _ in 0..count {
-                let alpha = equation.acceleration(0.0, theta, speed);
-                if theta > 6.0 {
-                    theta = 0.0;
-                }
-                // The next angle depends on this result, as in an integration.
-                theta += 0.1 + 0.003 * f64::from(alpha > 0.0);
-            }
-            std::hint::black_box(theta);
-            begun.elapsed().as_secs_f64() * 1e9 / f64::from(count)
-        })
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Returns the equation and its parts with numbers, without parts that the scene does not have.

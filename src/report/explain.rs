@@ -64,9 +64,6 @@ fn computation(result: &Explanation) -> Facts {
             facts.add("", what);
         }
     }
-    let evaluation = result.evaluation_ns;
-    let text = format!("{evaluation:.0} ns (measured now)");
-    facts.add("  one evaluation", text);
     facts
 }
 
