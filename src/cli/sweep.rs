@@ -119,7 +119,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let streams = Streams::new(&[read], out, &[arguments.report.as_ref()], arguments.json)?;
     let draft = streams.draft(read)?;
     let figures = arguments.figures();
-    let is_of_motion = |figure: &&Figure| matches!(figure.source(), Source::Motion | Source::Peaks);
+    let is_of_motion = |figure: &&Figure| matches!(figure.source, Source::Motion | Source::Peaks);
     if let Some(figure) = figures.iter().find(is_of_motion)
         && arguments.no_motion
     {

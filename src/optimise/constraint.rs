@@ -58,7 +58,7 @@ impl FromStr for Constraint {
             )
         })?;
         let figure = Figure::of_number(name)?;
-        let limit = unit::parse(limit.trim(), figure.quantity());
+        let limit = unit::parse(limit.trim(), figure.quantity);
         Ok(Constraint {
             figure,
             sense,

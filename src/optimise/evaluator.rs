@@ -151,7 +151,7 @@ impl<'a> Evaluator<'a> {
     pub fn resolution(&self, one: &Evaluation) -> f64 {
         let objective = one.objective.map_or(0.0, f64::abs);
         let least = LEAST_IMPROVEMENT * self.goal_scale;
-        if self.problem.goal.figure.source() <= Source::Diagrams || self.stop.is_requested() {
+        if self.problem.goal.figure.source <= Source::Diagrams || self.stop.is_requested() {
             return least;
         }
         let vouched = self.sweep.with_estimates();

@@ -6,6 +6,7 @@ use std::time::Instant;
 use super::{PrecisionOptions, PrecisionRow, Reference, first_line};
 use crate::error::Error;
 use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::median::median;
 use crate::plan::{Engine, Method, Stepper};
 use crate::scene::Scene;
 use crate::simulate::{NoRows, Options, Summary, simulate_rows};
@@ -137,10 +138,9 @@ impl MethodRun {
         let estimate = summary.error_estimate;
         row.estimate_theta_rad = estimate.map(|error| error.theta_rad);
         row.estimate_omega_rad_per_s = estimate.map(|error| error.omega_rad_per_s);
-        let mut wall_times_s = self.wall_times_s.clone();
-        wall_times_s.sort_by(f64::total_cmp);
-        row.wall_s = wall_times_s.first().copied();
-        row.wall_median_s = wall_times_s.get(wall_times_s.len() / 2).copied();
+        let wall_times_s = || self.wall_times_s.iter().copied();
+        row.wall_s = wall_times_s().reduce(f64::min);
+        row.wall_median_s = median(wall_times_s());
         row.evaluations = Some(summary.evaluations);
         row.steps = Some(summary.steps);
         let Some(reference) = reference else {

@@ -86,14 +86,15 @@ fn events(summary: &Summary) -> String {
         return format!("{total} in all");
     }
     let mut said = Vec::new();
-    for (kind, noun) in [
-        ("dead-centre", "dead centre"),
-        ("turning-point", "turning point"),
-        ("limit", "limit"),
-        ("stick", "stick"),
-        ("slip", "slip"),
-        ("rest", "rest"),
+    for kind in [
+        "dead-centre",
+        "turning-point",
+        "limit",
+        "stick",
+        "slip",
+        "rest",
     ] {
+        let noun = kind.replace('-', " ");
         let number = summary.events.iter().filter(|e| e.kind == kind).count();
         let plural = if number == 1 { "" } else { "s" };
         if number > 0 || kind != noun {

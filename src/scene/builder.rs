@@ -1,8 +1,7 @@
 //! Builder methods for scenes in code.
 
 use super::{
-    Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Places, Rod, Run,
-    Scene, Slider,
+    Branch, Crank, Every, Extent, Geometry, Gravity, Load, Motion, MotionKind, Rod, Scene, Slider,
 };
 
 impl Scene {
@@ -21,25 +20,14 @@ impl Scene {
     /// assert!(scene.check().is_ok());
     /// ```
     pub fn new(crank: f64, rod: f64) -> Scene {
+        let geometry = Geometry {
+            crank,
+            rod,
+            ..Geometry::default()
+        };
         Scene {
-            title: None,
-            geometry: Geometry {
-                crank,
-                rod,
-                offset: 0.0,
-                branch: Branch::Right,
-            },
-            crank: None,
-            rod: None,
-            slider: None,
-            gravity: None,
-            torques: Vec::new(),
-            forces: Vec::new(),
-            friction: None,
-            clearance: None,
-            motion: Motion::default(),
-            run: Run::default(),
-            places: Places::default(),
+            geometry,
+            ..Scene::default()
         }
     }
 
@@ -93,21 +81,15 @@ impl Scene {
 
     /// Sets the initial crank angle (rad) and speed (rad/s) of a free motion.
     pub fn start(mut self, angle: f64, speed: f64) -> Scene {
-        self.motion = Motion {
-            kind: MotionKind::Free,
-            angle,
-            speed,
-        };
+        let kind = MotionKind::Free;
+        self.motion = Motion { kind, angle, speed };
         self
     }
 
     /// Prescribes a constant crank speed (rad/s) from `angle` (rad) on.
     pub fn constant_speed(mut self, angle: f64, speed: f64) -> Scene {
-        self.motion = Motion {
-            kind: MotionKind::ConstantSpeed,
-            angle,
-            speed,
-        };
+        let kind = MotionKind::ConstantSpeed;
+        self.motion = Motion { kind, angle, speed };
         self
     }
 

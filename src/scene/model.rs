@@ -9,7 +9,7 @@ use super::{
 };
 
 /// A complete scene.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Scene {
     /// Title, one line.
     pub title: Option<String>,

@@ -9,8 +9,10 @@ use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, stea
 
 named! {
     /// Extent to which a design could be computed.
+    #[derive(Default)]
     pub enum Outcome {
         /// All results were computed.
+        #[default]
         Done = "done",
         /// The motion ended before the end of the run, or the search for the steady state at its work limit.
         Stopped = "stopped",
@@ -22,7 +24,7 @@ named! {
 }
 
 /// Results of one design, from which its key figures are read.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Design {
     /// Index in the sweep, from 0.
     pub index: usize,
@@ -52,12 +54,7 @@ impl Design {
         let mut design = Design {
             index,
             values,
-            outcome: Outcome::Done,
-            notes: Vec::new(),
-            kinematics: None,
-            diagrams: None,
-            motion: None,
-            steady: None,
+            ..Design::default()
         };
         match scene {
             Ok(scene) => design.compute(&scene, options),

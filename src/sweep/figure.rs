@@ -20,8 +20,10 @@ use FigureValue::{Empty, Number, Word};
 #[derive(Clone, Copy)]
 pub struct Figure {
     name: &'static str,
-    quantity: Quantity,
-    source: Source,
+    /// Physical quantity.
+    pub quantity: Quantity,
+    /// Computation that the figure needs.
+    pub source: Source,
     /// Reads the figure from its result; none for a design without that result.
     read: fn(&Design) -> Option<FigureValue<'_>>,
 }
@@ -143,11 +145,6 @@ impl Figure {
         }
     };
 
-    /// Returns the physical quantity.
-    pub fn quantity(&self) -> Quantity {
-        self.quantity
-    }
-
     /// Parses the name of a figure that is a number, as a goal and a limit take it.
     ///
     /// # Errors
@@ -160,11 +157,6 @@ impl Figure {
             )),
             _ => Ok(figure),
         }
-    }
-
-    /// Returns the computation that the figure needs.
-    pub fn source(&self) -> Source {
-        self.source
     }
 
     /// Returns the value for a design.
@@ -184,11 +176,7 @@ impl Figure {
 /// Writes the name of the column, with the SI unit.
 impl fmt::Display for Figure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name)?;
-        match self.quantity.column() {
-            unit if unit.is_empty() => Ok(()),
-            unit => write!(f, "_{unit}"),
-        }
+        f.write_str(&self.quantity.column(self.name))
     }
 }
 

@@ -42,7 +42,7 @@ impl SweepOptions {
     /// run. Named figures override the other options.
     pub(super) fn derive_computations(&mut self, has_run: bool) -> Result<(), Error> {
         let named = !self.figures.is_empty();
-        let takes = |source| self.figures.iter().any(|one| one.source() == source);
+        let takes = |source| self.figures.iter().any(|one| one.source == source);
         if takes(Source::Flywheel) && !self.has(Source::Flywheel) {
             return Err(Error::refused(
                 "the flywheel is one for a coefficient of speed fluctuation, and none is given",
@@ -74,7 +74,7 @@ impl SweepOptions {
         self.motion &= has_run;
         if !named {
             let all = Figure::ALL.iter();
-            let asked = all.filter(|figure| self.has(figure.source()));
+            let asked = all.filter(|figure| self.has(figure.source));
             self.figures = asked.copied().collect();
         }
         Ok(())

@@ -9,7 +9,7 @@ use super::evenly::evenly;
 use super::key_path::KeyPath;
 use super::keys::{Key, Kind};
 use super::value;
-use crate::scene::unit::{PLUS_MINUS, Quantity, Uncertain};
+use crate::scene::unit::{PLUS_MINUS, Uncertain};
 
 /// Key of a scene and the values it takes, parsed from texts like `geometry.offset=0mm:20mm:41`.
 ///
@@ -100,8 +100,8 @@ impl Varied {
     /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
         let name = self.path.column();
-        match self.path.key.kind.quantity().map(Quantity::column) {
-            Some(unit) if self.has_numbers && !unit.is_empty() => format!("{name}_{unit}"),
+        match self.path.key.kind.quantity() {
+            Some(quantity) if self.has_numbers => quantity.column(&name),
             _ => name,
         }
     }

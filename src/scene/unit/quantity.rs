@@ -72,15 +72,12 @@ impl Quantity {
         self.properties().2
     }
 
-    /// Returns the SI unit in the form of column names; empty for numbers.
+    /// Returns the name of a column of values in SI units: a number has no unit.
     #[cfg(feature = "cli")]
-    pub(crate) fn column(self) -> String {
-        let words = self
-            .si()
-            .to_lowercase()
-            .replace("n m", "nm")
-            .replace('^', "");
-        words.replace('/', "_per_").replace(' ', "_")
+    pub(crate) fn column(self, name: &str) -> String {
+        let unit = self.si().to_lowercase().replace("n m", "nm");
+        let unit = unit.replace('^', "").replace('/', "_per_");
+        format!("{name} {unit}").trim_end().replace(' ', "_")
     }
 
     /// Whether `found` is the dimension of this quantity. Radians count only where leaving them out could be a mistake:
