@@ -1,14 +1,14 @@
 //! Likelihood by all samples of a long record, to refine a noise that was estimated from stretches: variations slower
 //! than a stretch show only in the whole. Filters of several noises run side by side along the record.
 
+use super::candidates::Candidate;
 use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linear_smoother::NODES_OF_A_THREAD;
-use super::linearised::Motion;
 use super::maximum::{ENOUGH_RISE, better, vertex};
 use super::problem::Problem;
-use super::scales::{Noise, Scales};
+use super::scales::Noise;
 use super::state_space::with_dimension;
 use crate::numeric::parallel;
 
@@ -17,31 +17,26 @@ const CORNER_ROUNDS: usize = 6;
 
 impl Problem<'_> {
     /// Returns the noise with the likeliest corner frequency by all samples about a whole path, from a first noise.
-    pub fn by_all_samples(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        scales: Scales,
-        first: &Noise,
-    ) -> Noise {
-        let linear = Linear {
-            stretches: &[],
-            prior: motion.prior,
+    pub fn by_all_samples(&self, path: &Path, first: &Candidate) -> Noise {
+        let Candidate {
+            noise: first,
             scales,
-        };
-        let states = motion.prior.states() + usize::from(first.correlated.is_some());
+            prior,
+        } = *first;
+        let linear = Linear::of(prior.beside_known(), scales);
+        let states = linear.prior.states() + usize::from(first.correlated.is_some());
         let [lowest, highest] = scales.corners().map(f64::ln);
-        let mut likeliest = *first;
+        let mut likeliest = first;
         for _ in 0..CORNER_ROUNDS {
             let middle = likeliest.corner.ln();
             let logs = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|off| middle + off);
             let noises = logs.map(|log| Noise {
                 corner: log.clamp(lowest, highest).exp(),
                 likelihood: f64::NEG_INFINITY,
-                ..*first
+                ..first
             });
             let evidences =
-                with_dimension!(states, N => self.filtered::<N>(motion, path, &linear, &noises));
+                with_dimension!(states, N => self.filtered::<N>(path, &linear, &noises));
             let pairs = noises.iter().zip(&evidences);
             let judged: Vec<Noise> = pairs.map(|(n, e)| linear.judged(*n, e, 1)).collect();
             likeliest = judged.iter().copied().fold(judged[2], better);
@@ -65,9 +60,8 @@ impl Problem<'_> {
     /// Computes the likelihood terms of several noises.
     fn filtered<const N: usize>(
         &self,
-        motion: &Motion<'_>,
         path: &Path,
-        linear: &Linear<'_>,
+        linear: &Linear,
         noises: &[Noise],
     ) -> Vec<Evidence> {
         let last = self.grid.len() - 1;
@@ -78,14 +72,14 @@ impl Problem<'_> {
             // Each stretch begins at the node where the preceding one ends.
             let stretches = parallel::map(some.iter(), |first| {
                 let range = *first..last.min(first + NODES_OF_A_THREAD) + 1;
-                self.stretch(motion, path, range, noises[0].sigma)
+                self.stretch(linear.prior, path, range, noises[0].sigma)
             });
             filters = parallel::map(
                 filters.into_iter().zip(noises),
                 |((now, mut evidence), noise)| {
                     let now = stretches.iter().fold(now, |now, stretch| {
                         let model = linear.deviations(stretch, noise);
-                        Some(kalman::run::<N>(&model, now, &mut evidence))
+                        Some(kalman::run::<N>(&model, now, |_, at| evidence.add(at)))
                     });
                     (now, evidence)
                 },

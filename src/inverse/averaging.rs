@@ -58,16 +58,13 @@ impl Problem<'_> {
 
     /// Returns the models of the intensities of a prior, whose weights add to its odds to the likeliest one.
     fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log_odds: f64) -> Vec<Model> {
-        let motion = self.motion(of.prior);
-        let stretches = self.stretches(&motion, &of.path(), of.noise.sigma);
-        let linear = of.linear(&stretches);
+        let linear = self.linear(of.prior, of.scales, &of.path(), of.noise.sigma);
         let weighed = of.posterior(&linear, LEAST_LOG_ODDS - log_odds);
         let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
         parallel::map(weighed.iter(), |one| {
-            let is_known = one.noise.corner == of.noise.corner;
-            let found = match is_known {
+            let found = match one.noise.corner == of.noise.corner {
                 true => &of.estimates,
-                false => &self.smoothed_along(&motion, &mut of.path(), &linear, &one.noise),
+                false => &self.smoothed_along(&mut of.path(), &linear, &one.noise),
             };
             let pairs = found.iter().zip(&likeliest.estimates);
             let squares = pairs
@@ -82,16 +79,15 @@ impl Problem<'_> {
 
 impl Smoothed {
     /// Returns the noises whose corner frequencies count by the least ln of their odds, in steps from the likeliest one.
-    fn posterior(&self, linear: &Linear<'_>, least: f64) -> Vec<Weighed> {
+    fn posterior(&self, linear: &Linear, least: f64) -> Vec<Weighed> {
         let [lowest, highest] = self.scales.corners().map(f64::ln);
         let likeliest = self.noise.corner.ln();
         // The standard deviation of the process noise goes with this power of the corner frequency.
         let power = (self.prior.order + 2) as f64;
         let at = |corner: f64| {
-            let noise = linear.evaluated(Noise {
-                corner,
-                ..self.noise
-            });
+            let mut noise = self.noise;
+            noise.corner = corner;
+            let noise = linear.evaluated(noise);
             let power = power * (corner.ln() - likeliest);
             let log = noise.likelihood - self.noise.likelihood + power;
             Weighed { noise, log }
@@ -109,10 +105,8 @@ impl Smoothed {
             found.collect::<Vec<_>>()
         });
         let mut list: Vec<_> = sides.into_iter().flatten().chain([first]).collect();
-        let most = list
-            .iter()
-            .map(|one| one.log)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let logs = list.iter().map(|one| one.log);
+        let most = logs.fold(f64::NEG_INFINITY, f64::max);
         list.iter_mut().for_each(|one| one.log -= most);
         list.retain(|one| one.log > least);
         list
@@ -120,11 +114,10 @@ impl Smoothed {
 
     /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others might add.
     fn contenders(&self) -> impl Iterator<Item = &Candidate> {
-        let others = self
-            .compared
-            .iter()
-            .filter(|other| other.prior != self.prior && other.prior.cycle == 0);
-        others.filter(|other| self.log_odds(other) > LEAST_LOG_ODDS)
+        self.compared.iter().filter(|other| {
+            let is_other = other.prior != self.prior && other.prior.cycle == 0;
+            is_other && self.log_odds(other) > LEAST_LOG_ODDS
+        })
     }
 
     /// Returns ln of the odds of a prior to its own, about the path by which both were compared; at most 0.

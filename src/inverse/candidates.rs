@@ -56,50 +56,59 @@ impl Tried {
 
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
 pub(super) struct About {
-    prior: Prior,
+    pub linear: Linear,
     path: Path,
-    stretches: Vec<Stretch>,
-    scales: Scales,
-    corner: f64,
 }
 
 impl About {
-    fn linear(&self, prior: Prior) -> Linear<'_> {
+    /// The linear model of a prior with the same steps.
+    fn of(&self, prior: Prior) -> Linear {
         Linear {
-            stretches: &self.stretches,
             prior,
+            ..self.linear.clone()
+        }
+    }
+
+    /// The linear model of a torque with a part that repeats.
+    fn repeating(&self, prior: Prior) -> Linear {
+        let pairs = self.path.ranges.iter().zip(self.linear.stretches.iter());
+        let with = |(range, stretch): (&Range<usize>, &Stretch)| {
+            let states = self.path.piece(range).states;
+            let steps = stretch.steps.clone();
+            Stretch {
+                increments: Increments::new(ways(states, &steps, self.path.speed()), prior),
+                observed: stretch.observed.clone(),
+                steps,
+            }
+        };
+        Linear {
+            stretches: parallel::map(pairs, with).into(),
+            prior,
+            scales: self.linear.scales,
+        }
+    }
+}
+
+impl Linear {
+    /// The prior with its likeliest noise, from a first one; none where this is less likely than `least`.
+    fn candidate(&self, first: Noise, least: f64) -> Option<Candidate> {
+        let first = self.begun(first);
+        (first.likelihood >= least).then(|| self.with(self.with_corner(first)))
+    }
+
+    /// The prior with a noise.
+    pub fn with(&self, noise: Noise) -> Candidate {
+        Candidate {
+            prior: self.prior,
+            noise,
             scales: self.scales,
         }
     }
 
-    /// True if this is the linear model of a prior, too.
-    fn is_of(&self, prior: Prior) -> bool {
-        let mut ladders = LADDERS.iter().filter(|ladder| ladder[0] == self.prior);
-        ladders.any(|ladder| ladder.contains(&prior))
-    }
-
-    /// Returns ln of the likelihood of the prior without process noise.
-    pub fn without_process_noise(&self) -> f64 {
-        let none = Noise::white(0.0);
-        self.linear(self.prior).evaluated(none).likelihood
-    }
-
-    /// A prior with its likeliest noise, from a first one; none where this is less likely than `least`.
-    fn candidate(&self, prior: Prior, first: Noise, least: f64) -> Option<Candidate> {
-        let linear = self.linear(prior);
-        let first = linear.begun(first);
-        (first.likelihood >= least).then(|| Candidate {
-            prior,
-            noise: linear.with_corner(first),
-            scales: self.scales,
-        })
-    }
-
-    /// A prior with the likeliest correlation of the sample noise beside its likeliest white noise.
-    fn correlated(&self, white: &Candidate) -> Candidate {
-        let linear = self.linear(white.prior);
+    /// The prior with the likeliest correlation of the sample noise beside its likeliest white noise.
+    fn with_correlation(&self, white: &Candidate) -> Candidate {
         Candidate {
-            noise: linear.correlated(&white.noise, &self.scales.decays()),
+            noise: self.correlated(&white.noise, &self.scales.decays()),
             ..*white
         }
     }
@@ -108,23 +117,20 @@ impl About {
 impl Problem<'_> {
     /// The linear model of a prior about a smoothed path.
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
-        let motion = self.motion(prior);
         let path = self.path_of(prior, from, self.sampled());
+        let scales = Scales {
+            motion: from.scales.motion,
+            ..self.scales(prior, &path, from.scales.slope, from.noise.sigma)
+        };
         About {
-            prior,
-            scales: Scales {
-                motion: from.scales.motion,
-                ..self.scales(&motion, &path, from.scales.slope, from.noise.sigma)
-            },
-            stretches: self.stretches(&motion, &path, from.noise.sigma),
-            corner: from.noise.corner,
+            linear: self.linear(prior, scales, &path, from.noise.sigma),
             path,
         }
     }
 
-    /// The cost of two parameters in ln of the likelihood (Schwarz 1978).
-    pub fn cost_of_two(&self) -> f64 {
-        (self.record.times.len() as f64).ln()
+    /// The cost of parameters in ln of the likelihood (Schwarz, Ann. Statist. 6 (1978) 461).
+    pub fn cost(&self, parameters: f64) -> f64 {
+        0.5 * parameters * (self.record.times.len() as f64).ln()
     }
 
     /// Priors about a path.
@@ -135,7 +141,8 @@ impl Problem<'_> {
         let is_computed = self.record.is_computed();
         let some = pairs.filter(|(_, prior)| is_computed || **prior != SMOOTH);
         let plain = parallel::map(some, |(about, prior)| {
-            about.candidate(*prior, Noise::white(about.corner), f64::NEG_INFINITY)
+            let first = Noise::white(kinematic.noise.corner);
+            about.of(*prior).candidate(first, f64::NEG_INFINITY)
         });
         let plain = plain.into_iter().flatten().collect();
         self.with_repeating(plain, abouts, self.turns(kinematic), false)
@@ -145,8 +152,9 @@ impl Problem<'_> {
     pub fn correlated(&self, white: Tried, kinematic: &Smoothed) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
         let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
-            let about = white.abouts.iter().find(|about| about.is_of(one.prior));
-            about.map_or(*one, |about| about.correlated(one))
+            let mut abouts = white.abouts.iter().zip(LADDERS);
+            let about = abouts.find(|(_, ladder)| ladder.contains(&one.prior));
+            about.map_or(*one, |(about, _)| about.of(one.prior).with_correlation(one))
         });
         self.with_repeating(plain, white.abouts, self.turns(kinematic), true)
     }
@@ -198,21 +206,16 @@ impl Problem<'_> {
                 powers: prior.powers,
                 ..TORQUE
             };
-            let about = abouts.iter().find(|about| about.prior == plain)?;
+            let about = abouts.iter().find(|about| about.linear.prior == plain)?;
             let plain = of(plain)?;
             let before = Noise {
                 spectrum: before.spectrum,
                 ..better(before, plain.noise)
             };
-            let about = About {
-                prior,
-                stretches: self.repeated(about, prior),
-                path: about.path.clone(),
-                ..*about
-            };
-            let mut next = about.candidate(prior, before, least)?;
+            let linear = about.repeating(prior);
+            let mut next = linear.candidate(before, least)?;
             if is_correlated {
-                next = about.correlated(&next);
+                next = linear.with_correlation(&next);
             }
             (next.noise.sigma > self.record.instrument_noise()).then_some(next)
         };
@@ -221,7 +224,7 @@ impl Problem<'_> {
             harmonics: FIRST_HARMONICS,
             ..plain.prior
         };
-        let cost = self.cost_of_two();
+        let cost = self.cost(2.0);
         let least = plain.noise.likelihood + cost;
         let mut found = Vec::from_iter(with(first, plain.noise, least));
         // Forward selection: what is added stays where it makes the samples likelier.
@@ -250,20 +253,5 @@ impl Problem<'_> {
         let least = without.fold(f64::NEG_INFINITY, f64::max) + cost;
         found.retain(|one| one.noise.likelihood > least);
         found
-    }
-
-    /// The stretches of a linear model, with what repeats in each step.
-    fn repeated(&self, about: &About, prior: Prior) -> Vec<Stretch> {
-        let pairs = self.sampled().into_iter().zip(&about.stretches);
-        let with = |(range, stretch): (Range<usize>, &Stretch)| {
-            let states = about.path.piece(&range).states;
-            let steps = stretch.steps.clone();
-            Stretch {
-                increments: Increments::new(ways(states, &steps, about.path.speed()), prior),
-                observed: stretch.observed.clone(),
-                steps,
-            }
-        };
-        parallel::map(pairs, with)
     }
 }

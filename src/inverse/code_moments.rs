@@ -141,7 +141,6 @@ impl Problem<'_> {
     pub fn propagated(&mut self, codes: Codes, mut smoothed: Smoothed) -> Smoothed {
         smoothed.scales.known = Some(codes.spread());
         smoothed.noise.sigma = codes.spread();
-        let motion = self.motion(smoothed.prior);
         let mut is_at_rest = false;
         for round in 0..PROPAGATION_ROUNDS {
             let beliefs = self.beliefs(codes, &smoothed);
@@ -150,11 +149,17 @@ impl Problem<'_> {
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
-                let stretches = self.stretches(&motion, &path, smoothed.noise.sigma);
-                smoothed.noise = smoothed.linear(&stretches).renewed(smoothed.noise);
+                let Smoothed {
+                    prior,
+                    scales,
+                    noise,
+                    ..
+                } = smoothed;
+                smoothed.noise = self
+                    .linear(prior, scales, &path, noise.sigma)
+                    .renewed(noise);
             }
-            smoothed.estimates =
-                self.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise);
+            smoothed.estimates = self.smoothed(&mut path, &smoothed.candidate());
             smoothed.repeating = path.repeating.clone();
             if is_last {
                 break;

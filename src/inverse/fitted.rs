@@ -46,8 +46,6 @@ pub(super) struct Fitted {
     pub coded: Option<f64>,
     /// θ, ω, θ̈ at each sample under each of the errors that all samples share.
     pub moved: Vec<Vec<[f64; 3]>>,
-    /// Lower bound of the standard deviation of a sample, rad or m.
-    pub floor: f64,
 }
 
 impl Fitted {
@@ -105,7 +103,7 @@ impl Fitted {
         let suspected = simple.as_ref().is_some_and(|(found, _)| found.patterned);
         simple = simple.filter(|(polynomial, _)| polynomial.converged && !polynomial.patterned);
         let is_exact = |(polynomial, _): &mut (Fitted, _)| {
-            polynomial.summary.rms <= polynomial.floor && record.is_computed()
+            polynomial.summary.rms <= record.floor && record.is_computed()
         };
         if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
@@ -145,11 +143,12 @@ impl Fitted {
         let sigma = smoothed.noise.sigma;
         let parameters = problem.parameters(smoothed, &motion);
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
-        let whiteness = Whiteness::of(smoothed.estimates.iter().map(|e| e.innovation));
+        let innovations = smoothed.estimates.iter().map(|e| e.innovation);
         let prior = smoothed.prior;
         let beside = record.beside.iter();
         let beside = beside.map(|other| other.summary(&motion)).collect();
-        let mut fitted = Fitted::of_motion(measurement, &samples, motion);
+        let whiteness = Some(Whiteness::of(innovations));
+        let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
         fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
         fitted.held = record.outliers().find(|row| samples.repeats(*row));
@@ -171,8 +170,7 @@ impl Fitted {
         });
         fitted.free = (counted - parameters).max(1.0);
         // Prediction errors of codes are not normal.
-        fitted.patterned =
-            whiteness.is_violated() && sigma > record.floor && record.codes.is_none();
+        fitted.patterned &= sigma > record.floor && record.codes.is_none();
         fitted.converged = smoothed.converged;
         fitted.cycle = prior.cycle;
         fitted.told = (smoothed.repeating.as_ref())
@@ -191,9 +189,6 @@ impl Fitted {
             noise_correlation_s: smoothed.noise.correlated.map(f64::recip),
             beside,
             outliers: record.outliers().count(),
-            residual_lag_one: whiteness.lag_one,
-            residual_runs: whiteness.runs,
-            residual_ljung_box: whiteness.ljung_box,
             ..fitted.summary
         };
         fitted
@@ -210,13 +205,12 @@ impl Fitted {
             motion,
             converged,
         } = polynomial;
-        let mut fitted = Fitted::of_motion(measurement, record, motion.clone());
-        let whiteness = Whiteness::of(fitted.residuals.iter().map(|row| row.residual));
+        let mut fitted = Fitted::of_motion(measurement, record, motion.clone(), None);
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         // Rounding errors have patterns of their own.
-        fitted.patterned = whiteness.is_violated() && fitted.summary.rms > record.floor;
+        fitted.patterned &= fitted.summary.rms > record.floor;
         fitted.converged = *converged;
         fitted.summary = FitSummary {
             kind: "polynomial",
@@ -228,19 +222,17 @@ impl Fitted {
             condition: finite(&fit.condition),
             sigma: fit.sigma,
             parameters,
-            residual_lag_one: whiteness.lag_one,
-            residual_runs: whiteness.runs,
-            residual_ljung_box: whiteness.ljung_box,
             ..fitted.summary
         };
         fitted
     }
 
-    /// Computes measured values and residuals of a motion.
+    /// Computes measured values and residuals of a motion, with the tests of the residuals or those given.
     fn of_motion(
         measurement: &Measurement,
         record: &Record<'_>,
         motion: Vec<MotionEstimate>,
+        whiteness: Option<Whiteness>,
     ) -> Fitted {
         let (sensor, times) = (record.sensor, measurement.times());
         let residuals = parallel::list(motion.len(), |row| {
@@ -255,6 +247,8 @@ impl Fitted {
                 residual,
             }
         });
+        let whiteness =
+            whiteness.unwrap_or_else(|| Whiteness::of(residuals.iter().map(|row| row.residual)));
         let n = residuals.len() as f64;
         let squares: f64 = residuals
             .iter()
@@ -270,13 +264,16 @@ impl Fitted {
                 1.0
             },
             rms: (squares / n).sqrt(),
+            residual_lag_one: whiteness.lag_one,
+            residual_runs: whiteness.runs,
+            residual_ljung_box: whiteness.ljung_box,
             ..FitSummary::default()
         };
         Fitted {
             motion,
             residuals,
             summary,
-            floor: record.floor,
+            patterned: whiteness.is_violated(),
             ..Fitted::default()
         }
     }

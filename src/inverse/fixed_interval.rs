@@ -8,7 +8,7 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
-use super::kalman::{Companion, Gaussian, Innovation, Sample, Step, run};
+use super::kalman::{Filtered, Gaussian, Innovation, Sample, Step, run};
 use super::matrix::{Matrix, Vector, congruent, dot, informed, sum, times, transposed};
 use super::state_space::Deviations;
 
@@ -21,17 +21,17 @@ pub(super) struct Later<const N: usize> {
     pub information: Matrix<N>,
 }
 
-/// A node on the smoother's way back.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Visit<const N: usize> {
-    /// The distribution before the sample, by the former ones.
-    pub predicted: Gaussian<N>,
-    pub sample: Option<(Sample<N>, Innovation<N>)>,
-    pub later: Later<N>,
-    /// The distribution by all samples.
-    pub smoothed: Gaussian<N>,
-    /// The step to this node; none to the first.
-    pub step: Option<Step<N>>,
+/// Observer of the smoother.
+pub(super) trait Companion<const N: usize> {
+    /// Called when the filter has taken the sample of a node.
+    fn filtered(&mut self, _node: usize, _at: &Filtered<N>) {}
+
+    /// Called when the smoother returns to a node, with what the samples from it on tell and the distribution by all.
+    fn returned(&mut self, node: usize, at: &Filtered<N>, later: &Later<N>, smoothed: &Gaussian<N>);
+}
+
+impl<const N: usize> Companion<N> for () {
+    fn returned(&mut self, _: usize, _: &Filtered<N>, _: &Later<N>, _: &Gaussian<N>) {}
 }
 
 impl<const N: usize> Gaussian<N> {
@@ -93,29 +93,6 @@ impl<const N: usize> Later<N> {
     }
 }
 
-/// Predictions and innovations that the filter leaves to the smoother, and a companion of both.
-struct Forward<'a, C, const N: usize> {
-    path: Vec<Gaussian<N>>,
-    innovations: Vec<Option<f64>>,
-    companion: &'a mut C,
-}
-
-impl<C: Companion<N>, const N: usize> Companion<N> for Forward<'_, C, N> {
-    fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.companion.stepped(node, step);
-    }
-
-    fn predicted(&mut self, node: usize, distribution: &Gaussian<N>) {
-        self.path.push(*distribution);
-        self.companion.predicted(node, distribution);
-    }
-
-    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.innovations[node] = Some(found.error / found.variance.sqrt());
-        self.companion.updated(node, sample, found);
-    }
-}
-
 /// Returns the distribution of the state at each node, given all samples, and the prediction errors over their standard
 /// deviations (in units of σ), by node.
 pub(super) fn smooth<const N: usize>(
@@ -123,35 +100,29 @@ pub(super) fn smooth<const N: usize>(
     companion: &mut impl Companion<N>,
 ) -> (Vec<Gaussian<N>>, Vec<Option<f64>>) {
     let nodes = model.stretch.observed.len();
-    let mut forward = Forward {
-        path: Vec::with_capacity(nodes),
-        innovations: vec![None; nodes],
-        companion,
-    };
-    run(model, None, &mut forward);
-    let Forward {
-        mut path,
-        innovations,
-        companion,
-    } = forward;
+    let (mut path, mut innovations) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes));
+    run(model, None, |node, at| {
+        path.push(at.predicted);
+        let found = at.sample.as_ref().map(|(_, found)| found);
+        innovations.push(found.map(|found| found.error / found.variance.sqrt()));
+        companion.filtered(node, at);
+    });
     let mut later = Later::NONE;
     for node in (0..nodes).rev() {
         let predicted = path[node];
-        let sample = model.sample(node).map(|sample| {
-            let found = predicted.innovation(&sample);
-            later.add(&sample, &found);
-            (sample, found)
-        });
+        let sample = model.sample(node);
+        let sample = sample.map(|sample| (sample, predicted.innovation(&sample)));
+        if let Some((sample, found)) = &sample {
+            later.add(sample, found);
+        }
         path[node] = predicted.with(&later);
-        let visit = Visit {
+        let at = Filtered {
+            step: (node > 0).then(|| model.step(node - 1)),
             predicted,
             sample,
-            later,
-            smoothed: path[node],
-            step: (node > 0).then(|| model.step(node - 1)),
         };
-        companion.returned(node, &visit);
-        if let Some(step) = &visit.step {
+        companion.returned(node, &at, &later, &path[node]);
+        if let Some(step) = &at.step {
             later = later.before(step);
         }
     }
@@ -275,8 +246,14 @@ mod tests {
     /// Later samples narrow a diffuse state: here five numbers after few samples of correlated noise.
     struct Narrowing;
     impl Companion<5> for Narrowing {
-        fn returned(&mut self, node: usize, visit: &Visit<5>) {
-            let [before, after] = [&visit.predicted, &visit.smoothed].map(|g| &g.covariance);
+        fn returned(
+            &mut self,
+            node: usize,
+            at: &Filtered<5>,
+            _: &Later<5>,
+            smoothed: &Gaussian<5>,
+        ) {
+            let [before, after] = [&at.predicted, smoothed].map(|g| &g.covariance);
             assert!((0..5).all(|k| after[k][k] < 1.01 * before[k][k]), "{node}");
         }
     }

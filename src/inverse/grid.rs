@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::measurement_model::Turning;
 use super::prior::{Prior, State};
 use super::repeating::Repeating;
+use super::scales::root_mean_square;
 use crate::numeric::interpolate::cubic;
 
 /// Nodes of the path with their samples.
@@ -88,8 +89,7 @@ impl Path {
         if let Some(known) = &self.repeating {
             return known.speed;
         }
-        let squares = self.states.iter().map(|state| state[1] * state[1]);
-        (squares.sum::<f64>() / self.states.len() as f64).sqrt()
+        root_mean_square(self.states.iter().map(|state| state[1]))
     }
 
     /// The nodes with their states.

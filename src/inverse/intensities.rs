@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use super::fixed_interval::{self, Visit};
-use super::kalman::{Companion, Step};
+use super::fixed_interval::{self, Companion, Later};
+use super::kalman::{Filtered, Gaussian, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
 use super::outliers;
@@ -36,12 +36,12 @@ struct Scores {
 
 impl<const N: usize> Companion<N> for Scores {
     /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
-    fn returned(&mut self, node: usize, visit: &Visit<N>) {
-        let Some(Step { noise, .. }) = &visit.step else {
+    fn returned(&mut self, node: usize, at: &Filtered<N>, later: &Later<N>, all: &Gaussian<N>) {
+        let Some(Step { noise, .. }) = &at.step else {
             return;
         };
-        let (r, told) = (&visit.later.correction, &visit.later.information);
-        let known = product(told, &product(&visit.smoothed.covariance, told));
+        let (r, told) = (&later.correction, &later.information);
+        let known = product(told, &product(&all.covariance, told));
         let variance: Matrix<N> =
             std::array::from_fn(|i| std::array::from_fn(|j| told[i][j] - known[i][j]));
         let share = product(noise, &variance);
@@ -82,7 +82,7 @@ fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
             Guess {
                 steps: first..first + length,
                 log: 0.0,
-                is_higher: slope > 0.0,
+                sense: slope.signum(),
                 likelihood: 0.5 * slope * slope / information,
             }
         });
@@ -97,32 +97,27 @@ fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
 }
 
 impl Problem<'_> {
-    /// Returns the cost of a stretch in ln of the likelihood (Schwarz 1978).
-    fn cost(&self) -> f64 {
-        0.5 * PARAMETERS * (self.record.times.len() as f64).ln()
-    }
-
     /// Finds the stretches in which the process noise under a prior has another intensity.
     fn intensities_of(&self, found: &Smoothed) -> Intensities {
         let mut intensities = Intensities::default();
-        let motion = self.motion(found.prior);
-        let mut stretches = self.stretches(&motion, &found.path(), found.noise.sigma);
+        let Smoothed { prior, scales, .. } = *found;
+        let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
         let mut noise = found.noise;
         while intensities.0.len() < self.record.times.len() / 10 {
-            noise = found.linear(&stretches).renewed(noise);
-            let Some(stretch) = stretches.first() else {
+            noise = linear.renewed(noise);
+            let Some(stretch) = linear.stretches.first() else {
                 break;
             };
-            let model = found.linear(&stretches).deviations(stretch, &noise);
+            let model = linear.deviations(stretch, &noise);
             let scores = with_dimension!(model.dimension(), N => scores::<N>(&model, noise.sigma));
             let trial = Trial {
-                found,
+                linear: &linear,
                 stretch,
                 noise,
             };
             // Far from the usual intensity the likelihood rises by more than the scores promise there.
-            let best = trial.likeliest(furthest(&scores, 0.5 * self.cost()));
-            let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost();
+            let best = trial.likeliest(furthest(&scores, 0.5 * self.cost(PARAMETERS)));
+            let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost(PARAMETERS);
             let Some(best) = best.filter(rises) else {
                 break;
             };
@@ -130,7 +125,7 @@ impl Problem<'_> {
             let [from, to] = [start, end].map(|node| self.grid.times[node]);
             let factor = best.factor();
             intensities.0.push(Span { from, to, factor });
-            stretches = vec![trial.with(&best)];
+            linear.stretches = vec![trial.with(&best)].into();
         }
         intensities
     }
@@ -159,7 +154,8 @@ impl Problem<'_> {
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
                 let next = self.likeliest_of_all(kinematic, suspected);
-                let rise = next.noise.likelihood - best.noise.likelihood - more * self.cost();
+                let rise =
+                    next.noise.likelihood - best.noise.likelihood - more * self.cost(PARAMETERS);
                 if rise > ENOUGH_RISE {
                     best = next;
                     continue;
@@ -241,7 +237,7 @@ mod tests {
             let mut at = |log: f64| {
                 stretch.steps[k].intensity = log.exp();
                 let mut evidence = Evidence::default();
-                kalman::run::<3>(&model(&stretch), None, &mut evidence);
+                kalman::run::<3>(&model(&stretch), None, |_, at| evidence.add(at));
                 stretch.steps[k].intensity = 1.0;
                 -0.5 * (evidence.squares + evidence.log_variances)
             };

@@ -6,7 +6,6 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
-use super::fixed_interval::Visit;
 use super::matrix::{Matrix, Vector, congruent, dot, sum, times};
 use super::state_space::Deviations;
 
@@ -51,23 +50,14 @@ pub(super) struct Innovation<const N: usize> {
     pub gain: Vector<N>,
 }
 
-/// Observer of the filter and the smoother.
-pub(super) trait Companion<const N: usize> {
-    /// Called after the prediction of a step to the next node.
-    #[inline(always)]
-    fn stepped(&mut self, _node: usize, _step: &Step<N>) {}
-
-    /// Called with the distribution of a node before its sample is used.
-    #[inline(always)]
-    fn predicted(&mut self, _node: usize, _distribution: &Gaussian<N>) {}
-
-    /// Called after a sample has updated the state.
-    #[inline(always)]
-    fn updated(&mut self, _node: usize, _sample: &Sample<N>, _found: &Innovation<N>) {}
-
-    /// Called when the smoother returns to a node.
-    #[inline(always)]
-    fn returned(&mut self, _node: usize, _visit: &Visit<N>) {}
+/// A node of the filter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Filtered<const N: usize> {
+    /// The step to this node; none to the first.
+    pub step: Option<Step<N>>,
+    /// The distribution before the sample, by the former ones.
+    pub predicted: Gaussian<N>,
+    pub sample: Option<(Sample<N>, Innovation<N>)>,
 }
 
 /// Likelihood terms of a model, from the prediction errors v of the samples with variances S.
@@ -119,47 +109,49 @@ impl<const N: usize> Gaussian<N> {
     }
 }
 
-impl std::iter::Sum for Evidence {
-    fn sum<I: Iterator<Item = Evidence>>(parts: I) -> Evidence {
-        parts.fold(Evidence::default(), |sum, part| Evidence {
-            squares: sum.squares + part.squares,
-            log_variances: sum.log_variances + part.log_variances,
-            samples: sum.samples + part.samples,
-        })
-    }
-}
-
-impl<const N: usize> Companion<N> for () {}
-
-impl<const N: usize> Companion<N> for Evidence {
+impl Evidence {
+    /// Adds the sample of a node.
     #[inline(always)]
-    fn updated(&mut self, _: usize, _: &Sample<N>, found: &Innovation<N>) {
-        self.squares += found.error * found.error / found.variance;
-        self.log_variances += found.variance.ln();
-        self.samples += 1;
+    pub fn add<const N: usize>(&mut self, at: &Filtered<N>) {
+        if let Some((_, found)) = &at.sample {
+            self.squares += found.error * found.error / found.variance;
+            self.log_variances += found.variance.ln();
+            self.samples += 1;
+        }
     }
 }
 
-/// Runs the filter from the prior before the first sample, or from a known distribution after it.
+impl std::ops::AddAssign for Evidence {
+    fn add_assign(&mut self, part: Evidence) {
+        self.squares += part.squares;
+        self.log_variances += part.log_variances;
+        self.samples += part.samples;
+    }
+}
+
+/// Runs the filter from the prior before the first sample, or from a known distribution after it, and shows each node.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
     known: Option<Gaussian<N>>,
-    companion: &mut impl Companion<N>,
+    mut show: impl FnMut(usize, &Filtered<N>),
 ) -> Gaussian<N> {
     let first = usize::from(known.is_some());
     let mut now = known.unwrap_or_else(|| model.start());
     for node in first..model.stretch.observed.len() {
-        if node > 0 {
-            let step = model.step(node - 1);
-            now = now.predicted(&step);
-            companion.stepped(node - 1, &step);
-        }
-        companion.predicted(node, &now);
-        if let Some(sample) = model.sample(node) {
-            let found = now.update(&sample);
-            companion.updated(node, &sample, &found);
-        }
+        let step = (node > 0).then(|| model.step(node - 1));
+        let predicted = step.as_ref().map_or(now, |step| now.predicted(step));
+        now = predicted;
+        let sample = model.sample(node);
+        let sample = sample.map(|sample| (sample, now.update(&sample)));
+        show(
+            node,
+            &Filtered {
+                step,
+                predicted,
+                sample,
+            },
+        );
     }
     now
 }

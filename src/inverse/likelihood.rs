@@ -1,6 +1,9 @@
 //! Marginal likelihood of a prior (prediction error decomposition with a diffuse start, that is REML), maximised over the
 //! intensity of its noise; the variance of a sample is profiled out.
 
+use std::sync::Arc;
+
+use super::fixed_interval::Companion;
 use super::kalman::{self, Evidence};
 use super::periodic::Regressed;
 use super::prior::{Prior, State};
@@ -10,15 +13,24 @@ use super::state_space::{Deviations, Stretch, with_dimension};
 use crate::numeric::parallel;
 
 /// Stretches of nodes with their linear models, and the scales of the search.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Linear<'a> {
+#[derive(Clone, Debug)]
+pub(super) struct Linear {
     /// Steps and samples of each stretch.
-    pub stretches: &'a [Stretch],
+    pub stretches: Arc<[Stretch]>,
     pub prior: Prior,
     pub scales: Scales,
 }
 
-impl Linear<'_> {
+impl Linear {
+    /// A prior and its scales, without steps.
+    pub fn of(prior: Prior, scales: Scales) -> Linear {
+        Linear {
+            stretches: Arc::default(),
+            prior,
+            scales,
+        }
+    }
+
     /// Standard deviations of the state before the first sample, in σ.
     fn spread(&self) -> State {
         let mut spread = self.scales.spread();
@@ -46,35 +58,21 @@ impl Linear<'_> {
         }
     }
 
-    fn evidence(&self, noise: &Noise) -> Evidence {
+    /// Returns the evidence; with a periodic part, for the spectrum of the noise or else for the likeliest, which is left there.
+    fn evidence(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            let mut evidence = Evidence::default();
             with_dimension!(model.dimension(), N => {
-                kalman::run::<N>(&model, None, &mut evidence);
-            });
-            evidence
+                let mut regressed = Regressed::<N>::new(&model, false);
+                kalman::run::<N>(&model, None, |node, at| regressed.filtered(node, at));
+                regressed.into_parts().0
+            })
         };
-        parallel::map(self.stretches.iter(), of).into_iter().sum()
-    }
-
-    /// Returns the evidence with the periodic part, for the spectrum of the noise or else for the likeliest.
-    fn repeated(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
-        let of = |stretch: &Stretch| {
-            let model = self.deviations(stretch, noise);
-            let mut regression = Regression::new(self.prior);
-            let evidence = with_dimension!(model.dimension(), N => {
-                let mut regressed = Regressed::<N>::new(&model, &mut regression, None);
-                kalman::run::<N>(&model, None, &mut regressed);
-                regressed.evidence
-            });
-            regression.multiply();
-            (evidence, regression)
-        };
-        let (evidences, regressions): (Vec<_>, Vec<_>) =
-            parallel::map(self.stretches.iter(), of).into_iter().unzip();
-        let mut evidence: Evidence = evidences.into_iter().sum();
-        let regression = Regression::of_all(self.prior, regressions);
+        let regression = Regression::of_all(self.prior, parallel::map(self.stretches.iter(), of));
+        let mut evidence = regression.evidence;
+        if self.prior.cycle == 0 {
+            return evidence;
+        }
         let starts = self.prior.diffuse() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;
@@ -107,10 +105,7 @@ impl Linear<'_> {
     }
 
     fn evaluated_near(&self, mut noise: Noise, near: Option<Spectrum>) -> Noise {
-        let evidence = match self.prior.cycle {
-            0 => self.evidence(&noise),
-            _ => self.repeated(&mut noise, near),
-        };
+        let evidence = self.evidence(&mut noise, near);
         self.judged(noise, &evidence, self.stretches.len())
     }
 

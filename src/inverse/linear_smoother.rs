@@ -1,15 +1,21 @@
-//! Linear smoother about a path, by the models of its stretches or of pieces of a long record side by side.
+//! Linear smoother about a path, by the models of its stretches, which share a torque that repeats, or of pieces of a long record
+//! side by side.
 
 use std::ops::Range;
 
+use super::candidates::Candidate;
 use super::estimate::Estimate;
 use super::fixed_interval;
 use super::grid::Path;
+use super::kalman::Gaussian;
 use super::likelihood::Linear;
-use super::linearised::Motion;
+use super::matrix::{Matrix, sum};
+use super::periodic::{Derivatives, Regressed};
 use super::problem::Problem;
-use super::scales::{Noise, Scales};
-use super::state_space::{Deviations, Stretch, with_dimension};
+use super::regression::Regression;
+use super::repeating::Repeating;
+use super::scales::Noise;
+use super::state_space::{Stretch, with_dimension};
 use crate::numeric::parallel;
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.
@@ -20,85 +26,88 @@ const MEMORY_TIME_CONSTANTS: f64 = 60.0;
 
 impl Problem<'_> {
     /// Returns the smoothed motion about a path.
-    pub fn smoothed(
-        &self,
-        motion: &Motion<'_>,
-        path: &mut Path,
-        scales: Scales,
-        noise: &Noise,
-    ) -> Vec<Estimate> {
-        let is_sampled = path.ranges == self.sampled();
-        let stretches = match is_sampled {
-            true => self.stretches(motion, path, noise.sigma),
-            false => Vec::new(),
-        };
-        let linear = Linear {
-            stretches: &stretches,
-            prior: motion.prior,
-            scales,
-        };
-        self.smoothed_along(motion, path, &linear, noise)
+    pub fn smoothed(&self, path: &mut Path, of: &Candidate) -> Vec<Estimate> {
+        if path.ranges != self.sampled() {
+            return self.smoothed_in_pieces(path, of);
+        }
+        let linear = self.linear(of.prior, of.scales, path, of.noise.sigma);
+        self.smoothed_along(path, &linear, &of.noise)
     }
 
     /// Returns the smoothed motion about a path, by its linear model if it is one along the sampled stretches. What repeats is
     /// found there, and left in the path; along all nodes of a longer record it is known.
-    pub fn smoothed_along(
-        &self,
-        motion: &Motion<'_>,
-        path: &mut Path,
-        linear: &Linear<'_>,
-        noise: &Noise,
-    ) -> Vec<Estimate> {
+    pub fn smoothed_along(&self, path: &mut Path, linear: &Linear, noise: &Noise) -> Vec<Estimate> {
         if self.is_stopped() {
             return vec![Estimate::default(); path.states.len()];
         }
         if path.ranges != self.sampled() {
-            return self.smoothed_in_pieces(motion, path, linear.scales, noise);
+            return self.smoothed_in_pieces(path, &linear.with(*noise));
         }
-        let states = motion.prior.states() + usize::from(noise.correlated.is_some());
-        if motion.prior.cycle > 0 {
-            return with_dimension!(states, N => self.smoothed_together::<N>(motion, path, linear, noise));
-        }
-        let pairs = path.ranges.iter().zip(linear.stretches);
-        let of = |(range, stretch): (&Range<usize>, &Stretch)| {
-            let model = linear.deviations(stretch, noise);
-            self.smoothed_by(motion, path, range.start, &model, noise)
-        };
-        parallel::map(pairs, of).concat()
+        let states = linear.prior.states() + usize::from(noise.correlated.is_some());
+        with_dimension!(states, N => self.smoothed_together::<N>(path, linear, noise))
     }
 
-    /// Returns the smoothed motion from a node on by the linear model of a stretch.
-    fn smoothed_by(
+    /// Returns the smoothed motion about all stretches of a path, and leaves a torque that repeats in the path.
+    fn smoothed_together<const N: usize>(
         &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        from: usize,
-        model: &Deviations<'_>,
+        path: &mut Path,
+        linear: &Linear,
         noise: &Noise,
     ) -> Vec<Estimate> {
-        with_dimension!(model.dimension(), N => {
-            let (deviations, innovations) = fixed_interval::smooth::<N>(model, &mut ());
-            self.estimated(motion, path, from, &deviations, &innovations, noise)
-        })
+        let prior = linear.prior;
+        let of = |stretch: &Stretch| {
+            let model = linear.deviations(stretch, noise);
+            let mut regressed = Regressed::<N>::new(&model, true);
+            let (deviations, innovations) = fixed_interval::smooth(&model, &mut regressed);
+            let (equations, derivatives) = regressed.into_parts();
+            ((deviations, innovations, derivatives), equations)
+        };
+        let (stretches, equations): (Vec<_>, Vec<_>) = parallel::map(linear.stretches.iter(), of)
+            .into_iter()
+            .unzip();
+        let to = Regression::of_all(prior, equations);
+        let spectrum = noise.spectrum.filter(|_| prior.cycle > 0);
+        let posterior = spectrum.and_then(|spectrum| to.solved(spectrum));
+        // Factor A of the covariance Aᵀ A of the coefficients.
+        let found = posterior.map(|found| (found.factor(), found));
+        let estimated = |(range, (mut deviations, mut innovations, derivatives)): (
+            &Range<usize>,
+            (Vec<_>, Vec<_>, Option<Derivatives>),
+        )| {
+            let mut covariance = [[0.0; 3]; 3];
+            if let (Some((factor, found)), Some(derivatives)) = (&found, derivatives) {
+                add(&mut covariance, &deviations, -1.0);
+                let coefficients = &found.coefficients;
+                derivatives.add(coefficients, factor, &mut deviations, &mut innovations);
+                add(&mut covariance, &deviations, 1.0);
+            }
+            let first = range.start;
+            let estimates = self.estimated(prior, path, first, &deviations, &innovations, noise);
+            (estimates, covariance)
+        };
+        let both = |a: Matrix<3>, b: Matrix<3>| std::array::from_fn(|i| sum(a[i], b[i]));
+        let pairs = path.ranges.iter().zip(stretches);
+        let (estimates, covariances): (Vec<_>, Vec<_>) =
+            parallel::map(pairs, estimated).into_iter().unzip();
+        if prior.cycle > 0 {
+            let covariance = covariances.into_iter().reduce(both).unwrap_or_default();
+            let mean = noise.sigma * noise.sigma / path.states.len() as f64;
+            path.repeating = found.map(|(factor, found)| {
+                let told = found.told(&factor, prior);
+                let covariance = covariance.map(|row| row.map(|value| mean * value));
+                Repeating::new(prior, found.coefficients, path.speed(), told, covariance)
+            });
+        }
+        estimates.concat()
     }
 
     /// Returns the smoothed motion about a path along all nodes, computed in pieces side by side.
-    fn smoothed_in_pieces(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        scales: Scales,
-        noise: &Noise,
-    ) -> Vec<Estimate> {
-        let linear = Linear {
-            stretches: &[],
-            prior: motion.prior.beside_known(),
-            scales,
-        };
-        let motion = &self.motion(linear.prior);
+    fn smoothed_in_pieces(&self, path: &Path, of: &Candidate) -> Vec<Estimate> {
+        let (prior, noise) = (of.prior.beside_known(), &of.noise);
+        let linear = Linear::of(prior, of.scales);
         let (times, nodes) = (&self.grid.times, self.grid.len());
         let shared = MEMORY_TIME_CONSTANTS / noise.corner;
-        let density = nodes as f64 / scales.duration;
+        let density = nodes as f64 / of.scales.duration;
         let length = NODES_OF_A_THREAD.max((4.0 * shared * density).min(nodes as f64) as usize);
         let mut found = vec![Estimate::default(); nodes];
         let pieces = (0..nodes).step_by(length).zip(found.chunks_mut(length));
@@ -109,11 +118,24 @@ impl Problem<'_> {
             let last = first + piece.len() - 1;
             let from = times.partition_point(|t| *t < times[first] - shared);
             let to = times.partition_point(|t| *t <= times[last] + shared);
-            let stretch = self.stretch(motion, path, from..to, noise.sigma);
+            let stretch = self.stretch(prior, path, from..to, noise.sigma);
             let model = linear.deviations(&stretch, noise);
-            let all = self.smoothed_by(motion, path, from, &model, noise);
+            let all = with_dimension!(model.dimension(), N => {
+                let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut ());
+                self.estimated(prior, path, from, &deviations, &innovations, noise)
+            });
             piece.copy_from_slice(&all[first - from..=last - from]);
         });
         found
+    }
+}
+
+/// Adds a multiple of the covariances of θ, ω and u.
+fn add<const N: usize>(to: &mut Matrix<3>, states: &[Gaussian<N>], factor: f64) {
+    for state in states {
+        for (row, values) in to.iter_mut().zip(&state.covariance) {
+            let pairs = row.iter_mut().zip(values);
+            pairs.for_each(|(to, value)| *to += factor * value);
+        }
     }
 }

@@ -49,7 +49,6 @@ mod intensities;
 mod interval;
 mod inverse_dynamics;
 mod kalman;
-mod kinematic;
 mod likelihood;
 mod limit;
 mod linear_smoother;
@@ -65,7 +64,6 @@ mod noise_search;
 mod options;
 mod outliers;
 mod periodic;
-mod periodic_smoother;
 mod polynomial;
 mod prediction;
 mod prior;
@@ -225,22 +223,16 @@ fn recovered(
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
     let locked = refusals::finite(&backwards, measurement, &found.rows)?;
-    let mut warnings = measurement.notes().to_vec();
-    warnings.extend(noted);
-    warnings.extend(warnings::of_scene(scene, options));
-    warnings.extend(warnings::of_motion(
-        scene,
-        measurement.measured(),
-        &found.rows,
-    ));
-    warnings.extend(locked);
-    warnings.extend(warnings::of_fit(&fitted, measurement));
-    warnings.extend(warnings::of_sensor(
-        &fitted,
-        measurement.measured(),
-        &equation,
-        &found.rows,
-    ));
+    let (measured, rows) = (measurement.measured(), &found.rows);
+    let warnings = [
+        measurement.notes().to_vec(),
+        noted,
+        warnings::of_scene(scene, options),
+        warnings::of_motion(scene, measured, rows),
+        locked.into_iter().collect(),
+        warnings::of_fit(&fitted, measurement),
+        Vec::from_iter(warnings::of_sensor(&fitted, measured, &equation, rows)),
+    ];
     let [slider_force, crank_torque] = ForceRange::of_rows(&found.rows);
     let summary = InverseSummary {
         scene: scene.title.clone().unwrap_or_default(),
@@ -254,7 +246,7 @@ fn recovered(
         error_budget: shared.budget(&found.rows),
         dead_centre_bands: found.bands,
         dead_centre_rule: found.rule,
-        warnings,
+        warnings: warnings.concat(),
     };
     Ok(Inverse {
         summary,

@@ -11,7 +11,7 @@ type Frequency = fn(&mut Noise) -> Option<&mut f64>;
 /// The corner frequency.
 const CORNER: Frequency = |noise| Some(&mut noise.corner);
 
-impl Linear<'_> {
+impl Linear {
     /// Evaluates a noise that was the likeliest of another model, then maximises the likelihood over its corner frequency.
     pub fn renewed(&self, noise: Noise) -> Noise {
         self.improved(self.begun(noise))

@@ -11,9 +11,9 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::fixed_interval::Visit;
+use super::fixed_interval::{Companion, Later};
 use super::harmonics::responses;
-use super::kalman::{Companion, Evidence, Gaussian, Innovation, Sample, Step};
+use super::kalman::{Filtered, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
@@ -89,13 +89,12 @@ fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     }
 }
 
-/// Companion of filter and smoother that fills the normal equations, beside the likelihood terms without what repeats.
+/// Companion of filter and smoother that fills the normal equations.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
-    to: &'a mut Regression,
-    pub evidence: Evidence,
+    to: Regression,
     /// The smoother's derivatives, if there is one.
-    found: Option<&'a mut Derivatives>,
+    found: Option<Derivatives>,
 }
 
 /// Derivatives of smoothed states and prediction errors by the coefficients.
@@ -109,31 +108,49 @@ pub(super) struct Derivatives {
 }
 
 impl<'a, const N: usize> Regressed<'a, N> {
-    pub fn new(
-        model: &Deviations<'a>,
-        to: &'a mut Regression,
-        found: Option<&'a mut Derivatives>,
-    ) -> Self {
+    /// A companion of the filter along a model, or of the smoother.
+    pub fn new(model: &Deviations<'a>, is_smoother: bool) -> Self {
+        let count = model.stretch.increments.count;
+        let rows = model.stretch.observed.len() * count;
         Regressed {
             columns: Columns::new(model),
-            to,
-            evidence: Evidence::default(),
-            found,
+            to: Regression::new(model.prior),
+            found: (is_smoother && count > 0).then(|| Derivatives {
+                list: Vec::with_capacity(rows * N),
+                errors: Vec::with_capacity(rows),
+                left: 0,
+            }),
+        }
+    }
+
+    /// Returns the normal equations, and the smoother's derivatives if there is one.
+    pub fn into_parts(mut self) -> (Regression, Option<Derivatives>) {
+        self.to.multiply();
+        (self.to, self.found)
+    }
+
+    /// Takes the derivatives to a node, and its sample into the normal equations.
+    fn regress(&mut self, node: usize, at: &Filtered<N>) {
+        if let Some(step) = &at.step {
+            self.columns.step(node - 1, step);
+        }
+        if let Some(derivatives) = &mut self.found {
+            derivatives.list.extend(&self.columns.of);
+        }
+        if let Some((sample, found)) = &at.sample {
+            self.columns.update(sample, found);
+            let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
+            self.to.take(errors, found.error, per);
+            if let Some(derivatives) = &mut self.found {
+                derivatives.left += 1;
+                let scaled = errors.iter().map(|value| value * per);
+                derivatives.errors.extend(scaled);
+            }
         }
     }
 }
 
 impl Derivatives {
-    /// Room for the derivatives along a model with this number of states.
-    pub fn new(model: &Deviations<'_>, states: usize) -> Derivatives {
-        let rows = model.stretch.observed.len() * model.stretch.increments.count;
-        Derivatives {
-            list: Vec::with_capacity(rows * states),
-            errors: Vec::with_capacity(rows),
-            left: 0,
-        }
-    }
-
     /// Adds what coefficients do to the smoothed states and prediction errors, with a factor A of their covariance Aᵀ A.
     pub fn add<const N: usize>(
         self,
@@ -169,31 +186,16 @@ impl Derivatives {
 }
 
 impl<const N: usize> Companion<N> for Regressed<'_, N> {
-    fn stepped(&mut self, node: usize, step: &Step<N>) {
-        self.columns.step(node, step);
-    }
-
-    fn predicted(&mut self, _: usize, _: &Gaussian<N>) {
-        if let Some(derivatives) = &mut self.found {
-            derivatives.list.extend(&self.columns.of);
-        }
-    }
-
-    fn updated(&mut self, node: usize, sample: &Sample<N>, found: &Innovation<N>) {
-        self.evidence.updated(node, sample, found);
-        self.columns.update(sample, found);
-        let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
-        self.to.take(errors, found.error, per);
-        if let Some(derivatives) = &mut self.found {
-            derivatives.left += 1;
-            derivatives
-                .errors
-                .extend(errors.iter().map(|value| value * per));
+    #[inline(always)]
+    fn filtered(&mut self, node: usize, at: &Filtered<N>) {
+        self.to.evidence.add(at);
+        if !self.columns.errors.is_empty() {
+            self.regress(node, at);
         }
     }
 
     /// The rows follow the recursion of the smoother's correction.
-    fn returned(&mut self, node: usize, visit: &Visit<N>) {
+    fn returned(&mut self, node: usize, at: &Filtered<N>, _: &Later<N>, _: &Gaussian<N>) {
         let columns = &mut self.columns;
         let Some(derivatives) = &mut self.found else {
             return;
@@ -202,7 +204,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
         if (node + 1) * size == derivatives.list.len() {
             columns.of.fill(0.0);
         }
-        if let Some((sample, found)) = &visit.sample {
+        if let Some((sample, found)) = &at.sample {
             columns.errors.fill(0.0);
             for (row, gain) in columns.of.chunks_exact(count).zip(&found.gain) {
                 add(&mut columns.errors, -gain, row);
@@ -215,13 +217,13 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
             }
         }
         let smoothed = &mut derivatives.list[node * size..][..size];
-        let shares = &visit.predicted.covariance;
+        let shares = &at.predicted.covariance;
         for (to, shares) in smoothed.chunks_exact_mut(count).zip(shares) {
             for (row, share) in columns.of.chunks_exact(count).zip(shares) {
                 add(to, *share, row);
             }
         }
-        if let Some(step) = &visit.step {
+        if let Some(step) = &at.step {
             columns.transform(&transposed(&step.transition));
         }
     }

@@ -6,12 +6,13 @@ use super::estimate::Estimate;
 use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
 use super::kalman;
+use super::likelihood::Linear;
 use super::linearised::{Linearised, Motion, Node};
 use super::matrix::Matrix;
 use super::measurement_model::Scale;
 use super::prior::Prior;
 use super::record::Record;
-use super::scales::{Intensities, Noise};
+use super::scales::{Intensities, Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
 use crate::mechanism::Equation;
@@ -101,13 +102,8 @@ impl<'a> Problem<'a> {
     }
 
     /// The linear model of a stretch of nodes about a path.
-    pub fn stretch(
-        &self,
-        motion: &Motion<'_>,
-        path: &Path,
-        range: Range<usize>,
-        sigma: f64,
-    ) -> Stretch {
+    pub fn stretch(&self, prior: Prior, path: &Path, range: Range<usize>, sigma: f64) -> Stretch {
+        let motion = self.motion(prior);
         let times = &self.grid.times[range.clone()];
         let piece = path.piece(&range);
         let states = piece.states;
@@ -117,7 +113,7 @@ impl<'a> Problem<'a> {
             Node {
                 t,
                 state,
-                rates: motion.rates_following(path.slopes(motion.prior, state), t, state),
+                rates: motion.rates_following(path.slopes(prior, state), t, state),
                 repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])[0]),
             }
         });
@@ -129,8 +125,8 @@ impl<'a> Problem<'a> {
             }
         });
         let mut increments = Increments::default();
-        if motion.prior.cycle > 0 {
-            increments = Increments::new(ways(states, &steps, path.speed()), motion.prior);
+        if prior.cycle > 0 {
+            increments = Increments::new(ways(states, &steps, path.speed()), prior);
             if let Some(known) = torque {
                 increments.take_out(&known.coefficients, &mut steps);
             }
@@ -166,37 +162,47 @@ impl<'a> Problem<'a> {
     }
 
     /// Stretches of the linear model for the estimate of hyper-parameters.
-    pub fn stretches(&self, motion: &Motion<'_>, path: &Path, sigma: f64) -> Vec<Stretch> {
+    pub fn stretches(&self, prior: Prior, path: &Path, sigma: f64) -> Vec<Stretch> {
         if self.is_stopped() {
             return Vec::new();
         }
-        let of = |range| self.stretch(motion, path, range, sigma);
+        let of = |range| self.stretch(prior, path, range, sigma);
         parallel::map(self.sampled().into_iter(), of)
+    }
+
+    /// The linear model of a prior about a path, along the stretches for the estimate of hyper-parameters.
+    pub fn linear(&self, prior: Prior, scales: Scales, path: &Path, sigma: f64) -> Linear {
+        Linear {
+            stretches: self.stretches(prior, path, sigma).into(),
+            prior,
+            scales,
+        }
     }
 
     /// Returns the motion at nodes from the first of a piece, with the deviations of a path from it.
     pub fn estimated<const N: usize>(
         &self,
-        motion: &Motion<'_>,
+        prior: Prior,
         path: &Path,
         from: usize,
         deviations: &[kalman::Gaussian<N>],
         innovations: &[Option<f64>],
         noise: &Noise,
     ) -> Vec<Estimate> {
+        let motion = self.motion(prior);
         let piece = path.piece(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
-        let dimension = motion.prior.states();
-        let known = path.repeating.as_ref().filter(|_| motion.prior.cycle == 0);
+        let dimension = prior.states();
+        let known = path.repeating.as_ref().filter(|_| prior.cycle == 0);
         let beside = known.map_or([[0.0; 3]; 3], |known| known.covariance);
         parallel::list(deviations.len(), |at| {
             let (deviation, mut state) = (&deviations[at], piece.states[at]);
             // The model has the deviation of u less what follows θ and ω.
-            let slopes = path.slopes(motion.prior, &state);
+            let slopes = path.slopes(prior, &state);
             state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
             let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
             pairs.for_each(|(value, change)| *value += change);
-            let slopes = path.slopes(motion.prior, &state);
+            let slopes = path.slopes(prior, &state);
             let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
             let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
             let p: Matrix<3> = std::array::from_fn(|i| {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::kalman::Evidence;
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
 use crate::numeric::cholesky::{cholesky, inverse_of_lower};
@@ -75,6 +76,8 @@ impl Rest {
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
     prior: Prior,
+    /// Likelihood terms without the periodic part.
+    pub evidence: Evidence,
     information: DMatrix<f64>,
     score: Vec<f64>,
     /// Rows E/√S that wait for their multiplication, one after the other.
@@ -87,6 +90,7 @@ impl Regression {
         let count = prior.coefficients();
         Regression {
             prior,
+            evidence: Evidence::default(),
             information: DMatrix::zeros(count, count),
             score: vec![0.0; count],
             rows: Vec::with_capacity(ROWS_AT_ONCE * count),
@@ -96,6 +100,7 @@ impl Regression {
     /// Returns the sum of the equations of several stretches.
     pub fn of_all(prior: Prior, parts: Vec<Regression>) -> Regression {
         let add = |mut sum: Regression, part: Regression| {
+            sum.evidence += part.evidence;
             sum.information += part.information;
             let scores = sum.score.iter_mut().zip(part.score);
             scores.for_each(|(sum, part)| *sum += part);
@@ -119,7 +124,7 @@ impl Regression {
     /// Adds the products of the waiting rows: the lower triangle, block by block.
     pub fn multiply(&mut self) {
         let count = self.score.len();
-        let rows = DMatrix::from_column_slice(count, self.rows.len() / count, &self.rows);
+        let rows = DMatrix::from_column_slice(count, self.rows.len() / count.max(1), &self.rows);
         for first in (0..count).step_by(BLOCK) {
             let (size, left) = (BLOCK.min(count - first), count - first);
             let mut block = self.information.view_mut((first, first), (left, size));

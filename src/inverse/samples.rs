@@ -1,12 +1,13 @@
 //! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
 use super::branch_tracking::CrankAngles;
-use super::grid::{BLOCK_ROTATION, Grid};
+use super::grid::{BLOCK_ROTATION, Grid, Path};
 use super::measurement_model::{Scale, Sensor};
+use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::{Record, SensorBeside};
-use super::scales::Intensities;
+use super::scales::{Intensities, root_mean_square};
 use super::smoother::Smoothed;
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
@@ -165,4 +166,19 @@ fn without_outliers<'a>(
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     (problem, kinematic)
+}
+
+impl Problem<'_> {
+    /// Smooths the motion without mechanics, from a first path and the sample noise σ, rad or m.
+    pub fn kinematic(&self, first: Path, sigma: f64) -> Smoothed {
+        let path = first.along(self.sampled());
+        let scales = self.scales(KINEMATIC, &path, self.slope(&first), sigma);
+        let linear = self.linear(KINEMATIC, scales, &path, sigma);
+        let mut found = self.iterated(&linear.with(linear.anywhere(None)), path);
+        found.scales.motion = [2, 3].map(|k| {
+            let parts = found.estimates.iter().map(|e| e.state[k]);
+            root_mean_square(parts).max(f64::MIN_POSITIVE)
+        });
+        self.completed(found, first, false)
+    }
 }

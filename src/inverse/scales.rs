@@ -65,9 +65,6 @@ impl Noise {
     }
 }
 
-/// White fraction of the variance of correlated noise, held fixed.
-pub(super) const WHITE_FRACTION: f64 = 0.02;
-
 /// Standard deviations of the initial state over those left by the first few samples alone: diffuse enough to count for
 /// 1e-6 of one sample, narrow enough to keep ten digits under rounding.
 const DIFFUSE: f64 = 1e3;
@@ -127,4 +124,10 @@ impl Intensities {
         let spans = self.0.iter().filter(|span| span.from < t && t < span.to);
         spans.map(|span| span.factor).product()
     }
+}
+
+/// Returns the root of the mean square of numbers, 0 of none.
+pub(super) fn root_mean_square(numbers: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = numbers.fold((0.0, 0.0), |(sum, n), x| (sum + x * x, n + 1.0));
+    (sum / f64::max(count, 1.0)).sqrt()
 }

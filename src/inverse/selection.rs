@@ -7,6 +7,7 @@ use super::motion_estimate::MotionEstimate;
 use super::prior::WITHOUT_MECHANICS;
 use super::problem::Problem;
 use super::record::Record;
+use super::scales::Noise;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;
 use crate::numeric::polynomial_fit::PolynomialFit;
@@ -52,10 +53,10 @@ impl Problem<'_> {
         let are_plain = self.record.codes.is_none() && self.record.outliers().next().is_none();
         let mut priors = WITHOUT_MECHANICS.iter().filter(|_| are_plain);
         let prior = priors.find(|prior| prior.order + 1 >= degree);
-        let cost = 0.5 * (self.record.times.len() as f64).ln();
         prior.map(|prior| {
-            let likelihood = self.about(*prior, kinematic).without_process_noise();
-            likelihood + cost - smoothed.noise.likelihood
+            let without = self.about(*prior, kinematic).linear;
+            let without = without.evaluated(Noise::white(0.0)).likelihood;
+            without + self.cost(1.0) - smoothed.noise.likelihood
         })
     }
 }
@@ -65,7 +66,7 @@ impl Fitted {
     pub fn averaged(mut self, fit: &PolynomialFit, record: &Record<'_>) -> Fitted {
         let samples = self.residuals.len();
         let of_degree = |(degree, spread): (usize, f64)| {
-            criterion(samples, spread.max(self.floor), degree as f64 + 2.0)
+            criterion(samples, spread.max(record.floor), degree as f64 + 2.0)
         };
         let weights = akaike(fit.residuals().enumerate().map(of_degree).collect());
         let covariances = parallel::list(samples, |i| fit.averaged(record.times[i], &weights));

@@ -96,9 +96,8 @@ impl Source {
         path.states
             .iter_mut()
             .for_each(|state| state[0] += self.zero);
-        let motion = problem.motion(smoothed.prior);
         let moved = Smoothed {
-            estimates: problem.smoothed(&motion, &mut path, smoothed.scales, &smoothed.noise),
+            estimates: problem.smoothed(&mut path, &smoothed.candidate()),
             ..smoothed.clone()
         };
         parallel::list(times.len(), |i| problem.at(&moved, times[i]).motion())

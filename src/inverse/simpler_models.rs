@@ -3,7 +3,6 @@
 
 use super::candidates::Candidate;
 use super::grid::Path;
-use super::likelihood::Linear;
 use super::problem::Problem;
 use super::scales::Noise;
 use super::smoother::{Correction, PATH_AT_REST, Smoothed};
@@ -20,21 +19,13 @@ impl Problem<'_> {
             repeating: None,
             ..found.path()
         };
-        let linear = Linear {
-            stretches: &self.stretches(&self.motion(prior), &path, found.noise.sigma),
-            prior,
-            scales: found.scales,
-        };
+        let linear = self.linear(prior, found.scales, &path, found.noise.sigma);
         let first = Noise {
             spectrum: None,
             ..found.noise
         };
-        let candidate = Candidate {
-            noise: linear.with_corner(linear.begun(first)),
-            prior,
-            ..found.candidate()
-        };
-        let least = found.noise.likelihood - self.cost_of_two();
+        let candidate = linear.with(linear.with_corner(linear.begun(first)));
+        let least = found.noise.likelihood - self.cost(2.0);
         let likely = Some(candidate).filter(|one| one.noise.likelihood > least);
         let other = likely.map(|one| self.iterated(&one, path));
         let holds = |other: &Smoothed| other.converged && other.noise.likelihood > least;
@@ -63,17 +54,18 @@ impl Problem<'_> {
             repeating: None,
             ..found.path()
         };
-        let (motion, mut correction) = (self.motion(prior), Correction::default());
+        let candidate = Candidate {
+            prior,
+            noise,
+            ..found.candidate()
+        };
+        let mut correction = Correction::default();
         let likelihood = |path: &Path| {
-            let linear = Linear {
-                stretches: &self.stretches(&motion, path, noise.sigma),
-                prior,
-                scales: found.scales,
-            };
+            let linear = self.linear(prior, found.scales, path, noise.sigma);
             linear.evaluated(noise).likelihood
         };
         let is_simple = found.is_simple();
-        let least = found.noise.likelihood - self.cost_of_two();
+        let least = found.noise.likelihood - self.cost(2.0);
         let does_without = likelihood(&path) > least;
         if does_without && is_simple {
             return None;
@@ -81,7 +73,7 @@ impl Problem<'_> {
         // Such paths come to rest soon, or not at all.
         let most = if does_without { 0 } else { 6 };
         for _ in 0..most {
-            let estimates = self.smoothed(&motion, &mut path, found.scales, &noise);
+            let estimates = self.smoothed(&mut path, &candidate);
             let change = correction.taken(&mut path, &estimates);
             if change < PATH_AT_REST || !change.is_finite() {
                 break;
@@ -91,11 +83,6 @@ impl Problem<'_> {
             found.noise.likelihood
         } else {
             least
-        };
-        let candidate = Candidate {
-            prior,
-            noise,
-            ..found.candidate()
         };
         let is_likely = likelihood(&path) > least;
         let other = is_likely.then(|| self.iterated(&candidate, path));

@@ -4,14 +4,12 @@
 use super::candidates::Candidate;
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::repeating::Repeating;
 use super::residual_tests::Whiteness;
 use super::scales::{Noise, Scales};
-use super::state_space::Stretch;
 
 /// A smoothed motion with its prior and noise.
 #[derive(Clone, Debug)]
@@ -29,15 +27,6 @@ pub(super) struct Smoothed {
 }
 
 impl Smoothed {
-    /// The likelihood of its prior by some stretches.
-    pub fn linear<'a>(&self, stretches: &'a [Stretch]) -> Linear<'a> {
-        Linear {
-            stretches,
-            prior: self.prior,
-            scales: self.scales,
-        }
-    }
-
     /// Its prior with its noise.
     pub fn candidate(&self) -> Candidate {
         Candidate {
@@ -70,7 +59,6 @@ impl Problem<'_> {
         if found.estimates.len() == self.grid.len() {
             return found;
         }
-        let motion = self.motion(found.prior.beside_known());
         path.repeating = found.repeating.clone();
         let is_linear = found.prior == KINEMATIC && self.record.is_linear();
         let mut whole = Smoothed {
@@ -80,11 +68,11 @@ impl Problem<'_> {
         let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
             if is_result && iteration == usize::from(!is_linear) {
-                whole.noise = self.by_all_samples(&motion, &path, whole.scales, &whole.noise);
+                whole.noise = self.by_all_samples(&path, &whole.candidate());
             }
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
-            whole.estimates = self.smoothed(&motion, &mut path, whole.scales, &whole.noise);
+            whole.estimates = self.smoothed(&mut path, &whole.candidate());
             let change = correction.taken(&mut path, &whole.estimates);
             let is_at_rest = is_linear || iteration > 0 && change < PATH_AT_REST;
             whole.converged = found.converged && is_at_rest;
@@ -104,7 +92,7 @@ impl Problem<'_> {
             let cost = if again.is_simple() {
                 0.0
             } else {
-                self.cost_of_two()
+                self.cost(2.0)
             };
             found = match again.noise.likelihood > other.noise.likelihood + cost {
                 true => again,
@@ -134,7 +122,7 @@ impl Problem<'_> {
         if !is_noise || !suspected && !Whiteness::of(innovations).is_violated() {
             return found;
         }
-        let cost = self.cost_of_two();
+        let cost = self.cost(2.0);
         let least = white.likelihood() + cost;
         let correlated = self.correlated(white, first);
         let is_likelier = correlated.likelihood() > least;
@@ -175,11 +163,10 @@ impl Problem<'_> {
     /// The smoothed motion with a prior, about paths that approach it.
     pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
         let Candidate {
-            prior,
+            mut prior,
             mut noise,
             scales,
         } = *candidate;
-        let mut motion = self.motion(prior);
         let mut result = Smoothed {
             converged: false,
             ..candidate.unsmoothed()
@@ -189,14 +176,9 @@ impl Problem<'_> {
         for iteration in 0..ITERATIONS {
             // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
             if is_at_rest && result.prior == candidate.prior {
-                motion.prior.harmonics *= 2;
+                prior.harmonics *= 2;
             }
-            let prior = motion.prior;
-            let linear = Linear {
-                stretches: &self.stretches(&motion, &path, noise.sigma),
-                prior,
-                scales,
-            };
+            let linear = self.linear(prior, scales, &path, noise.sigma);
             // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
             if iteration == 1 || is_at_rest || iteration == 0 && prior.powers > 0 {
                 let mut known = noise;
@@ -217,7 +199,7 @@ impl Problem<'_> {
                 }
                 correction = Correction::default();
             }
-            let estimates = self.smoothed_along(&motion, &mut path, &linear, &noise);
+            let estimates = self.smoothed_along(&mut path, &linear, &noise);
             let change = correction.taken(&mut path, &estimates);
             is_at_rest = change < PATH_AT_REST && iteration > 0;
             // What came to rest with a former noise stands until this one's does.

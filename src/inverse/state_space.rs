@@ -7,27 +7,26 @@ use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, diagonal};
 use super::prior::{Prior, State};
-use super::scales::WHITE_FRACTION;
 
-/// Evaluates an expression with the number of states as a constant.
+/// Evaluates an expression with the number of states, 3 to 6, as a constant.
 macro_rules! with_dimension {
+    (const $n:ident = $number:literal => $value:expr) => {{
+        const $n: usize = $number;
+        $value
+    }};
     ($states:expr, $n:ident => $value:expr) => {
-        with_dimension!($states, $n => $value, 3 4 5 or 6)
-    };
-    ($states:expr, $n:ident => $value:expr, $($count:literal)* or $most:literal) => {
         match $states {
-            $($count => {
-                const $n: usize = $count;
-                $value
-            })*
-            _ => {
-                const $n: usize = $most;
-                $value
-            }
+            3 => with_dimension!(const $n = 3 => $value),
+            4 => with_dimension!(const $n = 4 => $value),
+            5 => with_dimension!(const $n = 5 => $value),
+            _ => with_dimension!(const $n = 6 => $value),
         }
     };
 }
 pub(super) use with_dimension;
+
+/// White fraction of the variance of correlated noise, held fixed.
+const WHITE_FRACTION: f64 = 0.02;
 
 /// Mean deviation of the samples of a node from the nominal path.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
+use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
 use super::scales::Noise;
-use super::smoother::Smoothed;
 use super::state_space::Stretch;
 use crate::numeric::maximum::largest_to;
 use crate::numeric::parallel;
@@ -19,7 +19,8 @@ pub(super) struct Guess {
     pub steps: Range<usize>,
     /// ln of the factor of an intensity that is higher, or of its inverse.
     pub log: f64,
-    pub is_higher: bool,
+    /// 1 of an intensity that is higher, −1 of one that is lower.
+    pub sense: f64,
     pub likelihood: f64,
 }
 
@@ -33,7 +34,7 @@ fn likelier(a: Guess, b: Guess) -> Guess {
 
 /// A stretch of the linear model, in which steps may have another intensity.
 pub(super) struct Trial<'a> {
-    pub found: &'a Smoothed,
+    pub linear: &'a Linear,
     pub stretch: &'a Stretch,
     pub noise: Noise,
 }
@@ -42,8 +43,7 @@ impl Trial<'_> {
     /// Returns the likeliest of some guesses, with its likeliest factor and ends; those of which a coarse search finds the likeliest
     /// factors are searched on, as the likelihood has several maxima.
     pub fn likeliest(&self, guesses: Vec<Guess>) -> Option<Guess> {
-        let coarse = |guess| self.with_factor(guess, WIDTH);
-        let mut tried = parallel::map(guesses.into_iter(), coarse);
+        let mut tried = parallel::map(guesses.into_iter(), |guess| self.with_factor(guess));
         tried.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
         let searched_on = 3;
         tried.truncate(searched_on);
@@ -56,7 +56,7 @@ impl Trial<'_> {
     /// any, and no more below that.
     fn no_lower_than_told(&self, best: Guess) -> Guess {
         let mut found = best.clone();
-        while !best.is_higher && found.log > WIDTH {
+        while best.sense < 0.0 && found.log > WIDTH {
             let half = self.evaluated(Guess {
                 log: 0.5 * found.log,
                 ..found.clone()
@@ -79,26 +79,25 @@ impl Trial<'_> {
 
     /// Returns a guess with its likelihood.
     fn evaluated(&self, mut guess: Guess) -> Guess {
-        let linear = &[self.with(&guess)];
-        guess.likelihood = self.found.linear(linear).evaluated(self.noise).likelihood;
+        let linear = Linear {
+            stretches: vec![self.with(&guess)].into(),
+            ..*self.linear
+        };
+        guess.likelihood = linear.evaluated(self.noise).likelihood;
         guess
     }
 
-    /// Returns a guess with its likeliest factor, whose ln is found to about twice a width.
-    fn with_factor(&self, guess: Guess, width: f64) -> Guess {
+    /// Returns a guess with its likeliest factor, whose ln is found to about twice `WIDTH`.
+    fn with_factor(&self, guess: Guess) -> Guess {
         let at = |log: f64| Guess {
             log,
             ..guess.clone()
         };
         let value = |log: f64| self.evaluated(at(log)).likelihood;
-        let (log, likelihood) = largest_to(value, [0.0, LARGEST], width);
-        likelier(
-            guess.clone(),
-            Guess {
-                likelihood,
-                ..at(log)
-            },
-        )
+        let (log, likelihood) = largest_to(value, [0.0, LARGEST], WIDTH);
+        let mut found = at(log);
+        found.likelihood = likelihood;
+        likelier(guess, found)
     }
 
     /// Returns a guess with likelier ends: each moves by parts of the length, a half at first, while the likelihood rises.
@@ -124,7 +123,7 @@ impl Trial<'_> {
                 .reduce(likelier)
                 .filter(|next| next.likelihood > guess.likelihood + ENOUGH_RISE)
             {
-                Some(next) => guess = self.with_factor(next, WIDTH),
+                Some(next) => guess = self.with_factor(next),
                 None => by /= 2,
             }
         }
@@ -135,9 +134,6 @@ impl Trial<'_> {
 impl Guess {
     /// Returns the factor of the intensity.
     pub fn factor(&self) -> f64 {
-        match self.is_higher {
-            true => self.log.exp(),
-            false => (-self.log).exp(),
-        }
+        (self.sense * self.log).exp()
     }
 }

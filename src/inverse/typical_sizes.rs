@@ -2,11 +2,10 @@
 
 use super::estimate::Estimate;
 use super::grid::Path;
-use super::linearised::Motion;
-use super::prior::powers_of;
+use super::prior::{Prior, powers_of};
 use super::problem::Problem;
 use super::quantised::Codes;
-use super::scales::Scales;
+use super::scales::{Scales, root_mean_square};
 use super::smoother::Smoothed;
 
 impl Problem<'_> {
@@ -14,17 +13,14 @@ impl Problem<'_> {
     /// between samples, over that time.
     pub fn slope(&self, path: &Path) -> f64 {
         let stride = path.states.len().div_ceil(1000);
-        let slopes = path.states.iter().step_by(stride);
-        let slopes =
-            slopes.map(|state| self.record.sensor.shown([state[0], state[1]]).slope.powi(2));
-        let (sum, count) = slopes
-            .filter(|s| s.is_finite())
-            .fold((0.0, 0.0), |(s, n), x| (s + x, n + 1.0));
-        let by_time = match self.record.sensor.is_of_speed() {
+        let states = path.states.iter().step_by(stride);
+        let sensor = self.record.sensor;
+        let slopes = states.map(|state| sensor.shown([state[0], state[1]]).slope);
+        let by_time = match sensor.is_of_speed() {
             true => self.spacing(),
             false => 1.0,
         };
-        (sum / f64::max(count, 1.0)).sqrt() / by_time
+        root_mean_square(slopes.filter(|slope| slope.is_finite())) / by_time
     }
 
     /// Returns the mean time between samples, s.
@@ -41,8 +37,8 @@ impl Problem<'_> {
     }
 
     /// Returns the typical magnitudes along a path with a prior, for samples of a slope and a standard deviation σ.
-    pub fn scales(&self, motion: &Motion<'_>, path: &Path, slope: f64, sigma: f64) -> Scales {
-        let times = &self.grid.times;
+    pub fn scales(&self, prior: Prior, path: &Path, slope: f64, sigma: f64) -> Scales {
+        let (motion, times) = (self.motion(prior), &self.grid.times);
         let duration = times[times.len() - 1] - times[0];
         let stride = path.states.len().div_ceil(1000);
         let (mut lever, mut torque, mut count) = (0.0, 0.0, 0.0);
@@ -75,15 +71,8 @@ impl Problem<'_> {
 }
 
 /// Returns the standard deviation of numbers, at least the smallest positive double.
-fn spread(numbers: impl Iterator<Item = f64>) -> f64 {
-    let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
-    for number in numbers {
-        count += 1.0;
-        let off = number - mean;
-        mean += off / count;
-        squares += off * (number - mean);
-    }
-    (squares / f64::max(count, 1.0))
-        .sqrt()
-        .max(f64::MIN_POSITIVE)
+fn spread(numbers: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (sum, count) = (numbers.clone()).fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
+    let about = numbers.map(|x| x - sum / count);
+    root_mean_square(about).max(f64::MIN_POSITIVE)
 }

@@ -1,9 +1,10 @@
 //! Gauss-Newton iterations for free values (prediction errors), path (smoother) and noise (marginal likelihood).
 
+use super::super::candidates::Candidate;
 use super::super::grid::Path;
 use super::super::prior::TORQUE;
 use super::super::problem::Problem;
-use super::super::scales::{Noise, Scales};
+use super::super::scales::{Noise, Scales, root_mean_square};
 use super::super::smoother::{Correction, Smoothed};
 use super::information::Information;
 use super::misfit::Misfit;
@@ -52,11 +53,10 @@ impl<'a> Search<'a> {
         let states = smooth.estimates.iter();
         let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
         let path = Path::whole(states.collect());
-        let motion = problem.motion(TORQUE);
         let scales = Scales {
             identified: Some(count),
             motion: smooth.scales.motion,
-            ..problem.scales(&motion, &path, smooth.scales.slope, smooth.noise.sigma)
+            ..problem.scales(TORQUE, &path, smooth.scales.slope, smooth.noise.sigma)
         };
         let trials = Trials {
             scene_at,
@@ -103,7 +103,6 @@ impl<'a> Search<'a> {
             (Err(_), Some(misfit)) => return Err(misfit.refused()),
             (best, _) => best?,
         };
-        let squares: f64 = best.path.states.iter().map(|s| s[2] * s[2]).sum();
         let told = best
             .information
             .is_told(&best.values, best.noise.sigma, trials.free());
@@ -112,7 +111,7 @@ impl<'a> Search<'a> {
         }
         told?;
         Ok(Found {
-            missing: (squares / best.path.states.len() as f64).sqrt(),
+            missing: root_mean_square(best.path.states.iter().map(|state| state[2])),
             best,
             misfit,
         })
@@ -135,12 +134,12 @@ impl<'a> Search<'a> {
             let model = trials.model(&values, &self.path, sigma)?;
             let noise = match (with_torque, last) {
                 (false, _) => trials.without_torque(&model),
-                (true, None) => trials.likeliest(&model),
-                (true, Some(last)) => trials.likelier(&model, last),
+                (true, None) => model.anywhere(trials.correlated),
+                (true, Some(last)) => Trials::likelier(&model, last),
             };
             last = Some(noise);
             sigma = noise.sigma;
-            let base = trials.innovations(&model, &noise);
+            let base = Trials::innovations(&model, &noise);
             let step = self.step(&values, &steps, &base, &noise)?;
             for (k, h) in steps.iter_mut().enumerate() {
                 let size = values[k].abs().max(trials.free()[k].scale);
@@ -214,7 +213,7 @@ impl<'a> Search<'a> {
             let at: Vec<f64> = pairs.map(|(value, change)| value + part * change).collect();
             match self.trials.model(&at, &self.path, noise.sigma) {
                 Ok(model) => {
-                    let found = base.squares(&self.trials.innovations(&model, noise).errors);
+                    let found = base.squares(&Trials::innovations(&model, noise).errors);
                     if found <= squares * (1.0 + 1e-9) {
                         return Ok((at, part));
                     }
@@ -263,9 +262,12 @@ impl<'a> Search<'a> {
     /// and the standardised prediction errors.
     fn smooth(&mut self, values: &[f64], noise: &Noise) -> Result<(f64, Vec<f64>), Error> {
         let Search { trials, path } = self;
-        let estimates = trials.with(values, |problem| {
-            problem.smoothed(&problem.motion(TORQUE), path, trials.scales, noise)
-        })?;
+        let candidate = Candidate {
+            prior: TORQUE,
+            noise: *noise,
+            scales: trials.scales,
+        };
+        let estimates = trials.with(values, |problem| problem.smoothed(path, &candidate))?;
         let innovations = estimates.iter().map(|e| e.innovation);
         let told = innovations.filter(|value| value.is_finite()).collect();
         Ok((Correction::default().taken(path, &estimates), told))

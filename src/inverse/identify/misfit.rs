@@ -32,9 +32,9 @@ impl Misfit {
     pub fn of(trials: &Trials<'_>, at: &Optimum) -> Result<Option<Misfit>, Error> {
         let model = trials.model(&at.values, &at.path, at.noise.sigma)?;
         let noise = trials.without_torque(&model);
-        let with_torque = trials.likeliest(&model);
+        let with_torque = model.anywhere(trials.correlated);
         let is_white = |errors: &[f64]| !Whiteness::of(errors.iter().copied()).is_violated();
-        let base = trials.innovations(&model, &noise);
+        let base = Trials::innovations(&model, &noise);
         let errors = base.standardised();
         let is_code = trials.noise.is_infinite();
         let is_likely = with_torque.likelihood - noise.likelihood <= SIGNIFICANT_RISE;

@@ -29,6 +29,7 @@ use super::hypotheses::FAR;
 use super::measurement_model::{Scale, Sensor};
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
+use super::scales::root_mean_square;
 use super::smoother::Smoothed;
 use super::warnings::alone;
 use crate::error::Error;
@@ -152,8 +153,7 @@ fn identify_among(
 fn moving(smooth: &Smoothed, times: &[f64]) -> RangeInclusive<usize> {
     let estimates = &smooth.estimates;
     let last = estimates.len().saturating_sub(1);
-    let squares = estimates.iter().map(|estimate| estimate.state[1].powi(2));
-    let usual = (squares.sum::<f64>() / estimates.len() as f64).sqrt();
+    let usual = root_mean_square(estimates.iter().map(|estimate| estimate.state[1]));
     let is_apart = |end: usize, node: usize| {
         let [a, b] = [&estimates[end], &estimates[node]];
         (a.state[0] - b.state[0]).abs() > FAR * (a.covariance[0] + b.covariance[0]).sqrt()

@@ -1,14 +1,14 @@
 //! Linear model of a record for trial values of the scene, and its prediction errors.
 
 use super::super::grid::Path;
-use super::super::kalman::{self, Companion, Innovation, Sample};
+use super::super::kalman;
 use super::super::likelihood::Linear;
 use super::super::maximum::ENOUGH_RISE;
 use super::super::prior::TORQUE;
 use super::super::problem::Problem;
 use super::super::residual_tests::Whiteness;
 use super::super::scales::{Noise, Scales};
-use super::super::state_space::{Stretch, with_dimension};
+use super::super::state_space::with_dimension;
 use super::optimum::Optimum;
 use super::values::FreeValue;
 use crate::error::Error;
@@ -51,13 +51,6 @@ impl Innovations {
     }
 }
 
-impl<const N: usize> Companion<N> for Innovations {
-    fn updated(&mut self, _: usize, _: &Sample<N>, found: &Innovation<N>) {
-        self.errors.push(found.error);
-        self.variances.push(found.variance);
-    }
-}
-
 impl<'a> Trials<'a> {
     /// Returns the free values.
     pub fn free(&self) -> &'a [FreeValue] {
@@ -78,50 +71,44 @@ impl<'a> Trials<'a> {
     }
 
     /// Returns the linear model about a path for these values.
-    pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Stretch, Error> {
-        self.with(values, |problem| {
-            let motion = problem.motion(TORQUE);
-            problem.stretch(&motion, path, 0..problem.grid.len(), sigma)
+    pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Linear, Error> {
+        self.with(values, |problem| Linear {
+            stretches: vec![problem.stretch(TORQUE, path, 0..problem.grid.len(), sigma)].into(),
+            prior: TORQUE,
+            scales: self.scales,
         })
     }
 
-    fn linear<'b>(&self, model: &'b Stretch) -> Linear<'b> {
-        Linear {
-            stretches: std::slice::from_ref(model),
-            prior: TORQUE,
-            scales: self.scales,
-        }
-    }
-
     /// Returns the prediction errors of a model.
-    pub fn innovations(&self, model: &Stretch, noise: &Noise) -> Innovations {
-        let mut found = Innovations::default();
-        let model = self.linear(model).deviations(model, noise);
-        with_dimension!(model.dimension(), N => {
-            kalman::run::<N>(&model, None, &mut found);
-        });
-        found
+    pub fn innovations(model: &Linear, noise: &Noise) -> Innovations {
+        let mut list = Innovations::default();
+        for stretch in model.stretches.iter() {
+            let model = model.deviations(stretch, noise);
+            with_dimension!(model.dimension(), N => {
+                kalman::run::<N>(&model, None, |_, at| {
+                    if let Some((_, found)) = &at.sample {
+                        list.errors.push(found.error);
+                        list.variances.push(found.variance);
+                    }
+                });
+            });
+        }
+        list
     }
 
     /// Evaluates the likelihood where the missing torque has no effect on the samples.
-    pub fn without_torque(&self, model: &Stretch) -> Noise {
+    pub fn without_torque(&self, model: &Linear) -> Noise {
         let [lowest, _] = self.scales.corners();
-        self.linear(model).evaluated(Noise {
+        model.evaluated(Noise {
             correlated: self.correlated,
             ..Noise::white(lowest)
         })
     }
 
-    /// Maximises the likelihood over the intensity of the missing torque.
-    pub fn likeliest(&self, model: &Stretch) -> Noise {
-        self.linear(model).anywhere(self.correlated)
-    }
-
     /// Maximises the likelihood from this intensity of the missing torque; keeps it where the gain is below `ENOUGH_RISE`.
-    pub fn likelier(&self, model: &Stretch, noise: Noise) -> Noise {
-        let linear = self.linear(model);
-        let here = linear.evaluated(noise);
-        let found = linear.improved(here);
+    pub fn likelier(model: &Linear, noise: Noise) -> Noise {
+        let here = model.evaluated(noise);
+        let found = model.improved(here);
         match found.likelihood - here.likelihood > ENOUGH_RISE {
             true => found,
             false => here,
@@ -136,10 +123,8 @@ impl<'a> Trials<'a> {
             return Ok(None);
         }
         let model = self.model(&at.values, &at.path, at.noise.sigma)?;
-        let white = self.likeliest(&model);
-        let other = self
-            .linear(&model)
-            .correlated(&white, &self.scales.decays());
+        let white = model.anywhere(self.correlated);
+        let other = model.correlated(&white, &self.scales.decays());
         let cost = (at.innovations.len() as f64).ln();
         Ok(other
             .correlated
@@ -161,7 +146,7 @@ impl<'a> Trials<'a> {
             let mut at = values.to_vec();
             at[k] += h;
             let model = self.model(&at, path, noise.sigma)?;
-            Ok::<_, Error>((self.innovations(&model, noise).errors, h))
+            Ok::<_, Error>((Trials::innovations(&model, noise).errors, h))
         };
         let here = || (base.errors.clone(), 0.0);
         let (after, before) = match (beside(step), beside(-step)) {
