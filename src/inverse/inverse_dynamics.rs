@@ -1,11 +1,14 @@
 //! Inverse dynamics: an estimated motion in, slider force and crank torque out, by the equation of motion, with
 //! standard errors that follow from the covariance of the motion.
+//!
+//! The motion and the torques on the crank determine the whole force along the guide, and with it the normal force: the
+//! slider force is unique. Where the crank torque is unknown, friction and normal force depend on each other.
 
-use super::guide::Guide;
 use super::motion_estimate::MotionEstimate;
 use super::row::InverseRow;
-use crate::mechanism::{Equation, LoadValue, Pose, Sense, Terms};
-use crate::scene::Instant;
+use crate::error::Error;
+use crate::mechanism::{Equation, LoadValue, Pose, Reactor, Sense, Terms};
+use crate::scene::{Instant, Scene};
 
 /// Lever arm of the slider force at one sample, and what leaves the force in doubt.
 #[derive(Clone, Copy, Debug)]
@@ -107,34 +110,30 @@ impl InverseDynamics<'_> {
             let [_, other] = self.needed_at(t, &terms, state.value, -sense);
             (torque, holding) = (0.5 * (torque + other), 0.5 * (torque - other).abs());
         }
-        // One-sided at the limit of a rocker.
-        let beside = |step: f64| {
-            let there = self.equation.terms(theta + step);
-            match there.pose.is_regular() {
-                true => (step, there),
-                false => (0.0, terms),
+        let steps = [
+            STEP,
+            STEP * omega.abs().max(1e-3),
+            STEP * alpha.abs().max(omega * omega).max(1e-3),
+        ];
+        // Force, torque and lever arm at a state with a step of one of its numbers, and that step.
+        let beside = |k: usize, step: f64| {
+            let (mut moved, mut there, mut step) = (state.value, terms, step);
+            moved[k] += step;
+            if k == 0 {
+                there = self.equation.terms(moved[0]);
+                if !there.pose.is_regular() {
+                    // One-sided at the limit of a rocker.
+                    (moved, there, step) = (state.value, terms, 0.0);
+                }
             }
+            let [force, torque] = at(&there, moved);
+            ([force, torque, there.pose.dx], step)
         };
-        let ends = [STEP, -STEP].map(|step| {
-            let (step, terms) = beside(step);
-            (
-                step,
-                at(&terms, [theta + step, omega, alpha]),
-                terms.pose.dx,
-            )
+        let slopes = [0, 1, 2].map(|k| {
+            let [(after, h), (before, g)] = [steps[k], -steps[k]].map(|step| beside(k, step));
+            [0, 1, 2].map(|i| (after[i] - before[i]) / (h - g))
         });
-        let faster = STEP * omega.abs().max(1e-3);
-        let sooner = STEP * alpha.abs().max(omega * omega).max(1e-3);
-        let by_omega = [1.0, -1.0].map(|sign| at(&terms, [theta, omega + sign * faster, alpha]));
-        let by_alpha = [1.0, -1.0].map(|sign| at(&terms, [theta, omega, alpha + sign * sooner]));
-        let wide = ends[0].0 - ends[1].0;
-        let gradients = [0, 1].map(|i| {
-            [
-                (ends[0].1[i] - ends[1].1[i]) / wide,
-                (by_omega[0][i] - by_omega[1][i]) / (2.0 * faster),
-                (by_alpha[0][i] - by_alpha[1][i]) / (2.0 * sooner),
-            ]
-        });
+        let [of_force, of_torque, bend] = [0, 1, 2].map(|i| slopes.map(|slope| slope[i]));
         let near_limit = terms.pose.cos_phi < NEAR_LIMIT;
         let mut bent = [0.0; 2];
         if near_limit {
@@ -151,11 +150,10 @@ impl InverseDynamics<'_> {
             + (force * arm).abs().max(torque.abs());
         let rounding = 8.0 * f64::EPSILON * size;
         let of_arm = 4.0 * f64::EPSILON * r;
-        let of_force = (rounding + of_arm * force.abs()) / arm.abs();
-        let bend = [(ends[0].2 - ends[1].2) / wide, 0.0, 0.0];
+        let rounded = (rounding + of_arm * force.abs()) / arm.abs();
         let [force_se, torque_se] = with_shared([
-            state.error(&gradients[0], of_force) + bent[0],
-            state.error(&gradients[1], rounding) + bent[1] + holding,
+            state.error(&of_force, rounded) + bent[0],
+            state.error(&of_torque, rounding) + bent[1] + holding,
         ]);
         let is_known = torque.is_finite() && torque_se.is_finite();
         let row = InverseRow {
@@ -176,5 +174,53 @@ impl InverseDynamics<'_> {
             friction_known,
         };
         (row, leverage)
+    }
+}
+
+/// Guide of a slider with friction.
+#[derive(Debug)]
+pub(super) struct Guide {
+    mu: f64,
+    reactor: Reactor,
+}
+
+/// Crank speed, rad/s, and crank acceleration, rad/s², at one sample.
+pub(super) type CrankRates = [f64; 2];
+
+impl Guide {
+    /// Returns the guide of a scene; none without friction.
+    pub fn new(scene: &Scene) -> Result<Option<Guide>, Error> {
+        let Some(friction) = scene.reduced().friction else {
+            return Ok(None);
+        };
+        let reactor = Reactor::new(scene)?;
+        let mu = friction.coefficient;
+        Ok(Some(Guide { mu, reactor }))
+    }
+
+    /// Returns the normal force, N, under this whole force along the guide, N.
+    fn normal(&self, pose: &Pose, [omega, alpha]: CrankRates, along: f64) -> f64 {
+        let load = LoadValue {
+            torque: 0.0,
+            force: along,
+        };
+        self.reactor.reactions(pose, omega, alpha, &load).guide
+    }
+
+    /// Returns the friction, N, on a slider moving in `direction` (±1); `along`, N, is the whole force including it.
+    pub fn friction(&self, pose: &Pose, motion: CrankRates, direction: f64, along: f64) -> f64 {
+        -self.mu * direction * self.normal(pose, motion, along).abs()
+    }
+
+    /// Returns the friction, N, on a slider that a torque on the crank drives, beside this force on the slider, N. NaN
+    /// where the guide locks and no torque moves the slider.
+    pub fn driven(&self, pose: &Pose, motion: CrankRates, direction: f64, force: f64) -> f64 {
+        let without = self.normal(pose, motion, force);
+        let slope = self.normal(pose, motion, force + 1.0) - without;
+        if self.mu * slope.abs() >= 1.0 {
+            return f64::NAN;
+        }
+        let opposing = -self.mu * direction * without.signum();
+        opposing * without / (1.0 - opposing * slope)
     }
 }

@@ -9,6 +9,7 @@ use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
 use crate::error::Error;
 use crate::mechanism::Linkage;
+use crate::numeric::angle::circular_distance;
 use crate::scene::Measurement;
 use std::f64::consts::TAU;
 
@@ -87,8 +88,8 @@ fn nearest(limit: f64, theta: f64) -> f64 {
 
 /// Returns the distance from a crank angle to the nearest limit, rad.
 fn distance(limits: &[f64], theta: f64) -> f64 {
-    let from = |limit: &f64| (theta - nearest(*limit, theta)).abs();
-    limits.iter().map(from).fold(f64::INFINITY, f64::min)
+    let from = limits.iter().map(|limit| circular_distance(theta, *limit));
+    from.fold(f64::INFINITY, f64::min)
 }
 
 /// True if a limit lies between the crank angles of two states.

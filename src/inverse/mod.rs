@@ -41,7 +41,6 @@ mod first_path;
 mod fitted;
 mod fixed_interval;
 mod grid;
-mod guide;
 mod harmonics;
 mod hypotheses;
 pub mod identify;
@@ -103,8 +102,7 @@ pub use summary::{
 };
 
 use self::fitted::Fitted;
-use self::guide::Guide;
-use self::inverse_dynamics::InverseDynamics;
+use self::inverse_dynamics::{Guide, InverseDynamics};
 use self::measurement_model::{Scale, Sensor};
 use self::rows::Rows;
 use self::shared_errors::SharedErrors;

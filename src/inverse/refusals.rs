@@ -33,8 +33,9 @@ pub(super) fn finite(
         let place = measurement.place(sample);
         format!("at {place} (t = {t} s, theta = {theta} rad)")
     };
-    let without = || (0..rows.len()).filter(|i| rows[*i].crank_torque.is_none());
-    for sample in without() {
+    let all = 0..rows.len();
+    let without: Vec<usize> = all.filter(|i| rows[*i].crank_torque.is_none()).collect();
+    for &sample in &without {
         let row = &rows[sample];
         let load = backwards.equation.load(row.t, row.theta, row.omega);
         if !load.is_finite() {
@@ -53,7 +54,7 @@ pub(super) fn finite(
             ));
         }
     }
-    let (Some(first), count) = (without().next(), without().count()) else {
+    let [first, ..] = without[..] else {
         return Ok(None);
     };
     let locks = |place: String| {
@@ -61,15 +62,15 @@ pub(super) fn finite(
             "the guide locks itself {place}: friction holds the slider against any torque on the crank"
         )
     };
-    if count == rows.len() {
+    if without.len() == rows.len() {
         return Err(Error::refused(
             locks(place(first)),
             "a motion like this one needs less friction, or the longer rod of another mechanism: check [friction] and [geometry]",
         ));
     }
-    let samples = match count {
+    let samples = match without.len() {
         1 => place(first),
-        _ => format!("at {count} samples, the first {}", place(first)),
+        count => format!("at {count} samples, the first {}", place(first)),
     };
     Ok(Some(format!(
         "{}; their crank torque is left empty, and the slider force is what drives it by a pull or push on the slider",

@@ -62,36 +62,30 @@ impl Rows {
 
     /// Empties the forces that are in doubt, and lists the bands.
     fn leave_out_doubtful(&mut self, leverages: &[Leverage], factor: f64) {
-        let mut before: Option<&str> = None;
-        for (i, leverage) in leverages.iter().enumerate() {
-            let row = &mut self.rows[i];
-            let reason = self.rule.reason(row, leverage, factor);
-            if let Some(reason) = reason {
+        let rows = self.rows.iter().zip(leverages);
+        let reasons: Vec<_> = rows
+            .map(|(row, leverage)| self.rule.reason(row, leverage, factor))
+            .collect();
+        let goes_on =
+            |a: &Option<&str>, b: &Option<&str>| a.zip(*b).is_some_and(|(a, b)| alike(a, b));
+        let mut rest = &mut self.rows[..];
+        for band in reasons.chunk_by(goes_on) {
+            let rows;
+            (rows, rest) = rest.split_at_mut(band.len());
+            let Some(reason) = band[0] else { continue };
+            for row in rows.iter_mut() {
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;
-                let (t, theta) = (row.t, row.theta);
-                let goes_on = before.is_some_and(|before| alike(before, reason));
-                self.extend_band(t, theta, reason, goes_on);
             }
-            before = reason;
-        }
-    }
-
-    fn extend_band(&mut self, t: f64, theta: f64, reason: &'static str, goes_on: bool) {
-        match self.bands.last_mut() {
-            Some(band) if goes_on => {
-                band.to_s = t;
-                band.to_theta_rad = theta;
-                band.rows += 1;
-            }
-            _ => self.bands.push(DeadCentreBand {
-                from_s: t,
-                to_s: t,
-                from_theta_rad: theta,
-                to_theta_rad: theta,
-                rows: 1,
+            let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+            self.bands.push(DeadCentreBand {
+                from_s: first.t,
+                to_s: last.t,
+                from_theta_rad: first.theta,
+                to_theta_rad: last.theta,
+                rows: rows.len(),
                 reason,
-            }),
+            });
         }
     }
 }

@@ -4,8 +4,7 @@
 use serde::Serialize;
 
 use super::alignment;
-use super::guide::Guide;
-use super::inverse_dynamics::InverseDynamics;
+use super::inverse_dynamics::{Guide, InverseDynamics};
 use super::measurement_model::Scale;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;

@@ -171,18 +171,10 @@ impl ForceRange {
         rayon::join(|| range(force), || range(torque)).into()
     }
 
-    fn of(mut values: impl Iterator<Item = Estimate>) -> Option<ForceRange> {
-        let first = values.next()?;
-        let (mut min, mut max, mut errors) = (first, first, vec![first.2]);
-        for value in values {
-            if value.1.total_cmp(&min.1).is_lt() {
-                min = value;
-            }
-            if value.1.total_cmp(&max.1).is_ge() {
-                max = value;
-            }
-            errors.push(value.2);
-        }
+    fn of(values: impl Iterator<Item = Estimate>) -> Option<ForceRange> {
+        let values: Vec<Estimate> = values.collect();
+        let order = |a: &&Estimate, b: &&Estimate| a.1.total_cmp(&b.1);
+        let (min, max) = (values.iter().min_by(order)?, values.iter().max_by(order)?);
         // Zero has no sign.
         Some(ForceRange {
             min: min.1 + 0.0,
@@ -191,7 +183,7 @@ impl ForceRange {
             max: max.1 + 0.0,
             max_t_s: max.0,
             max_se: max.2,
-            median_se: median(errors)?,
+            median_se: median(values.iter().map(|value| value.2))?,
         })
     }
 }
