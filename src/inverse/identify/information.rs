@@ -1,6 +1,6 @@
 //! Fisher information of the free values: standard errors, correlations, and refusal of undetermined values.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, DVectorView, SymmetricEigen};
 
 use super::values::FreeValue;
 use crate::error::Error;
@@ -72,12 +72,15 @@ impl Information {
         Ok(found)
     }
 
+    /// Returns the eigenvector of the smallest eigenvalue.
+    fn weakest(&self) -> DVectorView<'_, f64> {
+        let at = self.eigen.eigenvalues.imin();
+        self.eigen.eigenvectors.column(at)
+    }
+
     /// Returns the indices of the values in the eigenvector of the smallest eigenvalue.
     fn group(&self) -> Vec<usize> {
-        let vector = self
-            .eigen
-            .eigenvectors
-            .column(self.eigen.eigenvalues.imin());
+        let vector = self.weakest();
         let most = vector.amax();
         let all = 0..self.norms.len();
         all.filter(|k| vector[*k].abs() > ALIKE * most).collect()
@@ -85,10 +88,7 @@ impl Information {
 
     /// True if the weakest combination changes all its values by one factor: the equation is homogeneous in them.
     fn is_scale(&self, values: &[f64]) -> bool {
-        let vector = self
-            .eigen
-            .eigenvectors
-            .column(self.eigen.eigenvalues.imin());
+        let vector = self.weakest();
         let parts = self.group().into_iter();
         let parts: Vec<f64> = parts
             .map(|k| vector[k] / (self.norms[k] * values[k]))

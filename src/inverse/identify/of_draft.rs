@@ -31,44 +31,38 @@ impl FromStr for FreeKey {
 
 impl FreeKey {
     fn value(self, draft: &Draft, crank: f64, measured: Measured) -> Result<FreeValue, Error> {
-        Ok(match self {
-            FreeKey::Key(key) => {
-                match key.to_string().split('.').next() {
-                    Some("friction") => {
-                        return Err(not_modelled("Coulomb friction at the guide"));
-                    }
-                    Some("clearance") => return Err(not_modelled("clearance in a joint")),
-                    _ => {}
-                }
-                let start = draft.number(&key)?;
-                let scale = match (start, key.unit()) {
-                    (_, "m") => crank.max(start.abs()),
-                    (0.0, _) => 1.0,
-                    _ => start.abs(),
-                };
-                FreeValue {
-                    key: key.to_string(),
-                    unit: key.unit().to_owned(),
-                    start,
-                    scale,
-                    is_sensor_zero: false,
-                }
-            }
-            FreeKey::SensorZero if measured == Measured::Omega => {
+        let FreeKey::Key(key) = self else {
+            if measured == Measured::Omega {
                 let what =
                     "sensor.zero belongs to a sensor of the position, and the motion is a speed";
                 return Err(Error::refused(what, "leave it out"));
             }
-            FreeKey::SensorZero => {
-                let is_length = measured == Measured::X;
-                FreeValue {
-                    key: SENSOR_ZERO.to_owned(),
-                    unit: if is_length { "m" } else { "rad" }.to_owned(),
-                    start: 0.0,
-                    scale: if is_length { crank } else { 1.0 },
-                    is_sensor_zero: true,
-                }
-            }
+            let is_length = measured == Measured::X;
+            return Ok(FreeValue {
+                key: SENSOR_ZERO.to_owned(),
+                unit: if is_length { "m" } else { "rad" }.to_owned(),
+                start: 0.0,
+                scale: if is_length { crank } else { 1.0 },
+                is_sensor_zero: true,
+            });
+        };
+        match key.to_string().split('.').next() {
+            Some("friction") => return Err(not_modelled("Coulomb friction at the guide")),
+            Some("clearance") => return Err(not_modelled("clearance in a joint")),
+            _ => {}
+        }
+        let start = draft.number(&key)?;
+        let scale = match (start, key.unit()) {
+            (_, "m") => crank.max(start.abs()),
+            (0.0, _) => 1.0,
+            _ => start.abs(),
+        };
+        Ok(FreeValue {
+            key: key.to_string(),
+            unit: key.unit().to_owned(),
+            start,
+            scale,
+            is_sensor_zero: false,
         })
     }
 }
