@@ -13,8 +13,8 @@ use super::maximum::ENOUGH_RISE;
 use super::outliers;
 use super::prior::SMOOTH;
 use super::problem::Problem;
-use super::scales::{Intensities, Span};
 use super::smoother::Smoothed;
+use super::span::{Intensities, Span};
 use super::state_space::{Deviations, with_dimension};
 use super::stretch_search::{Guess, Trial};
 

@@ -82,6 +82,7 @@ mod sensors_beside;
 mod shared_errors;
 mod simpler_models;
 mod smoother;
+mod span;
 mod state_space;
 mod stretch_search;
 mod summary;
