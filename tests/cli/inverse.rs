@@ -139,7 +139,7 @@ fn damaged_headers_are_shown() {
         ),
         (
             "t [s],value [rad]",
-            ["data.csv:1", "no column is called theta, gamma or x"],
+            ["data.csv:1", "no column is called theta, gamma, x or omega"],
         ),
         (
             "t [s],theta",
@@ -672,7 +672,7 @@ fn options_that_go_wrong() {
             &["--degree", "11"],
             "12 samples are too few for a polynomial: it needs 13",
         ),
-        (&["--column", "y"], "none of theta, gamma and x"),
+        (&["--column", "y"], "none of theta, gamma, x and omega"),
         (&["--residuals", "-"], "write them to files"),
         (&["--json", "--out", "-"], "both the rows and the JSON"),
         (&["--as-printed"], "in line with the pivot"),

@@ -129,7 +129,7 @@ fn data_that_are_no_motion_are_refused_with_their_place() {
         (
             "14-wrong-column.csv",
             "14-wrong-column.csv:1:1",
-            "no column is called theta, gamma or x",
+            "no column is called theta, gamma, x or omega",
         ),
     ] {
         let output = refused(name);

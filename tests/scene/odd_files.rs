@@ -325,7 +325,7 @@ fn headers_that_say_nothing_are_refused() {
         (
             "t [s],b",
             Reading::default(),
-            &["no column is called theta, gamma or x", "--motion"],
+            &["no column is called theta, gamma, x or omega", "--motion"],
         ),
         (
             "t,theta",
@@ -342,7 +342,11 @@ fn headers_that_say_nothing_are_refused() {
             Reading::default(),
             &["`mm` is not the unit of"],
         ),
-        ("t [s],speed [rpm]", named("", "speed"), &["is a speed"]),
+        (
+            "t [s],speed [m/s]",
+            Reading::default(),
+            &["`m/s` is not the unit of"],
+        ),
         (
             "t [s],p [bar]",
             named("", "2"),
