@@ -58,8 +58,28 @@ impl Linear {
         }
     }
 
+    /// Returns the evidence without a periodic part.
+    fn plain(&self, noise: &Noise) -> Evidence {
+        let of = |stretch: &Stretch| {
+            let model = self.deviations(stretch, noise);
+            let mut evidence = Evidence::default();
+            with_dimension!(model.dimension(), N => {
+                kalman::run::<N>(&model, None, |_, at| evidence.add(at));
+            });
+            evidence
+        };
+        let mut all = Evidence::default();
+        for part in parallel::map(self.stretches.iter(), of) {
+            all += part;
+        }
+        all
+    }
+
     /// Returns the evidence; with a periodic part, for the spectrum of the noise or else for the likeliest, which is left there.
     fn evidence(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
+        if self.prior.cycle == 0 {
+            return self.plain(noise);
+        }
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             with_dimension!(model.dimension(), N => {
@@ -70,9 +90,6 @@ impl Linear {
         };
         let regression = Regression::of_all(self.prior, parallel::map(self.stretches.iter(), of));
         let mut evidence = regression.evidence;
-        if self.prior.cycle == 0 {
-            return evidence;
-        }
         let starts = self.prior.diffuse() * self.stretches.len();
         let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;
