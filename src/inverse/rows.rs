@@ -45,11 +45,10 @@ impl Rows {
     ) -> Rows {
         let linkage = backwards.equation.linkage();
         let times = measurement.times();
-        let demands = parallel::list(times.len(), |i| {
+        let (rows, leverages) = parallel::pairs(times.len(), |i| {
             let state = fitted.motion[i].stretched(measurement.period_uncertainty());
             backwards.demand(times[i], &state, |noise| shared.with(i, noise))
         });
-        let (rows, leverages): (Vec<_>, Vec<_>) = demands.into_iter().unzip();
         let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
         let mut found = Rows {
             rows,

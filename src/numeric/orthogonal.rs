@@ -81,9 +81,14 @@ pub fn fit<T: Real>(
 
 /// Returns two sums over pieces.
 fn summed<T: Real, P: Send>(
-    pieces: impl Iterator<Item = P>,
+    mut pieces: impl ExactSizeIterator<Item = P>,
     sums: impl Fn(P) -> [T; 2] + Sync,
 ) -> [T; 2] {
+    if pieces.len() == 1
+        && let Some(piece) = pieces.next()
+    {
+        return sums(piece);
+    }
     let parts = parallel::map(pieces, sums);
     let add = |[a, b]: [T; 2], [c, d]: [T; 2]| [a + c, b + d];
     parts.into_iter().fold([T::from(0.0); 2], add)

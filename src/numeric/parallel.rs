@@ -22,11 +22,26 @@ pub fn map<J: Send, R: Send>(
 
 /// Returns the list of `f(0)`, `f(1)`, ... of this length; a short list is computed in this thread.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    // A part that pays for a thread.
-    let least = 1 << 9;
-    if length < 2 * least {
-        return (0..length).map(f).collect();
+    match entries(length) {
+        Some(entries) => entries.map(&f).collect(),
+        None => (0..length).map(f).collect(),
     }
+}
+
+/// Returns the lists of the first and of the second values of `f(0)`, `f(1)`, ...
+pub fn pairs<A: Send, B: Send>(
+    length: usize,
+    f: impl Fn(usize) -> (A, B) + Sync,
+) -> (Vec<A>, Vec<B>) {
+    match entries(length) {
+        Some(entries) => entries.map(&f).unzip(),
+        None => (0..length).map(f).unzip(),
+    }
+}
+
+/// Returns the indices of a list, in parts that pay for a thread; none if there are not two of them.
+fn entries(length: usize) -> Option<impl IndexedParallelIterator<Item = usize>> {
+    let least = 1 << 9;
     let all = (0..length).into_par_iter().with_min_len(least);
-    all.map(&f).collect()
+    (length >= 2 * least).then_some(all)
 }
