@@ -24,14 +24,20 @@ pub(super) struct Later<const N: usize> {
 /// Observer of the smoother.
 pub(super) trait Companion<const N: usize> {
     /// Called when the filter has taken the sample of a node.
-    fn filtered(&mut self, _node: usize, _at: &Filtered<N>) {}
+    fn filtered(&mut self, _node: usize, _at: &Filtered<'_, N>) {}
 
     /// Called when the smoother returns to a node, with what the samples from it on tell and the distribution by all.
-    fn returned(&mut self, node: usize, at: &Filtered<N>, later: &Later<N>, smoothed: &Gaussian<N>);
+    fn returned(
+        &mut self,
+        node: usize,
+        at: &Filtered<'_, N>,
+        later: &Later<N>,
+        smoothed: &Gaussian<N>,
+    );
 }
 
 impl<const N: usize> Companion<N> for () {
-    fn returned(&mut self, _: usize, _: &Filtered<N>, _: &Later<N>, _: &Gaussian<N>) {}
+    fn returned(&mut self, _: usize, _: &Filtered<'_, N>, _: &Later<N>, _: &Gaussian<N>) {}
 }
 
 impl<const N: usize> Gaussian<N> {
@@ -102,8 +108,8 @@ pub(super) fn smooth<const N: usize>(
     let nodes = model.stretch.observed.len();
     let (mut path, mut innovations) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes));
     run(model, None, |node, at| {
-        path.push(at.predicted);
-        let found = at.sample.as_ref().map(|(_, found)| found);
+        path.push(*at.predicted);
+        let found = at.sample.map(|(_, found)| found);
         innovations.push(found.map(|found| found.error / found.variance.sqrt()));
         companion.filtered(node, at);
     });
@@ -116,13 +122,14 @@ pub(super) fn smooth<const N: usize>(
             later.add(sample, found);
         }
         path[node] = predicted.with(&later);
+        let step = (node > 0).then(|| model.step(node - 1));
         let at = Filtered {
-            step: (node > 0).then(|| model.step(node - 1)),
-            predicted,
-            sample,
+            step: step.as_ref(),
+            predicted: &predicted,
+            sample: sample.as_ref(),
         };
         companion.returned(node, &at, &later, &path[node]);
-        if let Some(step) = &at.step {
+        if let Some(step) = &step {
             later = later.before(step);
         }
     }
@@ -249,11 +256,11 @@ mod tests {
         fn returned(
             &mut self,
             node: usize,
-            at: &Filtered<5>,
+            at: &Filtered<'_, 5>,
             _: &Later<5>,
             smoothed: &Gaussian<5>,
         ) {
-            let [before, after] = [&at.predicted, smoothed].map(|g| &g.covariance);
+            let [before, after] = [at.predicted, smoothed].map(|g| &g.covariance);
             assert!((0..5).all(|k| after[k][k] < 1.01 * before[k][k]), "{node}");
         }
     }

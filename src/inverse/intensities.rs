@@ -36,8 +36,8 @@ struct Scores {
 
 impl<const N: usize> Companion<N> for Scores {
     /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
-    fn returned(&mut self, node: usize, at: &Filtered<N>, later: &Later<N>, all: &Gaussian<N>) {
-        let Some(Step { noise, .. }) = &at.step else {
+    fn returned(&mut self, node: usize, at: &Filtered<'_, N>, later: &Later<N>, all: &Gaussian<N>) {
+        let Some(Step { noise, .. }) = at.step else {
             return;
         };
         let (r, told) = (&later.correction, &later.information);

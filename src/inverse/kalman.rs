@@ -52,12 +52,12 @@ pub(super) struct Innovation<const N: usize> {
 
 /// A node of the filter.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Filtered<const N: usize> {
+pub(super) struct Filtered<'a, const N: usize> {
     /// The step to this node; none to the first.
-    pub step: Option<Step<N>>,
+    pub step: Option<&'a Step<N>>,
     /// The distribution before the sample, by the former ones.
-    pub predicted: Gaussian<N>,
-    pub sample: Option<(Sample<N>, Innovation<N>)>,
+    pub predicted: &'a Gaussian<N>,
+    pub sample: Option<&'a (Sample<N>, Innovation<N>)>,
 }
 
 /// Likelihood terms of a model, from the prediction errors v of the samples with variances S.
@@ -112,8 +112,8 @@ impl<const N: usize> Gaussian<N> {
 impl Evidence {
     /// Adds the sample of a node.
     #[inline(always)]
-    pub fn add<const N: usize>(&mut self, at: &Filtered<N>) {
-        if let Some((_, found)) = &at.sample {
+    pub fn add<const N: usize>(&mut self, at: &Filtered<'_, N>) {
+        if let Some((_, found)) = at.sample {
             self.squares += found.error * found.error / found.variance;
             self.log_variances += found.variance.ln();
             self.samples += 1;
@@ -134,24 +134,24 @@ impl std::ops::AddAssign for Evidence {
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
     known: Option<Gaussian<N>>,
-    mut show: impl FnMut(usize, &Filtered<N>),
+    mut show: impl FnMut(usize, &Filtered<'_, N>),
 ) -> Gaussian<N> {
     let first = usize::from(known.is_some());
     let mut now = known.unwrap_or_else(|| model.start());
     for node in first..model.stretch.observed.len() {
         let step = (node > 0).then(|| model.step(node - 1));
-        let predicted = step.as_ref().map_or(now, |step| now.predicted(step));
-        now = predicted;
+        if let Some(step) = &step {
+            now = now.predicted(step);
+        }
+        let predicted = now;
         let sample = model.sample(node);
         let sample = sample.map(|sample| (sample, now.update(&sample)));
-        show(
-            node,
-            &Filtered {
-                step,
-                predicted,
-                sample,
-            },
-        );
+        let at = Filtered {
+            step: step.as_ref(),
+            predicted: &predicted,
+            sample: sample.as_ref(),
+        };
+        show(node, &at);
     }
     now
 }

@@ -130,14 +130,14 @@ impl<'a, const N: usize> Regressed<'a, N> {
     }
 
     /// Takes the derivatives to a node, and its sample into the normal equations.
-    fn regress(&mut self, node: usize, at: &Filtered<N>) {
-        if let Some(step) = &at.step {
+    fn regress(&mut self, node: usize, at: &Filtered<'_, N>) {
+        if let Some(step) = at.step {
             self.columns.step(node - 1, step);
         }
         if let Some(derivatives) = &mut self.found {
             derivatives.list.extend(&self.columns.of);
         }
-        if let Some((sample, found)) = &at.sample {
+        if let Some((sample, found)) = at.sample {
             self.columns.update(sample, found);
             let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
             self.to.take(errors, found.error, per);
@@ -187,7 +187,7 @@ impl Derivatives {
 
 impl<const N: usize> Companion<N> for Regressed<'_, N> {
     #[inline(always)]
-    fn filtered(&mut self, node: usize, at: &Filtered<N>) {
+    fn filtered(&mut self, node: usize, at: &Filtered<'_, N>) {
         self.to.evidence.add(at);
         if !self.columns.errors.is_empty() {
             self.regress(node, at);
@@ -195,7 +195,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
     }
 
     /// The rows follow the recursion of the smoother's correction.
-    fn returned(&mut self, node: usize, at: &Filtered<N>, _: &Later<N>, _: &Gaussian<N>) {
+    fn returned(&mut self, node: usize, at: &Filtered<'_, N>, _: &Later<N>, _: &Gaussian<N>) {
         let columns = &mut self.columns;
         let Some(derivatives) = &mut self.found else {
             return;
@@ -204,7 +204,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
         if (node + 1) * size == derivatives.list.len() {
             columns.of.fill(0.0);
         }
-        if let Some((sample, found)) = &at.sample {
+        if let Some((sample, found)) = at.sample {
             columns.errors.fill(0.0);
             for (row, gain) in columns.of.chunks_exact(count).zip(&found.gain) {
                 add(&mut columns.errors, -gain, row);
@@ -223,7 +223,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
                 add(to, *share, row);
             }
         }
-        if let Some(step) = &at.step {
+        if let Some(step) = at.step {
             columns.transform(&transposed(&step.transition));
         }
     }
