@@ -121,30 +121,31 @@ mod maximum {
         (1.0 + x).min(1.79 - 30.0 * (x - 0.79))
     }
 
-    /// Two rows beside each other, as at a corner, may differ by rounding in either sense.
+    /// Two rows at one place, as at a corner, may differ by rounding in either sense.
     #[test]
     fn a_maximum_behind_two_rows_at_one_place_is_found() {
         let behind = 0.4f64.next_up();
-        let mut rows = [0.0, 0.2, 0.4, behind, 0.8, 0.81, 0.82].map(|x| (x, corner(x)));
+        let mut rows = [0.0, 0.2, 0.4, behind, 0.81, 0.82, 0.83].map(|x| (x, corner(x)));
         rows[3].1 = rows[2].1.next_down();
         let found = among_rows(&rows, |known| beside(corner, known)).expect("rows");
         assert!((found.1 - 1.79).abs() < 1e-8, "{found:?}");
     }
 
-    /// The slopes beside a jump promise more than there is.
+    /// Beside each of twenty jumps the slopes promise more than there is.
     #[test]
     fn jumps_do_not_hide_a_maximum() {
         let saw = |x: f64| match x < 20.0 {
-            true => 1.7 * (1.0 - x.fract()),
+            true => 1.7 * (1.0 - x.fract().powi(2)),
             false => corner(x - 20.0),
         };
         let mut rows = Vec::new();
         for i in 0..20 {
             let x = f64::from(i);
-            rows.extend([0.0, 0.3, 0.6, 0.9].map(|share| (x + share, saw(x + share))));
+            let parts = (0..40).map(|part| x + f64::from(part) / 40.0);
+            rows.extend(parts.map(|x| (x, saw(x))));
             rows.push(((x + 1.0).next_down(), 0.0));
         }
-        rows.extend([20.0, 20.4, 20.8, 20.81].map(|x| (x, saw(x))));
+        rows.extend([20.0, 20.4, 20.81, 20.82].map(|x| (x, saw(x))));
         let found = among_rows(&rows, |known| beside(saw, known)).expect("rows");
         assert!((found.1 - 1.79).abs() < 1e-7, "{found:?}");
     }
