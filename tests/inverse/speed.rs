@@ -7,7 +7,7 @@ use super::noise::Random;
 use super::simulated::{crank_and_slider, needed};
 use slider_crank::inverse::identify::{FreeKey, identify_keys};
 use slider_crank::inverse::{FitKind, InverseOptions, inverse};
-use slider_crank::scene::{Draft, Measured, Measurement, Reading};
+use slider_crank::scene::{Beside, Draft, Measured, Measurement, Reading};
 
 /// Returns θ, ω and θ̈ of an uneven rotation.
 fn uneven(sense: f64, t: f64) -> [f64; 3] {
@@ -132,4 +132,8 @@ fn what_a_speed_does_not_tell_is_refused() {
             .to_string()
             .contains("a speed")
     );
+    let angles = vec![0.1; motion.len()];
+    let both = motion.with(Beside::Sensor(Measured::Theta), angles);
+    let refused = both.expect_err("refused").to_string();
+    assert!(refused.contains("a sensor of the speed"), "{refused}");
 }

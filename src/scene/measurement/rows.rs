@@ -1,7 +1,7 @@
 //! Checks samples against each other.
 
-use super::Measurement;
 use super::listed::Listed;
+use super::{Beside, Measured, Measurement};
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
@@ -66,6 +66,13 @@ impl Measurement {
     /// Checks the columns beside the motion.
     pub(super) fn check_beside(&self) -> Result<(), Problems> {
         for column in &self.beside {
+            if let Beside::Sensor(other) = column.beside
+                && [other, self.measured].contains(&Measured::Omega)
+            {
+                let what = "a sensor of the speed and one of the position are not taken together";
+                let help = "give the position alone";
+                return Err(self.refused(vec![Problem::new("columns", what, help)]));
+            }
             let values = &column.values;
             let what = match unusable(values) {
                 Some(at) => format!(
