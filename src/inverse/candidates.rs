@@ -11,10 +11,13 @@ use super::problem::Problem;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
-use crate::numeric::parallel;
+use crate::numeric::{LANES, parallel};
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
+
+// Coefficients are computed in whole blocks.
+const _: () = assert!((2 * FIRST_HARMONICS).is_multiple_of(LANES));
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]
@@ -74,11 +77,10 @@ impl About {
         let pairs = self.path.ranges.iter().zip(self.linear.stretches.iter());
         let with = |(range, stretch): (&Range<usize>, &Stretch)| {
             let states = self.path.piece(range).states;
-            let steps = stretch.steps.clone();
+            let ways = ways(states, &stretch.steps, self.path.speed());
             Stretch {
-                increments: Increments::new(ways(states, &steps, self.path.speed()), prior),
-                observed: stretch.observed.clone(),
-                steps,
+                increments: Increments::new(ways, prior),
+                ..stretch.clone()
             }
         };
         Linear {

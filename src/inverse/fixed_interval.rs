@@ -60,13 +60,14 @@ impl<const N: usize> Later<N> {
 
     /// Adds the sample of the node.
     #[inline(always)]
-    fn add(&mut self, sample: &Sample<N>, found: &Innovation<N>) {
+    fn add(&mut self, sample: &Sample, found: &Innovation<N>) {
+        let row: Vector<N> = sample.row();
         let change = found.error / found.variance - dot(&found.gain, &self.correction);
         let per = 1.0 / sample.variance;
         for i in 0..N {
-            self.correction[i] += sample.row[i] * change;
+            self.correction[i] += row[i] * change;
             for j in 0..N {
-                self.information[i][j] += sample.row[i] * sample.row[j] * per;
+                self.information[i][j] += row[i] * row[j] * per;
             }
         }
     }
@@ -154,7 +155,6 @@ mod tests {
             h: 0.1,
             top: exponential(0.1, 0.0, -1.0, 1.7),
             lever: 1.7,
-            intensity: 1.0,
             ..Linearised::default()
         };
         let observed = |k: usize| Observed {
@@ -164,7 +164,8 @@ mod tests {
             ..Observed::default()
         };
         Stretch {
-            steps: vec![step; steps],
+            steps: vec![step; steps].into(),
+            intensities: vec![1.0; steps],
             observed: (0..=steps).map(observed).collect(),
             ..Stretch::default()
         }
@@ -199,7 +200,7 @@ mod tests {
         let spread = Vector3::new(1e3, 1e4, 1e5).map(|spread| f64::powi(spread, -2));
         let mut information = Matrix3::from_diagonal(&spread);
         let mut sum = Vector3::zeros();
-        for (power, observed) in powers.iter().zip(&stretch.observed) {
+        for (power, observed) in powers.iter().zip(stretch.observed.iter()) {
             let row: RowVector3<f64> = power.row(0).into();
             information += row.transpose() * row;
             sum += row.transpose() * observed.residual;
@@ -268,10 +269,14 @@ mod tests {
     #[test]
     fn later_samples_narrow_a_diffuse_state() {
         let mut stretch = stretch(400);
-        for step in &mut stretch.steps {
-            (step.h, step.tilt, step.lever) = (1e-3, [90.0, 0.0], 40.0);
-            step.top = exponential(step.h, 200.0, -3.0, step.lever);
-        }
+        let step = Linearised {
+            h: 1e-3,
+            tilt: [90.0, 0.0],
+            lever: 40.0,
+            top: exponential(1e-3, 200.0, -3.0, 40.0),
+            ..Linearised::default()
+        };
+        stretch.steps = vec![step; 400].into();
         for log in -40..40 {
             let model = Deviations {
                 prior: FOLLOWING,

@@ -226,7 +226,9 @@ fn extend(
         let mut found = *predicted;
         let seen = found.state.update(&Sample {
             value: theta,
-            row: [1.0, 0.0, 0.0],
+            is_second: false,
+            slope: 1.0,
+            is_correlated: false,
             variance: sight.variance,
         });
         // Outliers are scored by the tails of Student's distribution with four degrees of freedom.

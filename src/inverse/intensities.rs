@@ -109,14 +109,12 @@ impl Problem<'_> {
                 break;
             };
             let model = linear.deviations(stretch, &noise);
-            let scores = with_dimension!(model.dimension(), N => scores::<N>(&model, noise.sigma));
-            let trial = Trial {
-                linear: &linear,
-                stretch,
-                noise,
-            };
             // Far from the usual intensity the likelihood rises by more than the scores promise there.
-            let best = trial.likeliest(furthest(&scores, 0.5 * self.cost(PARAMETERS)));
+            let least = 0.5 * self.cost(PARAMETERS);
+            let best = with_dimension!(model.dimension(), N => {
+                let guesses = furthest(&scores::<N>(&model, noise.sigma), least);
+                Trial::<N>::new(&linear, stretch, noise).likeliest(guesses)
+            });
             let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost(PARAMETERS);
             let Some(best) = best.filter(rises) else {
                 break;
@@ -125,7 +123,7 @@ impl Problem<'_> {
             let [from, to] = [start, end].map(|node| self.grid.times[node]);
             let factor = best.factor();
             intensities.0.push(Span { from, to, factor });
-            linear.stretches = vec![trial.with(&best)].into();
+            linear.stretches = vec![best.taken(stretch)].into();
         }
         intensities
     }
@@ -218,7 +216,6 @@ mod tests {
             h: 0.3,
             top: exponential(0.3, -2.0, 0.7, 1.7),
             lever: 1.7,
-            intensity: 1.0,
             ..Linearised::default()
         };
         let sample = |k: usize| Observed {
@@ -228,17 +225,18 @@ mod tests {
             ..Observed::default()
         };
         let mut stretch = Stretch {
-            steps: vec![step; 20],
+            steps: vec![step; 20].into(),
+            intensities: vec![1.0; 20],
             observed: (0..21).map(sample).collect(),
             ..Stretch::default()
         };
         let found = scores::<3>(&model(&stretch), 1.0);
         for k in [0, 7, 19] {
             let mut at = |log: f64| {
-                stretch.steps[k].intensity = log.exp();
+                stretch.intensities[k] = log.exp();
                 let mut evidence = Evidence::default();
                 kalman::run::<3>(&model(&stretch), None, |_, at| evidence.add(at));
-                stretch.steps[k].intensity = 1.0;
+                stretch.intensities[k] = 1.0;
                 -0.5 * (evidence.squares + evidence.log_variances)
             };
             let slope = (at(1e-3) - at(-1e-3)) / 2e-3;

@@ -6,13 +6,13 @@
 // Sums over rows and columns, as the textbook writes them.
 #![allow(clippy::needless_range_loop)]
 
-use super::matrix::{Matrix, Vector, congruent, dot, sum, times};
+use super::matrix::{Matrix, Vector};
 use super::state_space::Deviations;
 
 /// Step of the model from a node to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<const N: usize> {
-    /// Φ
+    /// Φ, triangular below the second row.
     pub transition: Matrix<N>,
     /// c
     pub offset: Vector<N>,
@@ -20,15 +20,40 @@ pub(super) struct Step<const N: usize> {
     pub noise: Matrix<N>,
 }
 
-/// Scalar sample at a node.
+/// Scalar sample at a node, of one of the first two states and, where its noise is correlated, of the last.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sample<const N: usize> {
+pub(super) struct Sample {
     /// y
     pub value: f64,
-    /// Hᵀ
-    pub row: Vector<N>,
+    /// Whether the second state is measured, in the place of the first.
+    pub is_second: bool,
+    /// Entry of H for that state.
+    pub slope: f64,
+    /// Whether the last state adds to it.
+    pub is_correlated: bool,
     /// R
     pub variance: f64,
+}
+
+impl Sample {
+    /// Returns H x.
+    #[inline(always)]
+    pub fn shown<const N: usize>(&self, x: &Vector<N>) -> f64 {
+        let own = if self.is_second { x[1] } else { x[0] };
+        let correlated = if self.is_correlated { x[N - 1] } else { 0.0 };
+        self.slope * own + correlated
+    }
+
+    /// Returns H.
+    #[inline(always)]
+    pub fn row<const N: usize>(&self) -> Vector<N> {
+        let mut row = [0.0; N];
+        row[usize::from(self.is_second)] = self.slope;
+        if self.is_correlated {
+            row[N - 1] = 1.0;
+        }
+        row
+    }
 }
 
 /// Normal distribution of the state.
@@ -57,7 +82,7 @@ pub(super) struct Filtered<'a, const N: usize> {
     pub step: Option<&'a Step<N>>,
     /// The distribution before the sample, by the former ones.
     pub predicted: &'a Gaussian<N>,
-    pub sample: Option<&'a (Sample<N>, Innovation<N>)>,
+    pub sample: Option<&'a (Sample, Innovation<N>)>,
 }
 
 /// Likelihood terms of a model, from the prediction errors v of the samples with variances S.
@@ -71,24 +96,58 @@ pub(super) struct Evidence {
     pub samples: usize,
 }
 
+/// Returns the first column of a row of Φ that is not zero.
+#[inline(always)]
+fn first(row: usize) -> usize {
+    if row < 2 { 0 } else { row }
+}
+
+impl<const N: usize> Filtered<'_, N> {
+    /// Returns the distribution after the sample.
+    #[inline(always)]
+    pub fn updated(&self) -> Gaussian<N> {
+        let mut state = *self.predicted;
+        if let Some((sample, _)) = self.sample {
+            state.update(sample);
+        }
+        state
+    }
+}
+
 impl<const N: usize> Gaussian<N> {
     /// Returns the distribution one step later.
     #[inline(always)]
     pub fn predicted(&self, step: &Step<N>) -> Gaussian<N> {
-        Gaussian {
-            mean: sum(times(&step.transition, &self.mean), step.offset),
-            covariance: congruent(&step.transition, &self.covariance, &step.noise),
+        let (a, p) = (&step.transition, &self.covariance);
+        let (mut mean, mut covariance) = (step.offset, step.noise);
+        let mut half = [[0.0; N]; N];
+        for i in 0..N {
+            for k in first(i)..N {
+                mean[i] += a[i][k] * self.mean[k];
+                for j in 0..N {
+                    half[i][j] += a[i][k] * p[k][j];
+                }
+            }
         }
+        for j in 0..N {
+            for i in 0..=j {
+                for k in first(j)..N {
+                    covariance[i][j] += half[i][k] * a[j][k];
+                }
+                covariance[j][i] = covariance[i][j];
+            }
+        }
+        Gaussian { mean, covariance }
     }
 
     /// Returns the prediction error of a sample.
     #[inline(always)]
-    pub fn innovation(&self, sample: &Sample<N>) -> Innovation<N> {
-        let shared = times(&self.covariance, &sample.row);
-        let variance = dot(&shared, &sample.row) + sample.variance;
+    pub fn innovation(&self, sample: &Sample) -> Innovation<N> {
+        let shared: Vector<N> = std::array::from_fn(|i| sample.shown(&self.covariance[i]));
+        let variance = sample.shown(&shared) + sample.variance;
         let per = 1.0 / variance;
         Innovation {
-            error: sample.value - dot(&sample.row, &self.mean),
+            error: sample.value - sample.shown(&self.mean),
             variance,
             gain: shared.map(|value| value * per),
         }
@@ -96,13 +155,14 @@ impl<const N: usize> Gaussian<N> {
 
     /// Updates the distribution by a sample.
     #[inline(always)]
-    pub fn update(&mut self, sample: &Sample<N>) -> Innovation<N> {
+    pub fn update(&mut self, sample: &Sample) -> Innovation<N> {
         let found = self.innovation(sample);
         for i in 0..N {
             self.mean[i] += found.gain[i] * found.error;
             let shared = found.gain[i] * found.variance;
-            for j in 0..N {
+            for j in i..N {
                 self.covariance[i][j] -= shared * found.gain[j];
+                self.covariance[j][i] = self.covariance[i][j];
             }
         }
         found
@@ -129,15 +189,16 @@ impl std::ops::AddAssign for Evidence {
     }
 }
 
-/// Runs the filter from the prior before the first sample, or from a known distribution after it, and shows each node.
+/// Runs the filter from the prior before the first sample, or from a known distribution after the sample of a node, and shows
+/// each node from there on.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
-    known: Option<Gaussian<N>>,
+    known: Option<(usize, Gaussian<N>)>,
     mut show: impl FnMut(usize, &Filtered<'_, N>),
 ) -> Gaussian<N> {
-    let first = usize::from(known.is_some());
-    let mut now = known.unwrap_or_else(|| model.start());
+    let first = known.map_or(0, |(node, _)| node + 1);
+    let mut now = known.map_or_else(|| model.start(), |(_, state)| state);
     for node in first..model.stretch.observed.len() {
         let step = (node > 0).then(|| model.step(node - 1));
         if let Some(step) = &step {

@@ -134,7 +134,6 @@ impl Motion<'_> {
             defect,
             lever,
             tilt,
-            intensity: 1.0,
         }
     }
 }
@@ -152,8 +151,6 @@ pub(super) struct Linearised {
     pub lever: f64,
     /// Mean rates of ω, rad/s², and of ω|ω|, rad²/s³: those at which g₁ and g₂ add to u.
     pub tilt: [f64; 2],
-    /// Intensity of the process noise over the usual one.
-    pub intensity: f64,
 }
 
 #[cfg(test)]

@@ -36,6 +36,7 @@ mod branch_choice;
 mod branch_tracking;
 mod candidates;
 mod code_moments;
+mod columns;
 mod estimate;
 mod first_path;
 mod fitted;

@@ -7,7 +7,7 @@ use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
 use super::kalman;
 use super::likelihood::Linear;
-use super::linearised::{Linearised, Motion, Node};
+use super::linearised::{Motion, Node};
 use super::matrix::Matrix;
 use super::measurement_model::Scale;
 use super::prior::Prior;
@@ -120,11 +120,10 @@ impl<'a> Problem<'a> {
         });
         let mut steps = parallel::list(times.len().saturating_sub(1), |k| {
             let (begin, end) = (&nodes[k], &nodes[k + 1]);
-            Linearised {
-                intensity: self.intensities.at(0.5 * (begin.t + end.t)),
-                ..motion.linearised(begin, end, torque)
-            }
+            motion.linearised(begin, end, torque)
         });
+        let intensities = times.windows(2);
+        let intensities = intensities.map(|ends| self.intensities.at(0.5 * (ends[0] + ends[1])));
         let mut increments = Increments::default();
         if prior.cycle > 0 {
             increments = Increments::new(ways(states, &steps, path.speed()), prior);
@@ -132,13 +131,15 @@ impl<'a> Problem<'a> {
                 increments.take_out(&known.coefficients, &mut steps);
             }
         }
+        let observed = parallel::list(range.len(), |k| {
+            let node = range.start + k;
+            self.record.observed(&self.grid, &piece, node, sigma)
+        });
         Stretch {
-            steps,
+            steps: steps.into(),
+            intensities: intensities.collect(),
             increments,
-            observed: parallel::list(range.len(), |k| {
-                let node = range.start + k;
-                self.record.observed(&self.grid, &piece, node, sigma)
-            }),
+            observed: observed.into(),
         }
     }
 

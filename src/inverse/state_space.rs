@@ -2,6 +2,8 @@
 
 #![allow(clippy::needless_range_loop)]
 
+use std::sync::Arc;
+
 use super::harmonics::Increments;
 use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::Linearised;
@@ -44,10 +46,12 @@ pub(super) struct Observed {
 /// Steps and samples of a stretch of nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stretch {
-    pub steps: Vec<Linearised>,
+    pub steps: Arc<[Linearised]>,
+    /// Intensity of the process noise in each step over the usual one.
+    pub intensities: Vec<f64>,
     /// Increments of the harmonics of the periodic part in each step.
     pub increments: Increments,
-    pub observed: Vec<Observed>,
+    pub observed: Arc<[Observed]>,
 }
 
 /// Linear model of the deviations from a nominal path; N is 2 + order, one more with each power of the speed, one more with
@@ -109,22 +113,18 @@ impl Deviations<'_> {
 
     /// Returns the sample of a node; none without a measurement.
     #[inline(always)]
-    pub fn sample<const N: usize>(&self, node: usize) -> Option<Sample<N>> {
+    pub fn sample(&self, node: usize) -> Option<Sample> {
         let observed = &self.stretch.observed[node];
         if observed.variance == f64::INFINITY {
             return None;
         }
-        let mut row = [0.0; N];
-        row[usize::from(observed.is_speed)] = observed.slope;
-        let mut variance = observed.variance;
-        if self.correlated.is_some() {
-            row[N - 1] = 1.0;
-            variance *= WHITE_FRACTION;
-        }
+        let white = self.correlated.map_or(1.0, |_| WHITE_FRACTION);
         Some(Sample {
             value: observed.residual,
-            row,
-            variance,
+            is_second: observed.is_speed,
+            slope: observed.slope,
+            is_correlated: self.correlated.is_some(),
+            variance: white * observed.variance,
         })
     }
 
@@ -151,7 +151,7 @@ impl Deviations<'_> {
         let noise = &mut covariance;
         let (h, b, tilt) = (step.h, step.lever, step.tilt[0]);
         let (h2, h3) = (h * h / 2.0, h * h * h / 6.0);
-        let time = h * step.intensity;
+        let time = h * self.stretch.intensities[node];
         let density = time * self.noise;
         match self.prior.order {
             1 => add(noise, [0, 1, 2], &[b * h2, b * h, 1.0], density),

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
 use super::scales::Noise;
@@ -33,13 +34,31 @@ fn likelier(a: Guess, b: Guess) -> Guess {
 }
 
 /// A stretch of the linear model, in which steps may have another intensity.
-pub(super) struct Trial<'a> {
-    pub linear: &'a Linear,
-    pub stretch: &'a Stretch,
-    pub noise: Noise,
+pub(super) struct Trial<'a, const N: usize> {
+    linear: &'a Linear,
+    stretch: &'a Stretch,
+    noise: Noise,
+    /// State after the sample of each node, and likelihood terms of the samples up to it, as the stretch is.
+    filtered: Vec<(Gaussian<N>, Evidence)>,
 }
 
-impl Trial<'_> {
+impl<'a, const N: usize> Trial<'a, N> {
+    /// Of a stretch with its noise.
+    pub fn new(linear: &'a Linear, stretch: &'a Stretch, noise: Noise) -> Self {
+        let mut filtered = Vec::with_capacity(stretch.observed.len());
+        let mut evidence = Evidence::default();
+        kalman::run(&linear.deviations(stretch, &noise), None, |_, at| {
+            evidence.add(at);
+            filtered.push((at.updated(), evidence));
+        });
+        Trial {
+            linear,
+            stretch,
+            noise,
+            filtered,
+        }
+    }
+
     /// Returns the likeliest of some guesses, with its likeliest factor and ends; those of which a coarse search finds the likeliest
     /// factors are searched on, as the likelihood has several maxima.
     pub fn likeliest(&self, guesses: Vec<Guess>) -> Option<Guess> {
@@ -69,21 +88,14 @@ impl Trial<'_> {
         found
     }
 
-    /// Returns the stretch with the intensity of a guess.
-    pub fn with(&self, guess: &Guess) -> Stretch {
-        let mut other = self.stretch.clone();
-        let among = other.steps[guess.steps.clone()].iter_mut();
-        among.for_each(|step| step.intensity *= guess.factor());
-        other
-    }
-
     /// Returns a guess with its likelihood.
     fn evaluated(&self, mut guess: Guess) -> Guess {
-        let linear = Linear {
-            stretches: vec![self.with(&guess)].into(),
-            ..*self.linear
-        };
-        guess.likelihood = linear.evaluated(self.noise).likelihood;
+        let stretch = guess.taken(self.stretch);
+        let model = self.linear.deviations(&stretch, &self.noise);
+        let first = guess.steps.start;
+        let (state, mut evidence) = self.filtered[first];
+        kalman::run(&model, Some((first, state)), |_, at| evidence.add(at));
+        guess.likelihood = self.linear.judged(self.noise, &evidence, 1).likelihood;
         guess
     }
 
@@ -132,6 +144,14 @@ impl Trial<'_> {
 }
 
 impl Guess {
+    /// Returns a stretch with its intensity.
+    pub fn taken(&self, stretch: &Stretch) -> Stretch {
+        let mut other = stretch.clone();
+        let among = other.intensities[self.steps.clone()].iter_mut();
+        among.for_each(|intensity| *intensity *= self.factor());
+        other
+    }
+
     /// Returns the factor of the intensity.
     pub fn factor(&self) -> f64 {
         (self.sense * self.log).exp()
