@@ -1,4 +1,4 @@
-//! Search for the likeliest noise: maximisation of the likelihood over one frequency after the other.
+//! Search for the likeliest noise: maximisation of the likelihood over its frequencies.
 
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, FIRST_STEP, better, climb};
@@ -20,42 +20,67 @@ impl Linear {
     /// Maximises the likelihood of an evaluated noise, the likeliest of another model, over its corner frequency.
     pub fn improved(&self, first: Noise) -> Noise {
         // So near to the maximum a parabola is right to `ENOUGH_RISE`.
-        self.along(first, CORNER, 0.3 * FIRST_STEP)
+        self.along(first, &[(CORNER, 1.0)], 0.3 * FIRST_STEP)
     }
 
     /// Maximises the likelihood of an evaluated noise over its corner frequency.
     pub fn with_corner(&self, first: Noise) -> Noise {
-        self.along(first, CORNER, FIRST_STEP)
+        self.along(first, &[(CORNER, 1.0)], FIRST_STEP)
     }
 
-    /// Maximises the likelihood of an evaluated noise over a frequency, at each with the likeliest spectrum if it has one: over
-    /// one of both at a time it would stop at the ridge where less of the one makes up for more of the other.
-    fn along(&self, first: Noise, which: Frequency, step: f64) -> Noise {
-        let Some(guess) = which(&mut first.clone()).map(|frequency| frequency.ln()) else {
-            return first;
-        };
-        let at = |log: f64| {
+    /// Maximises the likelihood of an evaluated noise along a line of ln of frequencies, at each place with the likeliest spectrum
+    /// if it has one: over one of both at a time it would stop at the ridge where less of the one makes up for more of the other.
+    fn along(&self, first: Noise, line: &[(Frequency, f64)], step: f64) -> Noise {
+        let at = |place: f64| {
             let mut noise = first;
-            which(&mut noise)
-                .into_iter()
-                .for_each(|frequency| *frequency = log.exp());
+            for (which, share) in line {
+                if let Some(frequency) = which(&mut noise) {
+                    *frequency *= (share * place).exp();
+                }
+            }
             self.begun(noise)
         };
-        let bounds = self.scales.corners().map(f64::ln);
-        climb(at, guess, first, step, bounds)
+        let mut bounds = [f64::NEG_INFINITY, f64::INFINITY];
+        for (which, share) in line.iter().filter(|(_, share)| *share != 0.0) {
+            let Some(frequency) = which(&mut first.clone()).map(|frequency| *frequency) else {
+                return first;
+            };
+            let ends = self
+                .scales
+                .corners()
+                .map(|end| (end / frequency).ln() / share);
+            bounds[0] = f64::max(bounds[0], ends[0].min(ends[1]));
+            bounds[1] = f64::min(bounds[1], ends[0].max(ends[1]));
+        }
+        climb(at, 0.0, first, step, bounds)
     }
 
-    /// Maximises the likelihood of an evaluated noise over two frequencies in turn, of which `left` may have a likelier value.
-    fn in_turn(&self, mut noise: Noise, mut which: [Frequency; 2], mut left: usize) -> Noise {
+    /// Maximises the likelihood of an evaluated noise over two frequencies, of which `left` may have a likelier value: over one
+    /// after the other, and along the line through two maxima over the same one, on which that of both lies if the likelihood is
+    /// quadratic (conjugate directions; Powell, Computer J. 7 (1964) 155).
+    fn in_turn(&self, mut noise: Noise, which: [Frequency; 2], mut left: usize) -> Noise {
+        let rises = |next: &Noise, noise: &Noise| next.likelihood > noise.likelihood + ENOUGH_RISE;
+        let mut maxima: [Option<Noise>; 2] = [None; 2];
+        let mut one = 0;
         while left > 0 {
-            let next = better(noise, self.along(noise, which[0], FIRST_STEP));
+            let next = better(noise, self.along(noise, &[(which[one], 1.0)], FIRST_STEP));
             // A likelihood that is not finite does not rise.
-            left = match next.likelihood > noise.likelihood + ENOUGH_RISE {
-                true => 1,
-                false => left - 1,
-            };
+            let is_likelier = rises(&next, &noise);
+            left = if is_likelier { 1 } else { left - 1 };
             noise = next;
-            which.swap(0, 1);
+            if let Some(before) = maxima[one].replace(noise).filter(|_| is_likelier) {
+                let line = which.map(|which| {
+                    let [from, to] = [before, noise].map(|mut noise| which(&mut noise).copied());
+                    (
+                        which,
+                        to.zip(from).map_or(0.0, |(to, from)| (to / from).ln()),
+                    )
+                });
+                let next = better(noise, self.along(noise, &line, 1.0));
+                left = if rises(&next, &noise) { 2 } else { left };
+                noise = next;
+            }
+            one = 1 - one;
         }
         noise
     }
