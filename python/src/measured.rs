@@ -62,7 +62,7 @@ impl Measurement {
 
     /// Of a CSV file.
     #[staticmethod]
-    #[pyo3(signature = (file, column, columns, time, motion, known, counts_per_turn, x_zero, skip, decimal_comma))]
+    #[pyo3(signature = (file, column, columns, time, motion, known, counts_per_turn, x_zero, skip, decimal_comma, missing))]
     #[allow(
         clippy::too_many_arguments,
         reason = "the keywords of one function of Python"
@@ -78,6 +78,7 @@ impl Measurement {
         x_zero: Option<&str>,
         skip: usize,
         decimal_comma: bool,
+        missing: Vec<String>,
     ) -> PyResult<Measurement> {
         let zero = x_zero.map(|text| quantity(text, Quantity::Length));
         let reading = Reading {
@@ -90,6 +91,7 @@ impl Measurement {
             x_zero: zero.transpose()?.unwrap_or(0.0),
             skip,
             decimal_comma,
+            missing,
         };
         let samples = Samples::load(file, &reading).map_err(raised)?;
         Ok(Measurement { samples })

@@ -36,6 +36,10 @@ pub(super) struct ReadingArguments {
     /// What numbers have between units and tenths, point or comma; with comma, semicolons or tabs separate the columns
     #[arg(long, value_name = "MARK", default_value = "point", value_parser = ["point", "comma"])]
     decimal: String,
+    /// What cells without a value contain, like NaN; "" for empty cells. Rows without time or motion are gaps then, and other
+    /// sensors may have fewer values. May be given several times
+    #[arg(long, value_name = "TEXT")]
+    missing: Vec<String>,
 }
 
 impl ReadingArguments {
@@ -50,6 +54,7 @@ impl ReadingArguments {
             x_zero: self.x_zero.unwrap_or(0.0),
             skip: self.skip,
             decimal_comma: self.decimal == "comma",
+            missing: self.missing.clone(),
         }
     }
 }

@@ -39,11 +39,11 @@ pub(super) struct Record<'a> {
     pub origin: f64,
 }
 
-/// Sensor beside that of the record, with a value at each time of the record.
+/// Sensor beside that of the record, with values at times of the record.
 #[derive(Clone, Debug)]
 pub(super) struct SensorBeside<'a> {
     pub sensor: Sensor<'a>,
-    /// Measured values, rad or m.
+    /// Measured values, rad or m; NaN for none.
     pub values: Cow<'a, [f64]>,
     /// Standard deviation of a sample, rad or m; infinite while unknown.
     pub sigma: f64,

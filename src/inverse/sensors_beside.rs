@@ -67,6 +67,7 @@ impl SensorBeside<'_> {
         let pairs = self.values.iter().zip(motion);
         let residuals =
             pairs.map(|(value, at)| self.sensor.residual(*value, at.turning()).0 - self.mean);
+        let residuals = residuals.filter(|residual| !residual.is_nan());
         SensorSummary {
             column: self.sensor.measured.name(),
             sigma: self.sigma,

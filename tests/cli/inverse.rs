@@ -859,3 +859,25 @@ fn uncertain_values_of_the_scene_have_their_share() {
         [with, without].map(|folder| folder.run(&["kinematics", "scene.toml"]).done().stdout);
     assert_eq!(middle, same);
 }
+
+#[test]
+fn rows_without_a_value_are_gaps_where_an_option_says_so() {
+    let data = with_row("0.04,NaN");
+    refused(&data, &["data.csv:6:6", "--missing NaN"]);
+    let folder = folder(&data);
+    let arguments = [
+        "inverse",
+        "scene.toml",
+        "data.csv",
+        "--out",
+        "rows.csv",
+        "--missing",
+        "NaN",
+    ];
+    let outcome = folder.run(&arguments).done();
+    assert!(
+        outcome.stdout.contains("1 row without time or theta"),
+        "{outcome:?}"
+    );
+    assert_eq!(folder.read("rows.csv").lines().count(), 12);
+}

@@ -13,6 +13,7 @@ mod inverse_fuzz;
 mod inverse_limits;
 mod long_records;
 mod measured_rows;
+mod missing_values;
 mod noise;
 mod outliers;
 mod polynomial;

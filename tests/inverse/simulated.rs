@@ -39,7 +39,7 @@ fn stretched(stretch: f64) -> Scene {
 }
 
 /// Returns x and its two derivatives with respect to the crank angle.
-fn position(theta: f64) -> [f64; 3] {
+pub(super) fn position(theta: f64) -> [f64; 3] {
     let (sin, cos) = theta.sin_cos();
     let height = OFFSET + CRANK * sin;
     let root = (ROD * ROD - height * height).sqrt();

@@ -71,6 +71,7 @@ class Measurement:
         x_zero: str | None,
         skip: int,
         decimal_comma: bool,
+        missing: list[str],
     ) -> Measurement: ...
     @property
     def measured(self) -> str: ...

@@ -26,10 +26,11 @@ class Measurement:
         theta: crank angle, rad.
         gamma: angle at the crank pin between crank and rod, rad from 0 to pi.
         x: slider position, m.
+        omega: crank speed, rad/s, from the crank angle of the scene's motion on; without the others.
         torque: known torque on the crank beside the scene's, N m.
         force: known force on the slider beside the scene's, N.
 
-    Of several sensors each counts by its own noise.
+    Of several sensors each counts by its own noise; all but the first may be NaN where they have no value.
     """
 
     def __init__(
@@ -39,13 +40,14 @@ class Measurement:
         theta: ArrayLike | None = None,
         gamma: ArrayLike | None = None,
         x: ArrayLike | None = None,
+        omega: ArrayLike | None = None,
         torque: ArrayLike | None = None,
         force: ArrayLike | None = None,
     ) -> None:
-        given = {"theta": theta, "gamma": gamma, "x": x}
+        given = {"theta": theta, "gamma": gamma, "x": x, "omega": omega}
         sensors = [(name, _array(values)) for name, values in given.items() if values is not None]
         if not sensors:
-            raise _native.Refused("no motion is given\nhelp: give theta (rad), gamma (rad) or x (m)")
+            raise _native.Refused("no motion is given\nhelp: give theta (rad), gamma (rad), x (m) or omega (rad/s)")
         known = [(name, _array(v)) for name, v in (("torque", torque), ("force", force)) if v is not None]
         self._native = _native.Measurement(_array(t), sensors + known)
 
@@ -54,7 +56,7 @@ class Measurement:
         cls,
         file: str | os.PathLike[str],
         *,
-        column: Literal["theta", "gamma", "x"] | None = None,
+        column: Literal["theta", "gamma", "x", "omega"] | None = None,
         columns: str | None = None,
         time: str | None = None,
         motion: str | None = None,
@@ -63,6 +65,7 @@ class Measurement:
         x_zero: str | None = None,
         skip: int = 0,
         decimal_comma: bool = False,
+        missing: Sequence[str] = (),
     ) -> Measurement:
         """Reads a CSV file with time and theta, gamma, x or omega, units in the header or named here.
 
@@ -76,16 +79,18 @@ class Measurement:
             x_zero: what the sensor of x shows where the slider is at the crank pivot, like ``"12.5 mm"``.
             skip: lines above the header.
             decimal_comma: whether numbers have decimal commas.
+            missing: what cells without a value contain, like ``"NaN"``; ``""`` for empty cells.
         """
         measurement = cls.__new__(cls)
         measurement._native = _native.Measurement.load(
-            Path(file), column, columns, time, motion, list(known), counts_per_turn, x_zero, skip, decimal_comma
+            Path(file), column, columns, time, motion, list(known), counts_per_turn, x_zero, skip,
+            decimal_comma, list(missing),
         )
         return measurement
 
     @property
     def measured(self) -> str:
-        """"theta", "gamma" or "x"."""
+        """"theta", "gamma", "x" or "omega"."""
         return self._native.measured
 
     @property

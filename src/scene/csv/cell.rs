@@ -13,6 +13,14 @@ pub(in crate::scene) fn with_point(cell: &str, decimal_comma: bool) -> Option<Co
     }
 }
 
+/// Whether a cell has one of some texts, in any case.
+pub(in crate::scene) fn is_among(texts: &[String], cell: &str) -> bool {
+    texts.iter().any(|text| text.eq_ignore_ascii_case(cell))
+}
+
+/// Remedy for a cell that lacks a value.
+pub(in crate::scene) const LACKS_VALUE: &str = "give a number, or take the row out";
+
 /// Fault of a cell, and its remedy.
 pub(in crate::scene) struct NotANumber {
     pub what: String,
@@ -35,20 +43,14 @@ fn not_a_number(cell: &str, decimal_comma: bool) -> NotANumber {
     let is_number = |text: String| text.parse::<f64>().is_ok();
     let separates = |c: char| matches!(c, ',' | '\'' | '_') || c.is_whitespace();
     let (what, help) = if cell.is_empty() {
-        (
-            "the value is missing".to_owned(),
-            "give a number, or take the row out",
-        )
+        ("the value is missing".to_owned(), LACKS_VALUE)
     } else if decimal_comma && cell.contains('.') {
         (
             format!("`{cell}` has a point where numbers have decimal commas"),
             "write every number with a decimal comma and without separators of thousands",
         )
     } else if is_number(cell.to_owned()) {
-        (
-            format!("`{cell}` is not a finite number"),
-            "give a number, or take the row out",
-        )
+        (format!("`{cell}` is not a finite number"), LACKS_VALUE)
     } else if is_number(cell.replacen(',', ".", 1)) {
         (
             format!("`{cell}` has a decimal comma where a point is expected"),

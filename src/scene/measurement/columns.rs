@@ -160,6 +160,12 @@ pub(super) struct Columns {
 }
 
 impl Columns {
+    /// Whether the column with this index among those that are read is of a sensor beside the motion.
+    pub fn is_sensor(&self, column: usize) -> bool {
+        let beside = column.checked_sub(2).and_then(|k| self.beside.get(k));
+        beside.is_some_and(|(beside, _)| matches!(beside, Beside::Sensor(_)))
+    }
+
     /// Finds time and motion among the columns of a file.
     pub fn find(list: &[Named], reading: &Reading) -> Result<Columns, Problem> {
         let none = |what: String| {

@@ -57,7 +57,7 @@ pub enum Beside {
 pub struct BesideColumn {
     /// Content of the column.
     pub beside: Beside,
-    /// One value for each sample.
+    /// One value for each sample; NaN where a sensor has none.
     pub values: Vec<f64>,
 }
 
@@ -91,4 +91,6 @@ pub struct Reading {
     pub skip: usize,
     /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
     pub decimal_comma: bool,
+    /// Texts of cells without a value, as `NaN`, in any case; `""` for empty cells. Without time or motion a row is a gap.
+    pub missing: Vec<String>,
 }

@@ -6,40 +6,22 @@ mod listed;
 mod measured;
 mod read;
 mod rows;
+mod sample_file;
 mod times;
 mod unwrap;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::csv::Column;
-use super::csv::lines::{Dialect, line_number, span};
+use super::csv::lines::{line_number, span};
 use super::{Interpolation, Load, Problem, Problems, Scene, Table, Variable, text};
 use crate::error::Error;
 pub use measured::{Beside, BesideColumn, Measured, Reading};
+use sample_file::SampleFile;
 pub(crate) use unwrap::Unwrapped;
 
 /// CSV text of the motion of Duarte et al. 2018 (11), sampled; see the comments in the file.
 pub const DUARTE_MOTION: &str = include_str!("../../../data/duarte-motion.csv");
-
-/// File of the samples, in which messages find lines and cells.
-#[derive(Clone, Debug)]
-struct SampleFile {
-    file: PathBuf,
-    text: String,
-    /// Beginning of the rows of numbers, and their delimiter.
-    dialect: Dialect,
-    /// Positions of time and value in a row, from 0.
-    at: [usize; 2],
-    time: Column,
-    value: Column,
-}
-
-impl SampleFile {
-    fn row(&self, sample: usize) -> &str {
-        let mut rows = self.dialect.rows(&self.text);
-        rows.nth(sample).unwrap_or_default()
-    }
-}
 
 /// Samples of a motion, SI and radians, in the order of time.
 #[derive(Clone, Debug)]
@@ -82,10 +64,10 @@ impl Measurement {
         Ok(measurement)
     }
 
-    /// Adds a column: a second sensor, or a known torque or force, one value for each sample, SI.
+    /// Adds a column: a second sensor, or a known torque or force, one value for each sample, SI; NaN where a sensor has none.
     ///
     /// # Errors
-    /// [`Problems`] for another number of values, or values that are not finite.
+    /// [`Problems`] for another number of values, for values that are not finite, and for a sensor of few values.
     pub fn with(mut self, beside: Beside, values: Vec<f64>) -> Result<Measurement, Problems> {
         self.beside.push(BesideColumn { beside, values });
         self.check_beside()?;

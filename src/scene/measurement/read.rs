@@ -8,12 +8,15 @@ use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
 use crate::numeric::parallel;
 use crate::scene::csv::Column;
-use crate::scene::csv::cell::{self, NotANumber};
-use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, span};
+use crate::scene::csv::cell::{self, LACKS_VALUE, NotANumber};
+use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, line_number, span};
 use crate::scene::digits::Digits;
 use crate::scene::number::counted;
 use crate::scene::text::with_line_feeds;
 use crate::scene::{Problem, Problems};
+
+/// Remedy for a cell that lacks a value.
+const GAP: &str = "give a number, or take the row out; --missing NaN takes such rows as gaps, --missing \"\" those with empty cells";
 
 /// Reads the samples of a file as numbers, not yet checked against each other.
 pub(super) fn measurement(
@@ -44,9 +47,11 @@ pub(super) fn measurement(
         dialect,
         columns: &columns,
         heading: &heading,
-        decimal_comma: reading.decimal_comma,
+        reading,
     };
     let samples = rows.samples();
+    let mut notes = columns.notes.clone();
+    notes.extend(samples.left_out.note(&text, columns.measured));
     if let Some(list) = samples.wrong.refused(&text) {
         return Err(Problems::in_file(file, &text, list));
     }
@@ -74,13 +79,14 @@ pub(super) fn measurement(
     Ok(Measurement {
         resolution: columns.value.factor * step,
         beside: columns.beside.iter().map(of_beside).collect(),
-        notes: columns.notes,
+        notes,
         source: Some(SampleFile {
             file: file.to_owned(),
             dialect,
             at: [columns.at[0], columns.at[1]],
             time: columns.time,
             value: columns.value,
+            missing: reading.missing.clone(),
             text,
         }),
         ..Measurement::raw(columns.measured, times, values)
@@ -91,7 +97,33 @@ pub(super) fn measurement(
 struct Samples {
     columns: Vec<Vec<f64>>,
     digits: Digits,
+    left_out: LeftOut,
     wrong: Listed,
+}
+
+/// Rows without time or motion.
+#[derive(Clone, Copy, Default)]
+struct LeftOut {
+    count: usize,
+    /// Begin of the first one in the text.
+    first: Option<usize>,
+}
+
+impl LeftOut {
+    fn add(&mut self, more: LeftOut) {
+        self.count += more.count;
+        self.first = self.first.or(more.first);
+    }
+
+    /// Returns a note if there are any.
+    fn note(&self, text: &str, measured: Measured) -> Option<String> {
+        let line = line_number(text, &text[self.first?..]);
+        let rows = counted(self.count, "row");
+        let name = measured.name();
+        Some(format!(
+            "{rows} without time or {name} left out, the first in line {line}"
+        ))
+    }
 }
 
 impl Samples {
@@ -99,6 +131,7 @@ impl Samples {
         Samples {
             columns: vec![Vec::with_capacity(count); columns],
             digits: Digits::EMPTY,
+            left_out: LeftOut::default(),
             wrong: Listed::default(),
         }
     }
@@ -110,7 +143,7 @@ struct SampleRows<'a> {
     dialect: Dialect,
     columns: &'a Columns,
     heading: &'a Heading<'a>,
-    decimal_comma: bool,
+    reading: &'a Reading,
 }
 
 impl SampleRows<'_> {
@@ -133,6 +166,7 @@ impl SampleRows<'_> {
                 all.extend(more);
             }
             all.digits = all.digits.or(found.digits);
+            all.left_out.add(found.left_out);
             all.wrong.join(found.wrong);
         }
         all
@@ -176,13 +210,28 @@ impl SampleRows<'_> {
             };
             return wrong("row", row, what, help);
         }
-        let mut numbers = [0.0; MOST_COLUMNS];
+        let is_missing = |cell: &&str| cell::is_among(&self.reading.missing, cell);
+        if found[..2].iter().any(is_missing) {
+            let first = Some(span(self.text, row).start);
+            return samples.left_out.add(LeftOut { count: 1, first });
+        }
+        let mut numbers = [f64::NAN; MOST_COLUMNS];
         let mut is_right = true;
+        let decimal_comma = self.reading.decimal_comma;
         for (k, cell) in found.iter().enumerate() {
-            match cell::parse(cell, self.decimal_comma) {
+            let parsed = match is_missing(cell) {
+                true if self.columns.is_sensor(k) => continue,
+                true => Err(NotANumber {
+                    what: "the value is missing".to_owned(),
+                    help: "give a known torque or force in every row",
+                }),
+                false => cell::parse(cell, decimal_comma),
+            };
+            match parsed {
                 Ok(number) => numbers[k] = number,
                 Err(NotANumber { what, help }) => {
                     let name = ["time", self.columns.measured.name(), "value"][k.min(2)];
+                    let help = if help == LACKS_VALUE { GAP } else { help };
                     wrong(name, cell, what, help);
                     is_right = false;
                 }
@@ -192,7 +241,7 @@ impl SampleRows<'_> {
             for (list, number) in samples.columns.iter_mut().zip(numbers) {
                 list.push(number);
             }
-            let text = cell::with_point(found[1], self.decimal_comma);
+            let text = cell::with_point(found[1], decimal_comma);
             samples.digits = samples.digits.or(Digits::of(&text.unwrap_or_default()));
         }
     }

@@ -1,7 +1,7 @@
 //! Checks samples against each other.
 
 use super::listed::Listed;
-use super::{Beside, Measured, Measurement};
+use super::{Beside, BesideColumn, Measured, Measurement};
 use crate::numeric::median::median;
 use crate::scene::number::{apart, computed, counted, show};
 use crate::scene::{Problem, Problems};
@@ -9,10 +9,16 @@ use crate::scene::{Problem, Problems};
 /// Largest magnitude of a sample, SI; larger ones leave no digits for quantities computed from them.
 const LARGEST_SAMPLE: f64 = 1e12;
 
-/// Returns the first sample without a usable number.
-fn unusable(values: &[f64]) -> Option<usize> {
-    let is_wrong = |value: &f64| value.is_nan() || value.abs() > LARGEST_SAMPLE;
-    values.iter().position(is_wrong)
+/// Whether a value is no usable number.
+fn is_unusable(value: f64) -> bool {
+    value.is_nan() || value.abs() > LARGEST_SAMPLE
+}
+
+/// Says what is wrong with this number of samples, if they are too few.
+fn too_few(count: usize) -> Option<String> {
+    let least = 6;
+    let samples = counted(count, "sample");
+    (count < least).then(|| format!("{samples} where at least {least} are needed"))
 }
 
 impl Measurement {
@@ -26,7 +32,7 @@ impl Measurement {
         }
         let mut wrong = Listed::default();
         for (column, list) in [times, values].into_iter().enumerate() {
-            if let Some(at) = unusable(list) {
+            if let Some(at) = list.iter().position(|value| is_unusable(*value)) {
                 let what = format!("{} is not a usable number", show(list[at]));
                 let help = format!("give finite values below {LARGEST_SAMPLE:e} in SI units");
                 wrong.push(self.problem(at, column, what, help));
@@ -73,22 +79,32 @@ impl Measurement {
                 let help = "give the position alone";
                 return Err(self.refused(vec![Problem::new("columns", what, help)]));
             }
-            let values = &column.values;
-            let what = match unusable(values) {
-                Some(at) => format!(
-                    "{} in {} is not a usable number",
-                    show(values[at]),
-                    self.place(at)
-                ),
-                None if values.len() != self.len() => {
-                    format!("{} values for {} samples", values.len(), self.len())
-                }
-                None => continue,
-            };
-            let help = "give a finite value for each sample";
-            return Err(self.refused(vec![Problem::new("columns", what, help)]));
+            if let Some(what) = self.fault(column) {
+                let help = "give a finite value for each sample; a sensor may lack some of them";
+                return Err(self.refused(vec![Problem::new("columns", what, help)]));
+            }
         }
         Ok(())
+    }
+
+    /// Returns what is wrong with a column beside the motion.
+    fn fault(&self, BesideColumn { beside, values }: &BesideColumn) -> Option<String> {
+        if values.len() != self.len() {
+            let values = counted(values.len(), "value");
+            return Some(format!("{values} for {} samples", self.len()));
+        }
+        let sensor = match beside {
+            Beside::Sensor(measured) => Some(measured.name()),
+            _ => None,
+        };
+        let pairs = values.iter().enumerate();
+        let mut given = pairs.filter(|(_, value)| sensor.is_none() || !value.is_nan());
+        let count = given.clone().count();
+        if let Some((at, value)) = given.find(|(_, value)| is_unusable(**value)) {
+            let (value, place) = (show(*value), self.place(at));
+            return Some(format!("{value} in {place} is not a usable number"));
+        }
+        sensor.and_then(|sensor| Some(format!("{sensor}: {}", too_few(count)?)))
     }
 
     /// Returns a time in the unit of its column.
@@ -102,10 +118,7 @@ impl Measurement {
     /// Returns a problem for too few samples, or for times so close to each other that their unit must be wrong.
     fn too_short(&self) -> Option<Problem> {
         let times = self.elapsed();
-        let least = 6;
-        if times.len() < least {
-            let rows = counted(times.len(), "sample");
-            let what = format!("{rows} where at least {least} are needed");
+        if let Some(what) = too_few(times.len()) {
             let end = self
                 .source
                 .as_ref()
