@@ -42,6 +42,24 @@ def test_the_slider_force_of_newton():
     assert np.nanmax(np.abs(force - 2 * terms.d2x * 100)) < 1e-6
 
 
+def test_a_speed_is_a_motion():
+    """A flywheel alone: torque = inertia times acceleration."""
+    t = np.linspace(0, 1, 200)
+    scene = sc.Scene(geometry={"crank": "50 mm", "rod": "150 mm"}, crank={"inertia": "0.02 kg m^2"})
+    found = sc.inverse(scene, sc.Measurement(t, omega=10 + 4 * t))
+    assert np.nanmax(np.abs(found["crank_torque_nm"] - 0.08)) < 1e-6
+
+
+def test_a_slow_sensor_has_few_values(data):
+    record = sc.Measurement.load(data / "hard" / "14-nan.csv", missing=["NaN"])
+    assert any("without time or theta" in note for note in record.notes)
+    t = np.linspace(0, 0.4, 60)
+    x = np.where(np.arange(60) % 5, np.nan, 0.05 * np.cos(10 * t) + np.sqrt(0.15**2 - (0.05 * np.sin(10 * t)) ** 2))
+    scene = sc.Scene(geometry={"crank": "50 mm", "rod": "150 mm"}, slider={"mass": "2 kg"})
+    found = sc.inverse(scene, sc.Measurement(t, theta=10 * t, x=x))
+    assert len(found["t_s"]) == 60
+
+
 def test_values_are_those_of_the_program(program, data):
     scene, record = data / "run-down.toml", data / "run-down.csv"
     free = ["torque[1].coefficient", "crank.inertia", "sensor.zero"]
