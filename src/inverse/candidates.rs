@@ -11,13 +11,10 @@ use super::problem::Problem;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
-use crate::numeric::{LANES, parallel};
+use crate::numeric::parallel;
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
-
-// Coefficients are computed in whole blocks.
-const _: () = assert!((2 * FIRST_HARMONICS).is_multiple_of(LANES));
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]

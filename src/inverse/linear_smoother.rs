@@ -72,7 +72,7 @@ impl Problem<'_> {
         let found = posterior.map(|found| (found.factor(), found));
         let estimated = |(range, (mut deviations, mut innovations, derivatives)): (
             &Range<usize>,
-            (Vec<_>, Vec<_>, Option<Derivatives<N>>),
+            (Vec<_>, Vec<_>, Option<Derivatives>),
         )| {
             let mut covariance = [[0.0; 3]; 3];
             if let (Some((factor, found)), Some(derivatives)) = (&found, derivatives) {

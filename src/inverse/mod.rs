@@ -36,7 +36,6 @@ mod branch_choice;
 mod branch_tracking;
 mod candidates;
 mod code_moments;
-mod columns;
 mod estimate;
 mod first_path;
 mod fitted;

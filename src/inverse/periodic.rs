@@ -11,35 +11,98 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::columns::{Lanes, add_product, blocks, correct, respond, transform, update};
 use super::fixed_interval::{Companion, Later};
 use super::harmonics::responses;
-use super::kalman::{Filtered, Gaussian};
+use super::kalman::{Filtered, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
-use super::matrix::transposed;
+use super::matrix::{Matrix, transposed};
 use super::regression::{ROWS_AT_ONCE, Regression};
 use super::repeating::dot;
 use super::state_space::{Deviations, Stretch};
-use crate::numeric::LANES;
+
+/// Derivatives of the state by the coefficients, along the filter.
+struct Columns<'a, const N: usize> {
+    stretch: &'a Stretch,
+    /// Derivatives by the coefficients, one row for each state.
+    of: Vec<f64>,
+    /// Room for the rows after a step, and for E.
+    room: Vec<f64>,
+    errors: Vec<f64>,
+}
+
+impl<'a, const N: usize> Columns<'a, N> {
+    fn new(model: &Deviations<'a>) -> Self {
+        let count = model.stretch.increments.count;
+        Columns {
+            stretch: model.stretch,
+            of: vec![0.0; N * count],
+            room: vec![0.0; N * count],
+            errors: vec![0.0; count],
+        }
+    }
+
+    /// Multiplies the rows by a matrix.
+    fn transform(&mut self, matrix: &Matrix<N>) {
+        let count = self.errors.len();
+        self.room.fill(0.0);
+        for (to, factors) in self.room.chunks_exact_mut(count).zip(matrix) {
+            for (from, factor) in self.of.chunks_exact(count).zip(factors) {
+                add(to, *factor, from);
+            }
+        }
+        std::mem::swap(&mut self.of, &mut self.room);
+    }
+
+    /// Takes a step, with what the coefficients add to the state in it.
+    fn step(&mut self, node: usize, step: &Step<N>) {
+        self.transform(&step.transition);
+        let Linearised { h, lever, .. } = self.stretch.steps[node];
+        let torques = self.stretch.increments.of(node);
+        let rows = self.of.chunks_exact_mut(self.errors.len());
+        for (row, response) in rows.zip(responses(h, lever)) {
+            for (factor, torque) in response.into_iter().zip(torques) {
+                add(row, factor, torque);
+            }
+        }
+    }
+
+    /// Takes a sample in and leaves E in `errors`.
+    fn update(&mut self, sample: &Sample, found: &Innovation<N>) {
+        let count = self.errors.len();
+        self.errors.fill(0.0);
+        for (row, share) in self.of.chunks_exact(count).zip(sample.row::<N>()) {
+            add(&mut self.errors, -share, row);
+        }
+        for (row, gain) in self.of.chunks_exact_mut(count).zip(&found.gain) {
+            add(row, *gain, &self.errors);
+        }
+    }
+}
+
+/// Adds a multiple of a row.
+#[inline(always)]
+fn add(to: &mut [f64], factor: f64, row: &[f64]) {
+    if factor != 0.0 {
+        to.iter_mut()
+            .zip(row)
+            .for_each(|(to, value)| *to += factor * value);
+    }
+}
 
 /// Companion of filter and smoother that fills the normal equations.
 pub(super) struct Regressed<'a, const N: usize> {
-    stretch: &'a Stretch,
-    /// Derivatives of the state by the coefficients.
-    of: Vec<[Lanes; N]>,
-    /// E
-    errors: Vec<Lanes>,
+    columns: Columns<'a, N>,
     to: Regression,
     /// The smoother's derivatives, if there is one.
-    found: Option<Derivatives<N>>,
+    found: Option<Derivatives>,
 }
 
 /// Derivatives of smoothed states and prediction errors by the coefficients.
-pub(super) struct Derivatives<const N: usize> {
-    /// Those of the states, node by node.
-    list: Vec<[Lanes; N]>,
-    /// Those of the prediction errors over their standard deviations, sample by sample.
-    errors: Vec<Lanes>,
+pub(super) struct Derivatives {
+    /// The rows of each node, one after the other.
+    list: Vec<f64>,
+    /// Those of the prediction errors over their standard deviations, one row for each sample.
+    errors: Vec<f64>,
     /// Samples that are not on the way back yet.
     left: usize,
 }
@@ -47,23 +110,21 @@ pub(super) struct Derivatives<const N: usize> {
 impl<'a, const N: usize> Regressed<'a, N> {
     /// A companion of the filter along a model, or of the smoother.
     pub fn new(model: &Deviations<'a>, is_smoother: bool) -> Self {
-        let blocks = model.stretch.increments.count / LANES;
-        let all = model.stretch.observed.len() * blocks;
+        let count = model.stretch.increments.count;
+        let rows = model.stretch.observed.len() * count;
         Regressed {
-            stretch: model.stretch,
-            of: vec![[[0.0; LANES]; N]; blocks],
-            errors: vec![[0.0; LANES]; blocks],
+            columns: Columns::new(model),
             to: Regression::new(model.prior),
-            found: (is_smoother && blocks > 0).then(|| Derivatives {
-                list: Vec::with_capacity(all),
-                errors: Vec::with_capacity(all),
+            found: (is_smoother && count > 0).then(|| Derivatives {
+                list: Vec::with_capacity(rows * N),
+                errors: Vec::with_capacity(rows),
                 left: 0,
             }),
         }
     }
 
     /// Returns the normal equations, and the smoother's derivatives if there is one.
-    pub fn into_parts(mut self) -> (Regression, Option<Derivatives<N>>) {
+    pub fn into_parts(mut self) -> (Regression, Option<Derivatives>) {
         self.to.multiply();
         (self.to, self.found)
     }
@@ -71,30 +132,27 @@ impl<'a, const N: usize> Regressed<'a, N> {
     /// Takes the derivatives to a node, and its sample into the normal equations.
     fn regress(&mut self, node: usize, at: &Filtered<'_, N>) {
         if let Some(step) = at.step {
-            let Linearised { h, lever, .. } = self.stretch.steps[node - 1];
-            let torques = self.stretch.increments.of(node - 1).map(blocks);
-            transform(&mut self.of, &step.transition);
-            respond(&mut self.of, &responses(h, lever), torques);
+            self.columns.step(node - 1, step);
         }
         if let Some(derivatives) = &mut self.found {
-            derivatives.list.extend_from_slice(&self.of);
+            derivatives.list.extend(&self.columns.of);
         }
         if let Some((sample, found)) = at.sample {
-            update(&mut self.of, &mut self.errors, &sample.row(), &found.gain);
-            let (errors, per) = (&self.errors, 1.0 / found.variance.sqrt());
-            self.to.take(errors.as_flattened(), found.error, per);
+            self.columns.update(sample, found);
+            let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
+            self.to.take(errors, found.error, per);
             if let Some(derivatives) = &mut self.found {
                 derivatives.left += 1;
-                let scaled = errors.iter().map(|lanes| lanes.map(|value| value * per));
+                let scaled = errors.iter().map(|value| value * per);
                 derivatives.errors.extend(scaled);
             }
         }
     }
 }
 
-impl<const N: usize> Derivatives<N> {
+impl Derivatives {
     /// Adds what coefficients do to the smoothed states and prediction errors, with a factor A of their covariance Aᵀ A.
-    pub fn add(
+    pub fn add<const N: usize>(
         self,
         coefficients: &[f64],
         factor: &DMatrix<f64>,
@@ -103,22 +161,17 @@ impl<const N: usize> Derivatives<N> {
     ) {
         let Derivatives { list, errors, .. } = self;
         let count = coefficients.len();
-        let blocks = count / LANES;
+        let size = N * count;
         let known = innovations.iter_mut().flatten();
-        for (row, innovation) in errors.chunks_exact(blocks).zip(known) {
-            *innovation += dot(row.as_flattened(), coefficients);
+        for (row, innovation) in errors.chunks_exact(count).zip(known) {
+            *innovation += dot(row, coefficients);
         }
-        let mut rows = Vec::with_capacity(ROWS_AT_ONCE * N * count);
-        for (nodes, states) in list
-            .chunks(ROWS_AT_ONCE * blocks)
+        for (columns, states) in list
+            .chunks(ROWS_AT_ONCE * size)
             .zip(path.chunks_mut(ROWS_AT_ONCE))
         {
-            rows.clear();
-            for node in nodes.chunks_exact(blocks) {
-                (0..N).for_each(|k| rows.extend(node.iter().flat_map(|block| block[k])));
-            }
-            let spread = factor * DMatrixView::from_slice(&rows, count, rows.len() / count);
-            let rows: Vec<&[f64]> = rows.chunks_exact(count).collect();
+            let spread = factor * DMatrixView::from_slice(columns, count, columns.len() / count);
+            let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);
                 for i in 0..N {
@@ -136,31 +189,42 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
     #[inline(always)]
     fn filtered(&mut self, node: usize, at: &Filtered<'_, N>) {
         self.to.evidence.add(at);
-        if !self.errors.is_empty() {
+        if !self.columns.errors.is_empty() {
             self.regress(node, at);
         }
     }
 
-    /// The derivatives follow the recursion of the smoother's correction.
+    /// The rows follow the recursion of the smoother's correction.
     fn returned(&mut self, node: usize, at: &Filtered<'_, N>, _: &Later<N>, _: &Gaussian<N>) {
+        let columns = &mut self.columns;
         let Some(derivatives) = &mut self.found else {
             return;
         };
-        let of = &mut self.of;
-        let blocks = of.len();
-        if (node + 1) * blocks == derivatives.list.len() {
-            of.fill([[0.0; LANES]; N]);
+        let (count, size) = (columns.errors.len(), columns.of.len());
+        if (node + 1) * size == derivatives.list.len() {
+            columns.of.fill(0.0);
         }
         if let Some((sample, found)) = at.sample {
+            columns.errors.fill(0.0);
+            for (row, gain) in columns.of.chunks_exact(count).zip(&found.gain) {
+                add(&mut columns.errors, -gain, row);
+            }
             derivatives.left -= 1;
-            let errors = &derivatives.errors[derivatives.left * blocks..][..blocks];
-            let per = 1.0 / found.variance.sqrt();
-            correct(of, errors, per, &sample.row(), &found.gain);
+            let errors = &derivatives.errors[derivatives.left * count..][..count];
+            add(&mut columns.errors, 1.0 / found.variance.sqrt(), errors);
+            for (row, share) in columns.of.chunks_exact_mut(count).zip(sample.row::<N>()) {
+                add(row, share, &columns.errors);
+            }
         }
-        let smoothed = &mut derivatives.list[node * blocks..][..blocks];
-        add_product(smoothed, &at.predicted.covariance, of);
+        let smoothed = &mut derivatives.list[node * size..][..size];
+        let shares = &at.predicted.covariance;
+        for (to, shares) in smoothed.chunks_exact_mut(count).zip(shares) {
+            for (row, share) in columns.of.chunks_exact(count).zip(shares) {
+                add(to, *share, row);
+            }
+        }
         if let Some(step) = at.step {
-            transform(of, &transposed(&step.transition));
+            columns.transform(&transposed(&step.transition));
         }
     }
 }
