@@ -79,7 +79,6 @@ impl Problem<'_> {
                 |((now, mut evidence), noise)| {
                     let now = stretches.iter().fold(now, |now, stretch| {
                         let model = linear.deviations(stretch, noise);
-                        let now = now.map(|now| (0, now));
                         Some(kalman::run::<N>(&model, now, |_, at| evidence.add(at)))
                     });
                     (now, evidence)

@@ -46,14 +46,14 @@ impl<const N: usize> Gaussian<N> {
     fn with(&self, later: &Later<N>) -> Gaussian<N> {
         Gaussian {
             mean: sum(self.mean, times(&self.covariance, &later.correction)),
-            covariance: informed(&self.covariance, &later.information),
+            covariance: informed(&self.covariance, &later.information).covariance,
         }
     }
 }
 
 impl<const N: usize> Later<N> {
     /// After the last sample.
-    const NONE: Later<N> = Later {
+    pub const NONE: Later<N> = Later {
         correction: [0.0; N],
         information: [[0.0; N]; N],
     };

@@ -11,6 +11,7 @@ use super::kalman::{Filtered, Gaussian, Step};
 use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
 use super::outliers;
+use super::parted::Parted;
 use super::prior::SMOOTH;
 use super::problem::Problem;
 use super::smoother::Smoothed;
@@ -28,15 +29,21 @@ struct Score {
     information: f64,
 }
 
-/// Companion of the smoother that collects the scores of all steps.
-struct Scores {
+/// Companion of the smoother that collects the scores of all steps, and what parts the stretch at each node.
+struct Scores<const N: usize> {
     per_variance: f64,
     list: Vec<Score>,
+    parted: Parted<N>,
 }
 
-impl<const N: usize> Companion<N> for Scores {
+impl<const N: usize> Companion<N> for Scores<N> {
+    fn filtered(&mut self, _: usize, at: &Filtered<'_, N>) {
+        self.parted.take(at);
+    }
+
     /// Collects the slope ½ (rᵀ Q r − tr QN) for the smoother's correction r and its variance N = Y − Y P Y.
     fn returned(&mut self, node: usize, at: &Filtered<'_, N>, later: &Later<N>, all: &Gaussian<N>) {
+        self.parted.nodes[node].later = *later;
         let Some(Step { noise, .. }) = at.step else {
             return;
         };
@@ -56,13 +63,14 @@ impl<const N: usize> Companion<N> for Scores {
     }
 }
 
-fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Vec<Score> {
+fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Scores<N> {
     let mut scores = Scores {
         per_variance: 1.0 / (sigma * sigma),
         list: vec![Score::default(); model.stretch.steps.len()],
+        parted: Parted::default(),
     };
     fixed_interval::smooth::<N>(model, &mut scores);
-    scores.list
+    scores
 }
 
 /// Returns the steps of each power of two in number whose intensity deviates most from the usual, by the rise of ln of the
@@ -112,8 +120,9 @@ impl Problem<'_> {
             // Far from the usual intensity the likelihood rises by more than the scores promise there.
             let least = 0.5 * self.cost(PARAMETERS);
             let best = with_dimension!(model.dimension(), N => {
-                let guesses = furthest(&scores::<N>(&model, noise.sigma), least);
-                Trial::<N>::new(&linear, stretch, noise).likeliest(guesses)
+                let Scores { list, parted, .. } = scores::<N>(&model, noise.sigma);
+                let trial = Trial { linear: &linear, stretch, noise, parted };
+                trial.likeliest(furthest(&list, least))
             });
             let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost(PARAMETERS);
             let Some(best) = best.filter(rises) else {
@@ -230,7 +239,7 @@ mod tests {
             observed: (0..21).map(sample).collect(),
             ..Stretch::default()
         };
-        let found = scores::<3>(&model(&stretch), 1.0);
+        let found = scores::<3>(&model(&stretch), 1.0).list;
         for k in [0, 7, 19] {
             let mut at = |log: f64| {
                 stretch.intensities[k] = log.exp();

@@ -102,18 +102,6 @@ fn first(row: usize) -> usize {
     if row < 2 { 0 } else { row }
 }
 
-impl<const N: usize> Filtered<'_, N> {
-    /// Returns the distribution after the sample.
-    #[inline(always)]
-    pub fn updated(&self) -> Gaussian<N> {
-        let mut state = *self.predicted;
-        if let Some((sample, _)) = self.sample {
-            state.update(sample);
-        }
-        state
-    }
-}
-
 impl<const N: usize> Gaussian<N> {
     /// Returns the distribution one step later.
     #[inline(always)]
@@ -170,14 +158,20 @@ impl<const N: usize> Gaussian<N> {
 }
 
 impl Evidence {
-    /// Adds the sample of a node.
+    /// Adds the sample of a node, if there is one.
     #[inline(always)]
     pub fn add<const N: usize>(&mut self, at: &Filtered<'_, N>) {
         if let Some((_, found)) = at.sample {
-            self.squares += found.error * found.error / found.variance;
-            self.log_variances += found.variance.ln();
-            self.samples += 1;
+            self.take(found);
         }
+    }
+
+    /// Adds a sample.
+    #[inline(always)]
+    pub fn take<const N: usize>(&mut self, found: &Innovation<N>) {
+        self.squares += found.error * found.error / found.variance;
+        self.log_variances += found.variance.ln();
+        self.samples += 1;
     }
 }
 
@@ -189,16 +183,15 @@ impl std::ops::AddAssign for Evidence {
     }
 }
 
-/// Runs the filter from the prior before the first sample, or from a known distribution after the sample of a node, and shows
-/// each node from there on.
+/// Runs the filter from the prior before the first sample, or from a known distribution after it, and shows each node.
 #[inline(always)]
 pub(super) fn run<const N: usize>(
     model: &Deviations<'_>,
-    known: Option<(usize, Gaussian<N>)>,
+    known: Option<Gaussian<N>>,
     mut show: impl FnMut(usize, &Filtered<'_, N>),
 ) -> Gaussian<N> {
-    let first = known.map_or(0, |(node, _)| node + 1);
-    let mut now = known.map_or_else(|| model.start(), |(_, state)| state);
+    let first = usize::from(known.is_some());
+    let mut now = known.unwrap_or_else(|| model.start());
     for node in first..model.stretch.observed.len() {
         let step = (node > 0).then(|| model.step(node - 1));
         if let Some(step) = &step {

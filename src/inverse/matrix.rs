@@ -99,11 +99,18 @@ fn roots<const N: usize>(p: &Matrix<N>) -> Matrix<N> {
     root
 }
 
+/// Covariance of a state by more information.
+pub(super) struct Informed<const N: usize> {
+    pub covariance: Matrix<N>,
+    /// Root of the determinant of I + P Y, up to its sign.
+    pub root_determinant: f64,
+}
+
 /// Returns the covariance (P⁻¹ + Y)⁻¹ of a state with the covariance P by more information Y: L (I + BᵀB)⁻¹ Lᵀ with B = RᵀL for
 /// P = L Lᵀ and Y = R Rᵀ. Householder reflections bring I above B to triangular form: the square of a diffuse B would leave
 /// no digits.
 #[inline(always)]
-pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -> Matrix<N> {
+pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -> Informed<N> {
     let mut part = transposed(&roots(p));
     // Columns of B.
     let mut rest = product(&part, &roots(information));
@@ -123,7 +130,9 @@ pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -
         }
         told[j][j] = -size;
     }
+    let mut root_determinant = 1.0;
     for i in 0..N {
+        root_determinant *= told[i][i];
         let per = 1.0 / told[i][i];
         for j in 0..N {
             for k in 0..i {
@@ -132,5 +141,8 @@ pub(super) fn informed<const N: usize>(p: &Matrix<N>, information: &Matrix<N>) -
             part[i][j] *= per;
         }
     }
-    product(&transposed(&part), &part)
+    Informed {
+        covariance: product(&transposed(&part), &part),
+        root_determinant,
+    }
 }

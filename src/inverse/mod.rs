@@ -62,6 +62,7 @@ mod motion_estimate;
 mod noise_search;
 mod options;
 mod outliers;
+mod parted;
 mod periodic;
 mod polynomial;
 mod prediction;

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
+use super::parted::Parted;
 use super::scales::Noise;
 use super::state_space::Stretch;
 use crate::numeric::maximum::largest_to;
@@ -35,30 +35,14 @@ fn likelier(a: Guess, b: Guess) -> Guess {
 
 /// A stretch of the linear model, in which steps may have another intensity.
 pub(super) struct Trial<'a, const N: usize> {
-    linear: &'a Linear,
-    stretch: &'a Stretch,
-    noise: Noise,
-    /// State after the sample of each node, and likelihood terms of the samples up to it, as the stretch is.
-    filtered: Vec<(Gaussian<N>, Evidence)>,
+    pub linear: &'a Linear,
+    pub stretch: &'a Stretch,
+    pub noise: Noise,
+    /// The stretch as it is.
+    pub parted: Parted<N>,
 }
 
-impl<'a, const N: usize> Trial<'a, N> {
-    /// Of a stretch with its noise.
-    pub fn new(linear: &'a Linear, stretch: &'a Stretch, noise: Noise) -> Self {
-        let mut filtered = Vec::with_capacity(stretch.observed.len());
-        let mut evidence = Evidence::default();
-        kalman::run(&linear.deviations(stretch, &noise), None, |_, at| {
-            evidence.add(at);
-            filtered.push((at.updated(), evidence));
-        });
-        Trial {
-            linear,
-            stretch,
-            noise,
-            filtered,
-        }
-    }
-
+impl<const N: usize> Trial<'_, N> {
     /// Returns the likeliest of some guesses, with its likeliest factor and ends; those of which a coarse search finds the likeliest
     /// factors are searched on, as the likelihood has several maxima.
     pub fn likeliest(&self, guesses: Vec<Guess>) -> Option<Guess> {
@@ -92,9 +76,7 @@ impl<'a, const N: usize> Trial<'a, N> {
     fn evaluated(&self, mut guess: Guess) -> Guess {
         let stretch = guess.taken(self.stretch);
         let model = self.linear.deviations(&stretch, &self.noise);
-        let first = guess.steps.start;
-        let (state, mut evidence) = self.filtered[first];
-        kalman::run(&model, Some((first, state)), |_, at| evidence.add(at));
+        let evidence = self.parted.with_other_steps(&model, &guess.steps);
         guess.likelihood = self.linear.judged(self.noise, &evidence, 1).likelihood;
         guess
     }

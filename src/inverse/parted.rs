@@ -1,0 +1,178 @@
+//! Likelihood of a stretch in which some steps change: of the samples before them it stays, of those after them it follows from
+//! the distribution of the state to which they lead (two-filter formula; Fraser and Potter 1969).
+
+use std::ops::Range;
+
+use super::fixed_interval::Later;
+use super::kalman::{Evidence, Filtered, Gaussian};
+use super::matrix::{dot, informed, sum, times};
+use super::state_space::Deviations;
+
+/// A stretch, parted before the sample of each node.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parted<const N: usize> {
+    pub nodes: Vec<Part<N>>,
+    /// Likelihood terms of all samples.
+    all: Evidence,
+}
+
+/// A node with what the samples before its own and those from its own on tell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part<const N: usize> {
+    /// The state by the samples before.
+    predicted: Gaussian<N>,
+    /// Likelihood terms of the samples before.
+    before: Evidence,
+    pub later: Later<N>,
+}
+
+impl<const N: usize> Parted<N> {
+    /// Adds the next node of the filter.
+    pub fn take(&mut self, at: &Filtered<'_, N>) {
+        self.nodes.push(Part {
+            predicted: *at.predicted,
+            before: self.all,
+            later: Later::NONE,
+        });
+        self.all.add(at);
+    }
+
+    /// Returns the likelihood terms of all samples by a model in which these steps are others.
+    pub fn with_other_steps(&self, model: &Deviations<'_>, steps: &Range<usize>) -> Evidence {
+        let (begin, end) = (&self.nodes[steps.start], &self.nodes[steps.end]);
+        let (mut now, mut evidence) = (begin.predicted, begin.before);
+        for node in steps.clone() {
+            if let Some(sample) = model.sample(node) {
+                evidence.take(&now.update(&sample));
+            }
+            now = now.predicted(&model.step(node));
+        }
+        let [squares, log_variances] = end.change(&now);
+        evidence += Evidence {
+            squares: self.all.squares - end.before.squares + squares,
+            log_variances: self.all.log_variances - end.before.log_variances + log_variances,
+            samples: self.all.samples - end.before.samples,
+        };
+        evidence
+    }
+}
+
+impl<const N: usize> Part<N> {
+    /// Returns the changes of Σ v²/S and Σ ln S of the samples from the node on, if its state by the samples before is another.
+    ///
+    /// As a function of the state x these samples have ln of the likelihood −½ xᵀ Y x + yᵀ x. With N(m, P) of the state, and the
+    /// slope z = y − Y m at the mean, Σ v²/S is mᵀ Y m − 2 yᵀ m − zᵀ (P⁻¹ + Y)⁻¹ z, and Σ ln S is ln |I + P Y|, but for constants.
+    fn change(&self, other: &Gaussian<N>) -> [f64; 2] {
+        let Later {
+            correction,
+            information,
+        } = &self.later;
+        let smoothed = times(&self.predicted.covariance, correction);
+        let slope = sum(*correction, times(information, &smoothed));
+        let moved: [f64; N] = std::array::from_fn(|k| other.mean[k] - self.predicted.mean[k]);
+        let told = times(information, &moved);
+        let next: [f64; N] = std::array::from_fn(|k| slope[k] - told[k]);
+        let [before, after] =
+            [&self.predicted, other].map(|at| informed(&at.covariance, information));
+        let ratio = after.root_determinant / before.root_determinant;
+        [
+            dot(&moved, &told) - 2.0 * dot(&slope, &moved) + dot(&slope, &smoothed)
+                - dot(&next, &times(&after.covariance, &next)),
+            2.0 * ratio.abs().ln(),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::fixed_interval::{Companion, smooth};
+    use crate::inverse::kalman::run;
+    use crate::inverse::linearised::Linearised;
+    use crate::inverse::prior::{FOLLOWING, Prior, TORQUE};
+    use crate::inverse::state_space::{Observed, Stretch};
+    use crate::inverse::transition::exponential;
+
+    impl<const N: usize> Companion<N> for Parted<N> {
+        fn filtered(&mut self, _: usize, at: &Filtered<'_, N>) {
+            self.take(at);
+        }
+
+        fn returned(
+            &mut self,
+            node: usize,
+            _: &Filtered<'_, N>,
+            later: &Later<N>,
+            _: &Gaussian<N>,
+        ) {
+            self.nodes[node].later = *later;
+        }
+    }
+
+    fn model(stretch: &Stretch, prior: Prior, correlated: Option<f64>) -> Deviations<'_> {
+        Deviations {
+            stretch,
+            prior,
+            noise: 0.3,
+            speed_noise: 0.0,
+            correlated,
+            spread: [1e3, 1e6, 2e7, 2e6, 0.0],
+        }
+    }
+
+    /// Compares with a run of the filter along the whole stretch.
+    fn agrees<const N: usize>(prior: Prior, correlated: Option<f64>) {
+        let step = Linearised {
+            h: 0.02,
+            tilt: [90.0, 0.0],
+            lever: 40.0,
+            top: exponential(0.02, 20.0, -3.0, 40.0),
+            ..Linearised::default()
+        };
+        let sample = |k: usize| Observed {
+            residual: (0.3 * k as f64).sin() + (1.7 * (k * k) as f64).sin(),
+            slope: 1.0,
+            variance: if k % 7 == 4 { f64::INFINITY } else { 1.0 },
+            ..Observed::default()
+        };
+        let mut stretch = Stretch {
+            steps: vec![step; 300].into(),
+            intensities: vec![1.0; 300],
+            observed: (0..301).map(sample).collect(),
+            ..Stretch::default()
+        };
+        let usual = stretch.clone();
+        let mut parted = Parted::<N>::default();
+        smooth(&model(&usual, prior, correlated), &mut parted);
+        for (steps, factor) in [
+            (0..1, 1e6),
+            (299..300, 1e-3),
+            (3..40, 50.0),
+            (0..300, 0.1),
+            (100..230, 1e-9),
+        ] {
+            stretch.intensities.fill(1.0);
+            stretch.intensities[steps.clone()].fill(factor);
+            let model = model(&stretch, prior, correlated);
+            let found = parted.with_other_steps(&model, &steps);
+            let mut expected = Evidence::default();
+            run::<N>(&model, None, |_, at| expected.add(at));
+            let off = (found.squares - expected.squares).abs() / expected.squares;
+            let logs = (found.log_variances - expected.log_variances).abs();
+            // Rounding of a start as wide as 2e7 σ.
+            assert!(
+                off < 1e-5 && logs < 1e-4,
+                "{steps:?} {factor}: {off} {logs}"
+            );
+            assert_eq!(found.samples, expected.samples);
+        }
+    }
+
+    #[test]
+    fn other_steps_leave_the_likelihood_of_the_whole_filter() {
+        agrees::<3>(TORQUE, None);
+        agrees::<4>(TORQUE, Some(30.0));
+        agrees::<4>(FOLLOWING, None);
+        agrees::<5>(FOLLOWING, Some(30.0));
+    }
+}
