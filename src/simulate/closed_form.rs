@@ -8,8 +8,7 @@ use super::energy_balance::EnergyBalance;
 use super::passages;
 use super::recorder::Recorder;
 use super::result::ErrorEstimate;
-use super::row::{Row, RowSink};
-use super::row_writer::RowSource;
+use super::row::RowSink;
 use super::run_end::{Estimate, RunEnd};
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
@@ -60,7 +59,7 @@ pub(super) fn run<'a>(
     let mut recorder = Recorder::new(task, rows, schedule);
     recorder.rows(&mut motion);
     // The limit itself has no finite velocity.
-    let mut record = recorder.finish(|| blocked.is_none().then(|| motion.row(end)))?;
+    let mut record = recorder.finish(|| blocked.is_none().then(|| motion.row_at(end)))?;
     (record.events, record.events_total) = passages::at_constant_speed(task, end);
     record.trajectory = Some(Trajectory::uniform(start, speed, end));
     let stopped = blocked.map(|_| match equation.linkage().unlocked(friction(task)) {
@@ -113,22 +112,4 @@ fn time_to_limit(task: &RunSetup<'_>, start: Angle, speed: f64) -> Option<f64> {
     let done = (start.rest - from).rem_euclid(TAU);
     let left = if speed > 0.0 { to - from - done } else { done };
     (speed != 0.0).then(|| left / speed.abs())
-}
-
-impl RowSource for ConstantSpeedMotion<'_> {
-    fn times(&self) -> [f64; 2] {
-        [0.0, self.end]
-    }
-
-    fn turned(&mut self, t: f64) -> f64 {
-        self.speed * t
-    }
-
-    fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
-        Some(turned / self.speed)
-    }
-
-    fn row(&mut self, t: f64) -> Row {
-        self.row_at(t)
-    }
 }

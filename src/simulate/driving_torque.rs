@@ -6,6 +6,7 @@ use super::energy_balance::EnergyBalance;
 use super::load_resolution;
 use super::result::TorqueRange;
 use super::row::{Row, RowMaker};
+use super::row_writer::RowSource;
 use super::warning::NoRange;
 use crate::engine::time::MotionState;
 use crate::mechanism::Equation;
@@ -220,6 +221,24 @@ impl ConstantSpeedMotion<'_> {
         let work = integral_by_pieces(from, to, [], &force, 1e-14 * largest);
         let residual = work.map_or(f64::NAN, |work| work - (energy(to) - energy(from)));
         EnergyBalance { residual, largest }
+    }
+}
+
+impl RowSource for ConstantSpeedMotion<'_> {
+    fn times(&self) -> [f64; 2] {
+        [0.0, self.end]
+    }
+
+    fn turned(&mut self, t: f64) -> f64 {
+        self.speed * t
+    }
+
+    fn time_of(&mut self, turned: f64, _: [f64; 2]) -> Option<f64> {
+        Some(turned / self.speed)
+    }
+
+    fn row(&mut self, t: f64) -> Row {
+        self.row_at(t)
     }
 }
 
