@@ -101,8 +101,10 @@ impl Deviations<'_> {
         }
         let mut noise = self.process_noise(node);
         if let Some(decay) = self.correlated {
-            transition[N - 1][N - 1] = (-decay * step.h).exp();
-            noise[N - 1][N - 1] = (1.0 - WHITE_FRACTION) * -(-2.0 * decay * step.h).exp_m1();
+            // e = φ − 1 of the factor φ in a step; 1 − φ² = −e (2 + e).
+            let e = (-decay * step.h).exp_m1();
+            transition[N - 1][N - 1] = 1.0 + e;
+            noise[N - 1][N - 1] = (1.0 - WHITE_FRACTION) * -e * (2.0 + e);
         }
         Step {
             transition,
