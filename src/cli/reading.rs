@@ -38,7 +38,7 @@ pub(super) struct ReadingArguments {
     decimal: String,
     /// What cells without a value contain, like NaN; "" for empty cells. Rows without time or motion are gaps then, and other
     /// sensors may have fewer values. May be given several times
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     missing: Vec<String>,
 }
 

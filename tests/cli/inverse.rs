@@ -862,22 +862,14 @@ fn uncertain_values_of_the_scene_have_their_share() {
 
 #[test]
 fn rows_without_a_value_are_gaps_where_an_option_says_so() {
-    let data = with_row("0.04,NaN");
-    refused(&data, &["data.csv:6:6", "--missing NaN"]);
-    let folder = folder(&data);
-    let arguments = [
-        "inverse",
-        "scene.toml",
-        "data.csv",
-        "--out",
-        "rows.csv",
-        "--missing",
-        "NaN",
-    ];
-    let outcome = folder.run(&arguments).done();
-    assert!(
-        outcome.stdout.contains("1 row without time or theta"),
-        "{outcome:?}"
-    );
-    assert_eq!(folder.read("rows.csv").lines().count(), 12);
+    refused(&with_row("0.04,NaN"), &["data.csv:6:6", "--missing NaN"]);
+    for mark in ["NaN", "", "-999"] {
+        let folder = folder(&with_row(&format!("0.04,{mark}")));
+        let command = ["inverse", "scene.toml", "data.csv", "--out", "rows.csv"];
+        let arguments = [&command[..], &["--missing", mark]].concat();
+        let outcome = folder.run(&arguments).done();
+        let is_said = outcome.stdout.contains("1 row without time or theta");
+        assert!(is_said, "{outcome:?}");
+        assert_eq!(folder.read("rows.csv").lines().count(), 12);
+    }
 }
