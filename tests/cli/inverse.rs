@@ -863,8 +863,8 @@ fn uncertain_values_of_the_scene_have_their_share() {
 #[test]
 fn rows_without_a_value_are_gaps_where_an_option_says_so() {
     refused(&with_row("0.04,NaN"), &["data.csv:6:6", "--missing NaN"]);
-    for mark in ["NaN", "", "-999"] {
-        let folder = folder(&with_row(&format!("0.04,{mark}")));
+    for (mark, cell) in [("NaN", "nan"), ("", ""), ("-999", "-999.00")] {
+        let folder = folder(&with_row(&format!("0.04,{cell}")));
         let command = ["inverse", "scene.toml", "data.csv", "--out", "rows.csv"];
         let arguments = [&command[..], &["--missing", mark]].concat();
         let outcome = folder.run(&arguments).done();

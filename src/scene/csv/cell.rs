@@ -13,13 +13,25 @@ pub(in crate::scene) fn with_point(cell: &str, decimal_comma: bool) -> Option<Co
     }
 }
 
-/// Whether a cell has one of some texts, in any case.
-pub(in crate::scene) fn is_among(texts: &[String], cell: &str) -> bool {
-    texts.iter().any(|text| text.eq_ignore_ascii_case(cell))
-}
-
 /// Remedy for a cell that lacks a value.
 pub(in crate::scene) const LACKS_VALUE: &str = "give a number, or take the row out";
+
+/// What cells without a value contain.
+#[derive(Clone, Debug)]
+pub(in crate::scene) struct Missing {
+    pub texts: Vec<String>,
+    pub decimal_comma: bool,
+}
+
+impl Missing {
+    /// Whether a cell has one of the texts, in any case, or the same number.
+    pub fn is_in(&self, cell: &str) -> bool {
+        let number = |text: &str| parse(text, self.decimal_comma).ok();
+        let is_same = |text: &str| number(text).is_some_and(|mark| number(cell) == Some(mark));
+        let mut texts = self.texts.iter();
+        texts.any(|text| text.eq_ignore_ascii_case(cell) || is_same(text))
+    }
+}
 
 /// Fault of a cell, and its remedy.
 pub(in crate::scene) struct NotANumber {

@@ -91,6 +91,6 @@ pub struct Reading {
     pub skip: usize,
     /// Whether numbers have decimal commas; columns are then separated by semicolon or tab.
     pub decimal_comma: bool,
-    /// Texts of cells without a value, as `NaN`, in any case; `""` for empty cells. Without time or motion a row is a gap.
+    /// Texts or numbers in cells without a value, as `NaN`; `""` for empty cells. Without time or motion a row is a gap.
     pub missing: Vec<String>,
 }

@@ -8,7 +8,7 @@ use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
 use crate::numeric::parallel;
 use crate::scene::csv::Column;
-use crate::scene::csv::cell::{self, LACKS_VALUE, NotANumber};
+use crate::scene::csv::cell::{self, LACKS_VALUE, Missing, NotANumber};
 use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, line_number, span};
 use crate::scene::digits::Digits;
 use crate::scene::number::counted;
@@ -42,12 +42,16 @@ pub(super) fn measurement(
         start: heading.start,
         ..dialect
     };
+    let missing = Missing {
+        texts: reading.missing.clone(),
+        decimal_comma: reading.decimal_comma,
+    };
     let rows = SampleRows {
         text: &text,
         dialect,
         columns: &columns,
         heading: &heading,
-        reading,
+        missing: &missing,
     };
     let samples = rows.samples();
     let mut notes = columns.notes.clone();
@@ -86,7 +90,7 @@ pub(super) fn measurement(
             at: [columns.at[0], columns.at[1]],
             time: columns.time,
             value: columns.value,
-            missing: reading.missing.clone(),
+            missing,
             text,
         }),
         ..Measurement::raw(columns.measured, times, values)
@@ -143,7 +147,7 @@ struct SampleRows<'a> {
     dialect: Dialect,
     columns: &'a Columns,
     heading: &'a Heading<'a>,
-    reading: &'a Reading,
+    missing: &'a Missing,
 }
 
 impl SampleRows<'_> {
@@ -210,14 +214,14 @@ impl SampleRows<'_> {
             };
             return wrong("row", row, what, help);
         }
-        let is_missing = |cell: &&str| cell::is_among(&self.reading.missing, cell);
+        let is_missing = |cell: &&str| self.missing.is_in(cell);
         if found[..2].iter().any(is_missing) {
             let first = Some(span(self.text, row).start);
             return samples.left_out.add(LeftOut { count: 1, first });
         }
         let mut numbers = [f64::NAN; MOST_COLUMNS];
         let mut is_right = true;
-        let decimal_comma = self.reading.decimal_comma;
+        let decimal_comma = self.missing.decimal_comma;
         for (k, cell) in found.iter().enumerate() {
             let parsed = match is_missing(cell) {
                 true if self.columns.is_sensor(k) => continue,

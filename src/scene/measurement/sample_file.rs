@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use crate::scene::csv::Column;
+use crate::scene::csv::cell::Missing;
 use crate::scene::csv::lines::Dialect;
-use crate::scene::csv::{Column, cell};
 
 /// File of the samples, in which messages find lines and cells.
 #[derive(Clone, Debug)]
@@ -16,8 +17,7 @@ pub(super) struct SampleFile {
     pub at: [usize; 2],
     pub time: Column,
     pub value: Column,
-    /// Texts of cells without a value.
-    pub missing: Vec<String>,
+    pub missing: Missing,
 }
 
 impl SampleFile {
@@ -31,8 +31,8 @@ impl SampleFile {
     fn has(&self, row: &str) -> bool {
         let lacks = |at: usize| {
             let cell = self.dialect.cells(row).nth(at);
-            cell.is_some_and(|cell| cell::is_among(&self.missing, cell))
+            cell.is_some_and(|cell| self.missing.is_in(cell))
         };
-        self.missing.is_empty() || !self.at.into_iter().any(lacks)
+        self.missing.texts.is_empty() || !self.at.into_iter().any(lacks)
     }
 }
