@@ -30,10 +30,10 @@ struct Score {
 }
 
 /// Companion of the smoother that collects the scores of all steps, and what parts the stretch at each node.
-struct Scores<const N: usize> {
+pub(super) struct Scores<const N: usize> {
     per_variance: f64,
     list: Vec<Score>,
-    parted: Parted<N>,
+    pub parted: Parted<N>,
 }
 
 impl<const N: usize> Companion<N> for Scores<N> {
@@ -63,7 +63,7 @@ impl<const N: usize> Companion<N> for Scores<N> {
     }
 }
 
-fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Scores<N> {
+pub(super) fn scores<const N: usize>(model: &Deviations<'_>, sigma: f64) -> Scores<N> {
     let mut scores = Scores {
         per_variance: 1.0 / (sigma * sigma),
         list: vec![Score::default(); model.stretch.steps.len()],
