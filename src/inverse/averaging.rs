@@ -1,8 +1,7 @@
 //! Band over all priors and intensities of the process noise: few samples hardly tell whether a torque is steady or varies below
-//! their noise, and the likeliest intensity may be none at all. The motion stays the likeliest one; its covariance is the mean
-//! over priors and intensities by their posterior probability, with the squares of what they make of the motion (Hoeting et al.,
-//! Statist. Sci. 14 (1999) 382). The standard deviation of the process noise has a uniform prior (Gelman, Bayesian Analysis 1
-//! (2006) 515), under which none is no likelier than little.
+//! their noise, and the likeliest intensity may be none at all. The motion stays the likeliest one; its covariance is the mean by
+//! posterior probability, with the squares of what each makes of the motion (Hoeting et al., Statist. Sci. 14 (1999) 382). The
+//! standard deviation of the process noise has a uniform prior (Gelman, Bayesian Analysis 1 (2006) 515).
 
 use super::candidates::Candidate;
 use super::likelihood::Linear;
@@ -10,17 +9,11 @@ use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
 use super::smoother::Smoothed;
+use super::weighed::{Weighed, counting, on_both_sides};
 use crate::numeric::parallel;
 
 /// ln of the odds to the most probable model below which another one does not count.
 const LEAST_LOG_ODDS: f64 = -6.0;
-
-/// Noise with ln of its posterior probability, up to a constant.
-#[derive(Clone, Copy, Debug)]
-struct Weighed {
-    noise: Noise,
-    log: f64,
-}
 
 /// What a prior with one intensity makes of the motion.
 struct Model {
@@ -37,12 +30,19 @@ impl Problem<'_> {
         if self.sampled() != self.all() {
             return smoothed;
         }
-        let mut models = self.over_intensities(&smoothed, &smoothed, 0.0);
+        let linear = self.about_itself(&smoothed);
+        if smoothed.prior.cycle > 0 {
+            let mut path = smoothed.path();
+            smoothed.estimates = self.smoothed_along(&mut path, &linear, &smoothed.noise);
+            smoothed.repeating = path.repeating;
+        }
+        let mut models = self.over_intensities(&linear, &smoothed, &smoothed, 0.0);
         for other in smoothed.contenders() {
             let path = self.path_of(other.prior, &smoothed, self.all());
             let found = self.completed(other.unsmoothed(), path, false);
             if found.converged && found.is_finite() {
-                models.extend(self.over_intensities(&found, &smoothed, smoothed.log_odds(other)));
+                let (linear, odds) = (self.about_itself(&found), smoothed.log_odds(other));
+                models.extend(self.over_intensities(&linear, &found, &smoothed, odds));
             }
         }
         let total: f64 = models.iter().map(|model| model.weight).sum();
@@ -56,15 +56,20 @@ impl Problem<'_> {
         smoothed
     }
 
-    /// Returns the models of the intensities of a prior, whose weights add to its odds to the likeliest one.
-    fn over_intensities(&self, of: &Smoothed, likeliest: &Smoothed, log_odds: f64) -> Vec<Model> {
-        let linear = self.linear(of.prior, of.scales, &of.path(), of.noise.sigma);
-        let weighed = of.posterior(&linear, LEAST_LOG_ODDS - log_odds);
+    /// Returns the models of the intensities of a prior with its linear model, whose weights add to its odds to the likeliest one.
+    fn over_intensities(
+        &self,
+        linear: &Linear,
+        of: &Smoothed,
+        likeliest: &Smoothed,
+        log_odds: f64,
+    ) -> Vec<Model> {
+        let weighed = of.posterior(linear, LEAST_LOG_ODDS - log_odds);
         let total: f64 = weighed.iter().map(|one| one.log.exp()).sum();
         parallel::map(weighed.iter(), |one| {
-            let found = match one.noise.corner == of.noise.corner {
+            let found = match one.value.corner == of.noise.corner {
                 true => &of.estimates,
-                false => &self.smoothed_along(&mut of.path(), &linear, &one.noise),
+                false => &self.smoothed_along(&mut of.path(), linear, &one.value),
             };
             let pairs = found.iter().zip(&likeliest.estimates);
             let squares = pairs
@@ -79,37 +84,26 @@ impl Problem<'_> {
 
 impl Smoothed {
     /// Returns the noises whose corner frequencies count by the least ln of their odds, in steps from the likeliest one.
-    fn posterior(&self, linear: &Linear, least: f64) -> Vec<Weighed> {
+    fn posterior(&self, linear: &Linear, least: f64) -> Vec<Weighed<Noise>> {
         let [lowest, highest] = self.scales.corners().map(f64::ln);
         let likeliest = self.noise.corner.ln();
         // The standard deviation of the process noise goes with this power of the corner frequency.
         let power = (self.prior.order + 2) as f64;
-        let at = |corner: f64| {
-            let mut noise = self.noise;
-            noise.corner = corner;
-            let noise = linear.evaluated(noise);
-            let power = power * (corner.ln() - likeliest);
-            let log = noise.likelihood - self.noise.likelihood + power;
-            Weighed { noise, log }
+        let with = |corner: f64, way: f64| {
+            let value = linear.evaluated(Noise {
+                corner,
+                ..self.noise
+            });
+            let log = value.likelihood - self.noise.likelihood + power * way;
+            Weighed { value, log }
         };
-        let first = at(self.noise.corner);
-        let sides = parallel::map([FIRST_STEP, -FIRST_STEP].into_iter(), |step| {
-            let corners = (1..).map(|k| likeliest + step * f64::from(k));
-            let within = corners.take_while(|corner| (lowest..=highest).contains(corner));
-            let mut most = first.log;
-            let counts = |one: &Weighed| {
-                most = most.max(one.log);
-                one.log > most + least
-            };
-            let found = within.map(|corner| at(corner.exp())).take_while(counts);
-            found.collect::<Vec<_>>()
-        });
-        let mut list: Vec<_> = sides.into_iter().flatten().chain([first]).collect();
-        let logs = list.iter().map(|one| one.log);
-        let most = logs.fold(f64::NEG_INFINITY, f64::max);
-        list.iter_mut().for_each(|one| one.log -= most);
-        list.retain(|one| one.log > least);
-        list
+        let at = |way: f64| {
+            let corner = likeliest + way;
+            let is_within = (lowest..=highest).contains(&corner);
+            is_within.then(|| with(corner.exp(), way))
+        };
+        let first = with(self.noise.corner, 0.0);
+        counting(on_both_sides(first, FIRST_STEP, least, at), least)
     }
 
     /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others might add.

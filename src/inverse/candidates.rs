@@ -82,8 +82,7 @@ impl About {
         };
         Linear {
             stretches: parallel::map(pairs, with).into(),
-            prior,
-            scales: self.linear.scales,
+            ..Linear::of(prior, self.linear.scales)
         }
     }
 }

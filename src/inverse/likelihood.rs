@@ -19,6 +19,8 @@ pub(super) struct Linear {
     pub stretches: Arc<[Stretch]>,
     pub prior: Prior,
     pub scales: Scales,
+    /// Standard deviations of the coefficients of what repeats, in the place of those of one spectrum.
+    pub over_spectra: Option<Arc<[f64]>>,
 }
 
 impl Linear {
@@ -28,6 +30,7 @@ impl Linear {
             stretches: Arc::default(),
             prior,
             scales,
+            over_spectra: None,
         }
     }
 
@@ -75,11 +78,8 @@ impl Linear {
         all
     }
 
-    /// Returns the evidence; with a periodic part, for the spectrum of the noise or else for the likeliest, which is left there.
-    fn evidence(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
-        if self.prior.cycle == 0 {
-            return self.plain(noise);
-        }
+    /// Returns the normal equations of the coefficients of what repeats.
+    fn regression(&self, noise: &Noise) -> Regression {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             with_dimension!(model.dimension(), N => {
@@ -88,16 +88,42 @@ impl Linear {
                 regressed.into_parts().0
             })
         };
-        let regression = Regression::of_all(self.prior, parallel::map(self.stretches.iter(), of));
-        let mut evidence = regression.evidence;
+        Regression::of_all(self.prior, parallel::map(self.stretches.iter(), of))
+    }
+
+    /// What the samples tell without what repeats.
+    fn rest(&self, evidence: &Evidence) -> Rest {
         let starts = self.prior.diffuse() * self.stretches.len();
-        let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         let Scales { known, floor, .. } = self.scales;
-        let rest = Rest {
+        Rest {
             squares: evidence.squares,
-            free,
+            free: (evidence.samples.saturating_sub(starts)).max(1) as f64,
             variances: [known.unwrap_or(floor), known.unwrap_or(f64::INFINITY)].map(|s| s * s),
+        }
+    }
+
+    /// The linear model in which what repeats has all spectra that the samples allow, beside a noise with the likeliest one.
+    pub fn with_all_spectra(self, noise: &Noise) -> Linear {
+        let Some(likeliest) = noise.spectrum.filter(|_| self.prior.cycle > 0) else {
+            return self;
         };
+        let regression = self.regression(noise);
+        let rest = self.rest(&regression.evidence);
+        let over_spectra = regression.over_spectra(likeliest, &rest).map(Arc::from);
+        Linear {
+            over_spectra,
+            ..self
+        }
+    }
+
+    /// Returns the evidence; with a periodic part, for the spectrum of the noise or else for the likeliest, which is left there.
+    fn evidence(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
+        if self.prior.cycle == 0 {
+            return self.plain(noise);
+        }
+        let regression = self.regression(noise);
+        let mut evidence = regression.evidence;
+        let rest = self.rest(&evidence);
         let found = match noise.spectrum {
             Some(spectrum) => regression.solved(spectrum).map(|found| (spectrum, found)),
             None => regression.likeliest(near, &rest),

@@ -67,7 +67,10 @@ impl Problem<'_> {
             .unzip();
         let to = Regression::of_all(prior, equations);
         let spectrum = noise.spectrum.filter(|_| prior.cycle > 0);
-        let posterior = spectrum.and_then(|spectrum| to.solved(spectrum));
+        let posterior = match &linear.over_spectra {
+            Some(deviations) => to.solved_with(deviations.to_vec()),
+            None => spectrum.and_then(|spectrum| to.solved(spectrum)),
+        };
         // Factor A of the covariance Aᵀ A of the coefficients.
         let found = posterior.map(|found| (found.factor(), found));
         let estimated = |(range, (mut deviations, mut innovations, derivatives)): (

@@ -84,6 +84,7 @@ mod shared_errors;
 mod simpler_models;
 mod smoother;
 mod span;
+mod spectra;
 mod state_space;
 mod stretch_search;
 mod summary;
@@ -91,6 +92,7 @@ mod transition;
 mod typical_sizes;
 mod unwrap;
 mod warnings;
+mod weighed;
 
 pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};

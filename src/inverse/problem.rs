@@ -176,8 +176,7 @@ impl<'a> Problem<'a> {
     pub fn linear(&self, prior: Prior, scales: Scales, path: &Path, sigma: f64) -> Linear {
         Linear {
             stretches: self.stretches(prior, path, sigma).into(),
-            prior,
-            scales,
+            ..Linear::of(prior, scales)
         }
     }
 

@@ -15,20 +15,20 @@ pub(super) const ROWS_AT_ONCE: usize = 128;
 const BLOCK: usize = 64;
 
 /// Least and largest order of the periodic process: its torque is continuous, and as smooth as a prior's at most.
-const ORDERS: [f64; 2] = [1.0, 3.0];
+pub(super) const ORDERS: [f64; 2] = [1.0, 3.0];
 
 /// Variances of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spectrum {
     /// ln of s, N m in units of σ
-    log_size: f64,
+    pub log_size: f64,
     /// Order m of the periodic Wiener process; between whole numbers a fractional one.
-    order: f64,
+    pub order: f64,
 }
 
 impl Spectrum {
     /// Standard deviation of each coefficient in units of σ.
-    fn deviations(self, prior: Prior) -> Vec<f64> {
+    pub fn deviations(self, prior: Prior) -> Vec<f64> {
         let of = |log: f64| (self.log_size - self.order * log).exp();
         log_harmonics(prior).map(of).collect()
     }
@@ -60,13 +60,13 @@ pub(super) struct Rest {
 
 impl Rest {
     /// The likeliest variance of a sample, given the coefficients.
-    fn variance(&self, found: &Posterior) -> f64 {
+    pub fn variance(&self, found: &Posterior) -> f64 {
         let [least, largest] = self.variances;
         ((self.squares - found.fall) / self.free).clamp(least, largest)
     }
 
     /// ln of the likelihood, up to what no spectrum changes.
-    fn likelihood(&self, found: &Posterior) -> f64 {
+    pub fn likelihood(&self, found: &Posterior) -> f64 {
         let (variance, squares) = (self.variance(found), self.squares - found.fall);
         -0.5 * (self.free * variance.ln() + squares / variance + found.log_determinant)
     }
@@ -75,7 +75,7 @@ impl Rest {
 /// Normal equations of the coefficients: Σ EᵀE/S, of which the lower triangle is kept, and −Σ Eᵀe/S.
 #[derive(Clone, Debug)]
 pub(super) struct Regression {
-    prior: Prior,
+    pub prior: Prior,
     /// Likelihood terms without the periodic part.
     pub evidence: Evidence,
     information: DMatrix<f64>,
@@ -177,7 +177,7 @@ impl Regression {
 
     /// The scoring step of ln s and m: with the shares H = I − (I + D½ information D½)⁻¹ that the samples have in the
     /// coefficients β, the score of ln of each deviation is β²/(σ² D) − H, with the covariance 2 H² of each two.
-    fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Option<Scoring> {
+    pub fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Option<Scoring> {
         let factor = inverse_of_lower(&found.lower)?;
         let left = factor.transpose() * factor;
         let logs: Vec<f64> = log_harmonics(self.prior).collect();
@@ -204,13 +204,21 @@ impl Regression {
             _ => both,
         };
         let rise = 0.5 * (slope[0] * change[0] + slope[1] * change[1]);
-        Some(Scoring { change, rise })
+        Some(Scoring {
+            change,
+            rise,
+            information,
+        })
     }
 
-    /// The coefficients given the samples.
+    /// The coefficients given the samples, by a spectrum.
     pub fn solved(&self, spectrum: Spectrum) -> Option<Posterior> {
+        self.solved_with(spectrum.deviations(self.prior))
+    }
+
+    /// The coefficients given the samples, by their standard deviations before.
+    pub fn solved_with(&self, deviations: Vec<f64>) -> Option<Posterior> {
         let count = self.score.len();
-        let deviations = spectrum.deviations(self.prior);
         let scaled = DMatrix::from_fn(count, count, |i, j| {
             let unit = if i == j { 1.0 } else { 0.0 };
             unit + deviations[i] * self.information[(i, j)] * deviations[j]
@@ -231,9 +239,11 @@ impl Regression {
 
 /// Change of ln s and m, and the rise of ln of the likelihood that it promises.
 #[derive(Clone, Copy, Debug)]
-struct Scoring {
+pub(super) struct Scoring {
     change: [f64; 2],
     rise: f64,
+    /// Fisher's information of ln s, of both, and of m.
+    pub information: [f64; 3],
 }
 
 /// The coefficients given the samples, in units of σ.
@@ -244,6 +254,7 @@ pub(super) struct Posterior {
     /// ln |I + D½ information D½|
     pub log_determinant: f64,
     pub coefficients: Vec<f64>,
+    /// Standard deviations before the samples.
     deviations: Vec<f64>,
     /// Lower factor of Cholesky.
     lower: DMatrix<f64>,

@@ -4,6 +4,7 @@
 use super::candidates::Candidate;
 use super::estimate::Estimate;
 use super::grid::Path;
+use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
@@ -81,6 +82,17 @@ impl Problem<'_> {
             }
         }
         whole
+    }
+
+    /// The linear model of a smoothed motion about its own path, with all spectra of what repeats.
+    pub fn about_itself(&self, smoothed: &Smoothed) -> Linear {
+        let Candidate {
+            prior,
+            noise,
+            scales,
+        } = smoothed.candidate();
+        let linear = self.linear(prior, scales, &smoothed.path(), noise.sigma);
+        linear.with_all_spectra(&noise)
     }
 
     /// The smoothed motion with the likeliest prior.

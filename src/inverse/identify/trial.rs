@@ -74,8 +74,7 @@ impl<'a> Trials<'a> {
     pub fn model(&self, values: &[f64], path: &Path, sigma: f64) -> Result<Linear, Error> {
         self.with(values, |problem| Linear {
             stretches: vec![problem.stretch(TORQUE, path, 0..problem.grid.len(), sigma)].into(),
-            prior: TORQUE,
-            scales: self.scales,
+            ..Linear::of(TORQUE, self.scales)
         })
     }
 
