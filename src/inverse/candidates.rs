@@ -6,7 +6,7 @@ use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
-use super::prior::{FOLLOWING, LADDERS, Prior, SMOOTH, TORQUE};
+use super::prior::{FOLLOWING, LADDERS, Prior, TORQUE};
 use super::problem::Problem;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
@@ -136,9 +136,7 @@ impl Problem<'_> {
         let abouts = parallel::map(LADDERS.iter(), |ladder| self.about(ladder[0], kinematic));
         let ladders = abouts.iter().zip(LADDERS);
         let pairs = ladders.flat_map(|(about, ladder)| ladder.iter().map(move |one| (about, one)));
-        let is_computed = self.record.is_computed();
-        let some = pairs.filter(|(_, prior)| is_computed || **prior != SMOOTH);
-        let plain = parallel::map(some, |(about, prior)| {
+        let plain = parallel::map(pairs, |(about, prior)| {
             let first = Noise::white(kinematic.noise.corner);
             about.of(*prior).candidate(first, f64::NEG_INFINITY)
         });

@@ -12,7 +12,6 @@ use super::matrix::{Matrix, product, times};
 use super::maximum::ENOUGH_RISE;
 use super::outliers;
 use super::parted::Parted;
-use super::prior::SMOOTH;
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use super::span::{Intensities, Span};
@@ -148,10 +147,10 @@ impl Problem<'_> {
         if self.judges_again(&best) {
             best = self.likeliest_of_all(kinematic, suspected);
         }
-        // Periodic priors, smooth torques, noise below that of instruments and long records represented by stretches have no
+        // Periodic priors, computed samples, noise below that of instruments and long records represented by stretches have no
         // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
         while best.prior.cycle == 0
-            && best.prior != SMOOTH
+            && !self.record.is_computed()
             && best.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
         {

@@ -95,11 +95,12 @@ impl Prior {
             (0, 0) => match (self.unknown, self.order) {
                 (Unknown::Acceleration, 3) => "angle with white crackle, without mechanics",
                 (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
-                (Unknown::Torque, 3) => "torque as a twice integrated Wiener process",
                 (Unknown::Torque, 1) => "torque as a Wiener process",
-                (Unknown::Torque, _) => "torque as an integrated Wiener process",
+                (Unknown::Torque, 2) => "torque as an integrated Wiener process",
+                (Unknown::Torque, _) => "torque as a twice integrated Wiener process",
                 (Unknown::Force, 1) => "force as a Wiener process",
-                (Unknown::Force, _) => "force as an integrated Wiener process",
+                (Unknown::Force, 2) => "force as an integrated Wiener process",
+                (Unknown::Force, _) => "force as a twice integrated Wiener process",
             },
             (0, 1) => "torque that follows the speed, and a Wiener process",
             (0, _) => "torque that follows the speed and its square, and a Wiener process",
@@ -122,9 +123,6 @@ pub(super) const WITHOUT_MECHANICS: &[Prior] = &[KINEMATIC, Prior::new(Unknown::
 /// A torque as a Wiener process.
 pub(super) const TORQUE: Prior = Prior::new(Unknown::Torque, 1);
 
-/// The torque of computed samples, in which a force is smoother than its prior.
-pub(super) const SMOOTH: Prior = Prior::new(Unknown::Torque, 3);
-
 /// A torque in proportion to the speed, and a Wiener process.
 pub(super) const FOLLOWING: Prior = Prior {
     powers: 1,
@@ -139,8 +137,16 @@ pub(super) const QUADRATIC: Prior = Prior {
 
 /// All priors without a part that repeats, in lists of one unknown.
 pub(super) const LADDERS: [&[Prior]; 4] = [
-    &[Prior::new(Unknown::Force, 1), Prior::new(Unknown::Force, 2)],
-    &[TORQUE, Prior::new(Unknown::Torque, 2), SMOOTH],
+    &[
+        Prior::new(Unknown::Force, 1),
+        Prior::new(Unknown::Force, 2),
+        Prior::new(Unknown::Force, 3),
+    ],
+    &[
+        TORQUE,
+        Prior::new(Unknown::Torque, 2),
+        Prior::new(Unknown::Torque, 3),
+    ],
     &[FOLLOWING, QUADRATIC],
     WITHOUT_MECHANICS,
 ];
