@@ -150,9 +150,9 @@ impl Problem<'_> {
         // Periodic priors, computed samples, noise below that of instruments and long records represented by stretches have no
         // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
         while best.prior.cycle == 0
-            && !self.record.is_computed()
             && best.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
+            && !self.record.is_computed()
         {
             let sites = self.sites();
             let before = std::mem::take(&mut self.intensities);
