@@ -7,12 +7,6 @@
 use super::regression::{ORDERS, Regression, Rest, Spectrum};
 use super::weighed::{Weighed, counting, most, on_both_sides};
 
-/// A spectrum of the grid, with the variance of a sample.
-struct Member {
-    spectrum: Spectrum,
-    variance: f64,
-}
-
 /// A grid about the likeliest spectrum, in lines of one order each.
 struct Grid<'a> {
     of: &'a Regression,
@@ -26,21 +20,20 @@ struct Grid<'a> {
 }
 
 impl Regression {
-    /// Returns the standard deviations of the coefficients before the samples, over that of a sample: roots of the means of
-    /// their variances over all spectra, of which one is the likeliest.
+    /// Returns the standard deviations of the coefficients before the samples, in units of σ: roots of the means of their
+    /// variances over all spectra, of which one is the likeliest.
     pub fn over_spectra(&self, likeliest: Spectrum, rest: &Rest) -> Option<Vec<f64>> {
         let found = self.solved(likeliest)?;
-        let variance = rest.variance(&found);
-        let information = self.scoring(&found, variance, likeliest)?.information;
-        let list = Grid::new(self, rest, information).spectra(likeliest);
+        let scoring = self.scoring(&found, rest.variance(&found), likeliest)?;
+        let list = Grid::new(self, rest, scoring.information).spectra(likeliest);
         let total: f64 = list.iter().map(|one| one.log.exp()).sum();
         if total == 0.0 {
             return None;
         }
         let mut sums = vec![0.0; self.prior.coefficients()];
         for one in list {
-            let share = one.log.exp() / total * one.value.variance / variance;
-            let deviations = one.value.spectrum.deviations(self.prior);
+            let share = one.log.exp() / total;
+            let deviations = one.value.deviations(self.prior);
             let pairs = sums.iter_mut().zip(deviations);
             pairs.for_each(|(sum, deviation)| *sum += share * deviation * deviation);
         }
@@ -51,7 +44,8 @@ impl Regression {
 impl<'a> Grid<'a> {
     /// A grid, from Fisher's information of ln s, of both, and of m.
     fn new(of: &'a Regression, rest: &'a Rest, [a, b, c]: [f64; 3]) -> Grid<'a> {
-        // The sum over a normal density in such steps errs by 3e-4.
+        // The sum over a normal density in such steps errs by 3e-4. Where the samples tell little, a step is a factor of e at
+        // most, and a quarter of all orders.
         let step = |information: f64| 1.5 / information.max(0.0).sqrt();
         Grid {
             of,
@@ -64,7 +58,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns the spectra that count.
-    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<Member>> {
+    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<Spectrum>> {
         let mut list = self.line(likeliest);
         for step in [self.steps[1], -self.steps[1]] {
             let mut last = likeliest;
@@ -74,7 +68,7 @@ impl<'a> Grid<'a> {
                     break;
                 };
                 let counts = best.log > most(&list) + self.least;
-                last = best.value.spectrum;
+                last = best.value;
                 list.extend(line);
                 if !counts {
                     break;
@@ -93,7 +87,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns the spectra of the order of one that count among them.
-    fn line(&self, first: Spectrum) -> Vec<Weighed<Member>> {
+    fn line(&self, first: Spectrum) -> Vec<Weighed<Spectrum>> {
         let at = |way: f64| {
             self.at(Spectrum {
                 log_size: first.log_size + way,
@@ -105,11 +99,10 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns a spectrum with its probability.
-    fn at(&self, spectrum: Spectrum) -> Option<Weighed<Member>> {
+    fn at(&self, spectrum: Spectrum) -> Option<Weighed<Spectrum>> {
         let found = self.of.solved(spectrum)?;
         let log = self.rest.likelihood(&found) + spectrum.log_size;
-        let variance = self.rest.variance(&found);
-        let value = Member { spectrum, variance };
+        let value = spectrum;
         log.is_finite().then_some(Weighed { value, log })
     }
 }
@@ -139,7 +132,7 @@ mod tests {
             let determinants = covariance.determinant() * inverse.determinant();
             let weight = determinants.sqrt() * variance.powf(-0.5 * free) * log_size.exp();
             total += weight;
-            sum += before * (weight * variance);
+            sum += before * weight;
         }
         sum / total
     }
@@ -167,16 +160,13 @@ mod tests {
             free: 57.0,
             variances: [1e-6, f64::INFINITY],
         };
-        let (likeliest, found) = regression.likeliest(None, &rest).expect("a spectrum");
+        let (likeliest, _) = regression.likeliest(None, &rest).expect("a spectrum");
         let over = regression
             .over_spectra(likeliest, &rest)
             .expect("deviations");
         let means = by_brute_force(&rows, &errors, rest.free);
         // Where the orders end, the coarse grid may have a line of one on their bound.
-        let close = |deviation: f64, j: usize| {
-            let ratio = deviation * rest.variance(&found).sqrt() / means[j].sqrt();
-            (ratio - 1.0).abs() < 0.15
-        };
+        let close = |deviation: f64, j: usize| (deviation / means[j].sqrt() - 1.0).abs() < 0.15;
         let alone = likeliest.deviations(of);
         assert!((0..of.coefficients()).all(|j| close(over[j], j)));
         assert!((0..of.coefficients()).any(|j| !close(alone[j], j)));
