@@ -39,9 +39,12 @@ impl Problem<'_> {
         let mut models = self.over_intensities(&linear, &smoothed, &smoothed, 0.0);
         for other in smoothed.contenders() {
             let path = self.path_of(other.prior, &smoothed, self.all());
-            let found = self.completed(other.unsmoothed(), path, false);
+            let mut found = self.completed(other.unsmoothed(), path, false);
             if found.converged && found.is_finite() {
-                let (linear, odds) = (self.about_itself(&found), smoothed.log_odds(other));
+                let linear = self.about_itself(&found);
+                // The path by which priors were compared may be far from theirs.
+                found.noise = linear.evaluated(found.noise);
+                let odds = (found.noise.likelihood - smoothed.noise.likelihood).min(0.0);
                 models.extend(self.over_intensities(&linear, &found, &smoothed, odds));
             }
         }

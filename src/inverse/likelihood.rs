@@ -92,7 +92,7 @@ impl Linear {
     }
 
     /// What the samples tell without what repeats.
-    fn rest(&self, evidence: &Evidence) -> Rest {
+    pub fn rest(&self, evidence: &Evidence) -> Rest {
         let starts = self.prior.diffuse() * self.stretches.len();
         let Scales { known, floor, .. } = self.scales;
         Rest {
@@ -125,13 +125,15 @@ impl Linear {
         let mut evidence = regression.evidence;
         let rest = self.rest(&evidence);
         let found = match noise.spectrum {
-            Some(spectrum) => regression.solved(spectrum).map(|found| (spectrum, found)),
+            Some(spectrum) => regression
+                .solved(spectrum, &rest)
+                .map(|found| (spectrum, found)),
             None => regression.likeliest(near, &rest),
         };
         noise.spectrum = found.as_ref().map(|(spectrum, _)| *spectrum);
         if let Some((_, found)) = found {
             evidence.squares -= found.fall;
-            evidence.log_variances += found.log_determinant;
+            evidence.log_variances += found.log_determinant + 2.0 * found.price;
         }
         evidence
     }

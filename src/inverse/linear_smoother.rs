@@ -69,7 +69,7 @@ impl Problem<'_> {
         let spectrum = noise.spectrum.filter(|_| prior.cycle > 0);
         let posterior = match &linear.over_spectra {
             Some(deviations) => to.solved_with(deviations.to_vec()),
-            None => spectrum.and_then(|spectrum| to.solved(spectrum)),
+            None => spectrum.and_then(|spectrum| to.solved(spectrum, &linear.rest(&to.evidence))),
         };
         // Factor A of the covariance Aᵀ A of the coefficients.
         let found = posterior.map(|found| (found.factor(), found));

@@ -52,6 +52,7 @@ mod likelihood;
 mod limit;
 mod linear_smoother;
 mod linearised;
+mod lines;
 mod links;
 mod matrix;
 mod maximum;

@@ -27,10 +27,15 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
+    /// Standard deviation of the coefficients of a harmonic, from index 0, in units of σ.
+    pub fn deviation(self, harmonic: usize) -> f64 {
+        (self.log_size - self.order * log(harmonic)).exp()
+    }
+
     /// Standard deviation of each coefficient in units of σ.
     pub fn deviations(self, prior: Prior) -> Vec<f64> {
-        let of = |log: f64| (self.log_size - self.order * log).exp();
-        log_harmonics(prior).map(of).collect()
+        let of = |j: usize| self.deviation(j / prior.of_harmonic());
+        (0..prior.coefficients()).map(of).collect()
     }
 
     /// Returns the spectrum after a step along ln s and m, within the bounds of both.
@@ -42,9 +47,9 @@ impl Spectrum {
     }
 }
 
-/// ln of one plus the index of the harmonic of each coefficient.
-fn log_harmonics(prior: Prior) -> impl Iterator<Item = f64> {
-    (0..prior.coefficients()).map(move |j| (1.0 + (j / prior.of_harmonic()) as f64).ln())
+/// ln of the number of a harmonic, from index 0.
+pub(super) fn log(harmonic: usize) -> f64 {
+    ((1 + harmonic) as f64).ln()
 }
 
 /// Evidence of the samples without the periodic part, to which that part adds.
@@ -69,6 +74,7 @@ impl Rest {
     pub fn likelihood(&self, found: &Posterior) -> f64 {
         let (variance, squares) = (self.variance(found), self.squares - found.fall);
         -0.5 * (self.free * variance.ln() + squares / variance + found.log_determinant)
+            - found.price
     }
 }
 
@@ -142,7 +148,7 @@ impl Regression {
         let least = -0.5 * self.information.diagonal().max().ln();
         let sizes = [least - 2.0, least + 30.0];
         let mut now = near.unwrap_or_else(|| self.likeliest_of_middle(sizes, rest));
-        let mut found = self.solved(now)?;
+        let mut found = self.solved(now, rest)?;
         loop {
             let step = self.scoring(&found, rest.variance(&found), now)?;
             let mut part = 1.0;
@@ -151,7 +157,7 @@ impl Regression {
                     return Some((now, found));
                 }
                 let next = now.moved(step.change.map(|change| part * change), sizes);
-                match self.solved(next) {
+                match self.solved(next, rest) {
                     Some(other) if rest.likelihood(&other) > rest.likelihood(&found) => {
                         (now, found) = (next, other);
                         break;
@@ -169,7 +175,7 @@ impl Regression {
             order: 0.5 * (ORDERS[0] + ORDERS[1]),
         };
         let value = |log: f64| {
-            let found = self.solved(with(log));
+            let found = self.solved_with(with(log).deviations(self.prior));
             found.map_or(f64::NEG_INFINITY, |found| rest.likelihood(&found))
         };
         with(largest_to(value, sizes, 1.0).0)
@@ -178,15 +184,18 @@ impl Regression {
     /// The scoring step of ln s and m: with the shares H = I − (I + D½ information D½)⁻¹ that the samples have in the
     /// coefficients β, the score of ln of each deviation is β²/(σ² D) − H, with the covariance 2 H² of each two.
     pub fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Option<Scoring> {
-        let factor = inverse_of_lower(&found.lower)?;
+        let factor = inverse_of_lower(&found.lower);
         let left = factor.transpose() * factor;
-        let logs: Vec<f64> = log_harmonics(self.prior).collect();
+        // Those that stand out of the spectrum have a deviation of their own.
+        let of = |j: usize| j / self.prior.of_harmonic();
+        let smooth = (0..left.ncols()).filter(|j| found.deviations[*j] == at.deviation(of(*j)));
+        let logs: Vec<(usize, f64)> = smooth.map(|j| (j, log(of(j)))).collect();
         let (mut slope, mut information) = ([0.0; 2], [0.0; 3]);
-        for (j, log) in logs.iter().enumerate() {
+        for &(j, log) in &logs {
             let size = found.coefficients[j] / found.deviations[j];
             let score = size * size / variance - (1.0 - left[(j, j)]);
             slope = [slope[0] + score, slope[1] - log * score];
-            for (i, other) in logs.iter().enumerate() {
+            for &(i, other) in &logs {
                 let unit = if i == j { 1.0 } else { 0.0 };
                 let square = 2.0 * (unit - left[(i, j)]).powi(2);
                 let parts = [square, -square * log, square * log * other];
@@ -211,11 +220,6 @@ impl Regression {
         })
     }
 
-    /// The coefficients given the samples, by a spectrum.
-    pub fn solved(&self, spectrum: Spectrum) -> Option<Posterior> {
-        self.solved_with(spectrum.deviations(self.prior))
-    }
-
     /// The coefficients given the samples, by their standard deviations before.
     pub fn solved_with(&self, deviations: Vec<f64>) -> Option<Posterior> {
         let count = self.score.len();
@@ -231,6 +235,7 @@ impl Regression {
             fall: right.dot(&solved),
             log_determinant: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
             coefficients: (0..count).map(|j| deviations[j] * solved[j]).collect(),
+            price: 0.0,
             deviations,
             lower,
         })
@@ -254,8 +259,10 @@ pub(super) struct Posterior {
     /// ln |I + D½ information D½|
     pub log_determinant: f64,
     pub coefficients: Vec<f64>,
+    /// What the harmonics that stand out cost of ln of the likelihood.
+    pub price: f64,
     /// Standard deviations before the samples.
-    deviations: Vec<f64>,
+    pub deviations: Vec<f64>,
     /// Lower factor of Cholesky.
     lower: DMatrix<f64>,
 }
@@ -284,9 +291,7 @@ impl Posterior {
 
     /// A factor A of the covariance Aᵀ A.
     pub fn factor(&self) -> DMatrix<f64> {
-        let count = self.coefficients.len();
-        let mut factor =
-            inverse_of_lower(&self.lower).unwrap_or_else(|| DMatrix::identity(count, count));
+        let mut factor = inverse_of_lower(&self.lower);
         let pairs = factor.column_iter_mut().zip(&self.deviations);
         pairs.for_each(|(mut column, deviation)| column *= *deviation);
         factor

@@ -19,11 +19,17 @@ struct Grid<'a> {
     least: f64,
 }
 
+/// A spectrum with the standard deviations of the coefficients by it and by what stands out of it.
+struct Tried {
+    spectrum: Spectrum,
+    deviations: Vec<f64>,
+}
+
 impl Regression {
     /// Returns the standard deviations of the coefficients before the samples, in units of σ: roots of the means of their
     /// variances over all spectra, of which one is the likeliest.
     pub fn over_spectra(&self, likeliest: Spectrum, rest: &Rest) -> Option<Vec<f64>> {
-        let found = self.solved(likeliest)?;
+        let found = self.solved(likeliest, rest)?;
         let scoring = self.scoring(&found, rest.variance(&found), likeliest)?;
         let list = Grid::new(self, rest, scoring.information).spectra(likeliest);
         let total: f64 = list.iter().map(|one| one.log.exp()).sum();
@@ -33,8 +39,7 @@ impl Regression {
         let mut sums = vec![0.0; self.prior.coefficients()];
         for one in list {
             let share = one.log.exp() / total;
-            let deviations = one.value.deviations(self.prior);
-            let pairs = sums.iter_mut().zip(deviations);
+            let pairs = sums.iter_mut().zip(one.value.deviations);
             pairs.for_each(|(sum, deviation)| *sum += share * deviation * deviation);
         }
         Some(sums.into_iter().map(f64::sqrt).collect())
@@ -58,7 +63,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns the spectra that count.
-    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<Spectrum>> {
+    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<Tried>> {
         let mut list = self.line(likeliest);
         for step in [self.steps[1], -self.steps[1]] {
             let mut last = likeliest;
@@ -68,7 +73,7 @@ impl<'a> Grid<'a> {
                     break;
                 };
                 let counts = best.log > most(&list) + self.least;
-                last = best.value;
+                last = best.value.spectrum;
                 list.extend(line);
                 if !counts {
                     break;
@@ -87,7 +92,7 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns the spectra of the order of one that count among them.
-    fn line(&self, first: Spectrum) -> Vec<Weighed<Spectrum>> {
+    fn line(&self, first: Spectrum) -> Vec<Weighed<Tried>> {
         let at = |way: f64| {
             self.at(Spectrum {
                 log_size: first.log_size + way,
@@ -99,10 +104,14 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns a spectrum with its probability.
-    fn at(&self, spectrum: Spectrum) -> Option<Weighed<Spectrum>> {
-        let found = self.of.solved(spectrum)?;
+    fn at(&self, spectrum: Spectrum) -> Option<Weighed<Tried>> {
+        let found = self.of.solved(spectrum, self.rest)?;
         let log = self.rest.likelihood(&found) + spectrum.log_size;
-        let value = spectrum;
+        let deviations = found.deviations;
+        let value = Tried {
+            spectrum,
+            deviations,
+        };
         log.is_finite().then_some(Weighed { value, log })
     }
 }

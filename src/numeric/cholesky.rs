@@ -17,7 +17,7 @@ pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
         block.gemm(-1.0, &known.rows(first, left), &beside, 1.0);
         let lower = Cholesky::new(block.rows(0, size).into_owned())?.l();
         block.rows_mut(0, size).copy_from(&lower);
-        let inverse = lower.solve_lower_triangular(&DMatrix::identity(size, size))?;
+        let inverse = inverse_of_block(&lower);
         let under = block.rows(size, below) * inverse.transpose();
         block.rows_mut(size, below).copy_from(&under);
     }
@@ -25,15 +25,15 @@ pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<Cholesky<f64, Dyn>> {
 }
 
 /// Returns the inverse of a lower triangular matrix, by halves.
-pub(crate) fn inverse_of_lower(lower: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(crate) fn inverse_of_lower(lower: &DMatrix<f64>) -> DMatrix<f64> {
     let order = lower.nrows();
     if order <= BLOCK {
-        return lower.solve_lower_triangular(&DMatrix::identity(order, order));
+        return inverse_of_block(lower);
     }
     let (first, rest) = (order / 2, order - order / 2);
     let square = |at: usize, size: usize| lower.view((at, at), (size, size)).into_owned();
-    let above = inverse_of_lower(&square(0, first))?;
-    let below = inverse_of_lower(&square(first, rest))?;
+    let above = inverse_of_lower(&square(0, first));
+    let below = inverse_of_lower(&square(first, rest));
     let beside = &below * (lower.view((first, 0), (rest, first)) * &above);
     let mut inverse = DMatrix::zeros(order, order);
     inverse.view_mut((0, 0), (first, first)).copy_from(&above);
@@ -43,7 +43,31 @@ pub(crate) fn inverse_of_lower(lower: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     inverse
         .view_mut((first, first), (rest, rest))
         .copy_from(&below);
-    Some(inverse)
+    inverse
+}
+
+/// Returns the inverse of a lower triangular matrix, column by column.
+fn inverse_of_block(lower: &DMatrix<f64>) -> DMatrix<f64> {
+    let order = lower.nrows();
+    let mut inverse = DMatrix::identity(order, order);
+    for (first, column) in inverse
+        .as_mut_slice()
+        .chunks_exact_mut(order.max(1))
+        .enumerate()
+    {
+        for (k, factors) in lower
+            .as_slice()
+            .chunks_exact(order.max(1))
+            .enumerate()
+            .skip(first)
+        {
+            column[k] /= factors[k];
+            let known = column[k];
+            let pairs = column[k + 1..].iter_mut().zip(&factors[k + 1..]);
+            pairs.for_each(|(value, factor)| *value -= factor * known);
+        }
+    }
+    inverse
 }
 
 #[cfg(test)]
@@ -58,7 +82,7 @@ mod tests {
             let lower = cholesky(matrix.clone()).expect("positive definite").l();
             let off = (&lower * lower.transpose() - &matrix).amax();
             assert!(off < 1e-13 * matrix.amax(), "{order}: {off}");
-            let inverse = inverse_of_lower(&lower).expect("regular");
+            let inverse = inverse_of_lower(&lower);
             let off = (inverse * lower - DMatrix::identity(order, order)).amax();
             assert!(off < 1e-11, "{order}: {off}");
             assert!(cholesky(matrix - DMatrix::identity(order, order) * 2.0).is_none());
