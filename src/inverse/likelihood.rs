@@ -1,6 +1,7 @@
 //! Marginal likelihood of a prior (prediction error decomposition with a diffuse start, that is REML), maximised over the
 //! intensity of its noise; the variance of a sample is profiled out.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::fixed_interval::Companion;
@@ -9,6 +10,7 @@ use super::periodic::Regressed;
 use super::prior::{Prior, State};
 use super::regression::{Regression, Rest, Spectrum};
 use super::scales::{Noise, Scales};
+use super::spectra::OverSpectra;
 use super::state_space::{Deviations, Stretch, with_dimension};
 use crate::numeric::parallel;
 
@@ -20,7 +22,7 @@ pub(super) struct Linear {
     pub prior: Prior,
     pub scales: Scales,
     /// Standard deviations of the coefficients of what repeats, in the place of those of one spectrum.
-    pub over_spectra: Option<Arc<[f64]>>,
+    pub over_spectra: Option<Arc<OverSpectra>>,
 }
 
 impl Linear {
@@ -95,10 +97,14 @@ impl Linear {
     pub fn rest(&self, evidence: &Evidence) -> Rest {
         let starts = self.prior.diffuse() * self.stretches.len();
         let Scales { known, floor, .. } = self.scales;
+        let turn = f64::from(self.prior.cycle) * TAU / self.scales.speed;
+        let free = (evidence.samples.saturating_sub(starts)).max(1) as f64;
         Rest {
             squares: evidence.squares,
-            free: (evidence.samples.saturating_sub(starts)).max(1) as f64,
+            free,
+            cost: free.ln(),
             variances: [known.unwrap_or(floor), known.unwrap_or(f64::INFINITY)].map(|s| s * s),
+            waves: (0.5 * turn / self.scales.spacing) as usize,
         }
     }
 
@@ -109,7 +115,7 @@ impl Linear {
         };
         let regression = self.regression(noise);
         let rest = self.rest(&regression.evidence);
-        let over_spectra = regression.over_spectra(likeliest, &rest).map(Arc::from);
+        let over_spectra = regression.over_spectra(likeliest, &rest).map(Arc::new);
         Linear {
             over_spectra,
             ..self
@@ -133,7 +139,7 @@ impl Linear {
         noise.spectrum = found.as_ref().map(|(spectrum, _)| *spectrum);
         if let Some((_, found)) = found {
             evidence.squares -= found.fall;
-            evidence.log_variances += found.log_determinant + 2.0 * found.price;
+            evidence.log_variances += found.penalty;
         }
         evidence
     }

@@ -67,12 +67,14 @@ impl Problem<'_> {
             .unzip();
         let to = Regression::of_all(prior, equations);
         let spectrum = noise.spectrum.filter(|_| prior.cycle > 0);
-        let posterior = match &linear.over_spectra {
-            Some(deviations) => to.solved_with(deviations.to_vec()),
+        let over = linear.over_spectra.as_ref();
+        let posterior = match over {
+            Some(over) => to.solved_with(over.told.clone()),
             None => spectrum.and_then(|spectrum| to.solved(spectrum, &linear.rest(&to.evidence))),
         };
+        let with_hidden = over.and_then(|over| to.solved_with(over.all.clone()));
         // Factor A of the covariance Aᵀ A of the coefficients.
-        let found = posterior.map(|found| (found.factor(), found));
+        let found = posterior.map(|found| (with_hidden.as_ref().unwrap_or(&found).factor(), found));
         let estimated = |(range, (mut deviations, mut innovations, derivatives)): (
             &Range<usize>,
             (Vec<_>, Vec<_>, Option<Derivatives>),

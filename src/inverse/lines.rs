@@ -1,10 +1,12 @@
 //! Harmonics that stand out of a smooth spectrum, as those of cogging and of meshing teeth do.
 //!
-//! Such a harmonic has the standard deviation s/kᵖ with an order p of its own, uniform between that of the spectrum and its
-//! negative: it may be as far above the first harmonic as the spectrum is below. One of all harmonics is expected to stand out. One
-//! does where the samples make that more probable than not (median probability model; Barbieri and Berger, Ann. Statist. 32 (2004)
-//! 870). They are found one after the other, each by what the samples tell of it without its own prior (Tipping and Faul, Proc. 9th
-//! Int. Workshop on Artificial Intelligence and Statistics (2003)).
+//! Such a harmonic has a standard deviation s/kᵖ with an order p of its own, down to the negative of the spectrum's: it may be as far
+//! above the first harmonic as the spectrum is below. It has two parameters, k and p, and is accepted where the likelihood gains more
+//! than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Harmonics are found one after the other, each by what the samples tell of
+//! it without its own prior (Tipping and Faul, Proc. 9th Int. Workshop on Artificial Intelligence and Statistics (2003)).
+//!
+//! The noise may hide others. They are no part of the estimate, and a part of its covariance: as probably as the ones found are
+//! many, and as large as these in the mean of logarithms.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,75 +16,94 @@ use super::regression::{Posterior, Regression, Rest, Spectrum, log};
 struct Line {
     /// Index of the harmonic, from 0.
     harmonic: usize,
-    /// Root of the mean square of its standard deviations, in that of the spectrum.
-    factor: f64,
-    /// ln of the odds to a harmonic of the spectrum.
-    log_odds: f64,
-    /// What the likelihood with that factor has above these odds, in ln.
-    price: f64,
+    /// ln of its standard deviation over that of the spectrum.
+    log_factor: f64,
+    /// Rise of ln of the likelihood.
+    rise: f64,
 }
 
 impl Regression {
     /// The coefficients given the samples, by a spectrum and the harmonics that stand out of it.
     pub fn solved(&self, spectrum: Spectrum, rest: &Rest) -> Option<Posterior> {
         let mut found = self.solved_with(spectrum.deviations(self.prior))?;
-        let of = self.prior.of_harmonic();
+        let (mut cost, of) = (0.0, self.prior.of_harmonic());
         while let Some(line) = self.line(&found, spectrum, rest) {
-            let mut deviations = found.deviations.clone();
-            let own = &mut deviations[line.harmonic * of..][..of];
-            own.iter_mut().for_each(|value| *value *= line.factor);
-            let price = found.price + line.price;
+            let mut deviations = found.deviations;
+            let own = deviations.iter_mut().skip(line.harmonic * of).take(of);
+            own.for_each(|value| *value *= line.log_factor.exp());
             found = self.solved_with(deviations)?;
-            found.price = price;
+            cost += 2.0 * rest.cost;
+            found.penalty += cost;
         }
         Some(found)
     }
 
-    /// Returns the harmonic that stands out most, if one more probably does than not.
+    /// Returns the harmonic that stands out most, if one gains more than it costs.
     fn line(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Option<Line> {
-        let of = self.prior.of_harmonic();
-        let (factor, sigma) = (found.factor(), rest.variance(found).sqrt());
-        let log_all = (self.prior.harmonics as f64).ln();
-        let lines = (1..self.prior.harmonics).filter_map(|harmonic| {
-            let own = harmonic * of..(harmonic + 1) * of;
-            let deviation = spectrum.deviation(harmonic);
-            // Those that stand out already have another one.
-            let is_smooth = found.deviations[own.start] == deviation;
-            let columns = factor.columns(own.start, of);
-            let left = columns.tr_mul(&columns) / (deviation * deviation);
-            let sizes = &found.coefficients[own];
-            let sizes = sizes.iter().map(|value| value / (deviation * sigma));
-            let told = Told::new(left, DVector::from_iterator(of, sizes));
-            let may_be = is_smooth && told.most() > log_all;
-            may_be.then(|| self.line_of(harmonic, &told, spectrum))
+        let told = self.told(found, spectrum, rest).into_iter();
+        let told = told.filter(|(one, told)| *one < rest.waves && told.most() > rest.cost);
+        let likeliest = told.filter_map(|(harmonic, told)| {
+            // The likelihood as a function of ln of the factor is about one wide.
+            let parts = 64;
+            let range = 2.0 * spectrum.order * log(harmonic);
+            let logs = (1..=parts).map(|k| range * f64::from(k) / f64::from(parts));
+            let lines = logs.map(|log_factor| Line {
+                harmonic,
+                log_factor,
+                rise: told.likelihood(log_factor),
+            });
+            lines.max_by(|a, b| a.rise.total_cmp(&b.rise))
         });
-        let lines = lines.filter(|line| line.log_odds > 0.0);
-        lines.max_by(|a, b| a.log_odds.total_cmp(&b.log_odds))
+        let lines = likeliest.filter(|line| line.rise > rest.cost);
+        lines.max_by(|a, b| a.rise.total_cmp(&b.rise))
     }
 
-    /// The line of a harmonic, by what the samples tell of it.
-    fn line_of(&self, harmonic: usize, told: &Told, spectrum: Spectrum) -> Line {
-        let range = 2.0 * spectrum.order * log(harmonic);
-        // The likelihood as a function of ln of the factor is about one wide.
-        let parts = 64;
-        let logs = (0..parts).map(|k| range * (f64::from(k) + 0.5) / f64::from(parts));
-        let list: Vec<[f64; 2]> = logs.map(|log| [log, told.likelihood(log)]).collect();
-        let most = list.iter().fold(0.0, |most: f64, [_, log]| most.max(*log));
-        let [total, squares] = list
-            .iter()
-            .fold([0.0; 2], |[total, squares], [log, value]| {
-                let weight = (value - most).exp();
-                [total + weight, squares + weight * (2.0 * log).exp()]
-            });
-        let factor = (squares / total).sqrt();
-        let mean = most + (total / f64::from(parts)).ln();
-        let log_odds = mean - (self.prior.harmonics as f64).ln();
-        Line {
-            harmonic,
-            factor,
-            log_odds,
-            price: told.likelihood(factor.ln()) - log_odds,
+    /// Returns what the samples tell of each harmonic of the spectrum, by its index.
+    fn told(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Vec<(usize, Told)> {
+        let of = self.prior.of_harmonic();
+        let (factor, sigma) = (found.factor(), rest.variance(found).sqrt());
+        let smooth =
+            (1..self.prior.harmonics).filter(|harmonic| !found.stands_out(*harmonic, of, spectrum));
+        let told = smooth.map(|harmonic| {
+            let unit = spectrum.deviation(harmonic);
+            let columns = factor.columns(harmonic * of, of);
+            let covariance = columns.tr_mul(&columns) / (unit * unit);
+            let mean = found.coefficients[harmonic * of..][..of].iter();
+            let mean = mean.map(|value| value / (unit * sigma));
+            (
+                harmonic,
+                Told::new(covariance, DVector::from_iterator(of, mean)),
+            )
+        });
+        told.collect()
+    }
+
+    /// Returns the standard deviations of the coefficients with the harmonics that stand out and are hidden.
+    pub fn with_hidden(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Vec<f64> {
+        let (all, of) = (self.prior.harmonics, self.prior.of_harmonic());
+        let mut deviations = found.deviations.clone();
+        let out = (1..all).filter(|one| found.stands_out(*one, of, spectrum));
+        let logs: Vec<f64> = out.map(|one| deviations[one * of].ln()).collect();
+        if logs.is_empty() {
+            return deviations;
         }
+        let size = logs.iter().sum::<f64>() / logs.len() as f64;
+        let rate = logs.len() as f64 / (all - logs.len()) as f64;
+        for (harmonic, told) in self.told(found, spectrum, rest) {
+            let log_factor = size - deviations[harmonic * of].ln();
+            let part = 1.0 / (1.0 + 1.0 / (rate * told.likelihood(log_factor).exp()));
+            let mean = 1.0 - part + part * told.mean_square((2.0 * log_factor).exp());
+            let own = deviations.iter_mut().skip(harmonic * of).take(of);
+            own.for_each(|value| *value *= mean.sqrt().max(1.0));
+        }
+        deviations
+    }
+}
+
+impl Posterior {
+    /// True if a harmonic has another standard deviation than by the spectrum.
+    pub fn stands_out(&self, harmonic: usize, of: usize, spectrum: Spectrum) -> bool {
+        self.deviations[harmonic * of] != spectrum.deviation(harmonic)
     }
 }
 
@@ -118,6 +139,15 @@ impl Told {
         0.5 * self.0.iter().map(of).sum::<f64>()
     }
 
+    /// The mean square of a coefficient by the square of the factor of its standard deviation.
+    fn mean_square(&self, factor: f64) -> f64 {
+        let of = |axis: &OfAxis| {
+            let variance = factor / (1.0 + factor * axis.precision);
+            variance + variance * variance * axis.square
+        };
+        self.0.iter().map(of).sum::<f64>() / self.0.len() as f64
+    }
+
     /// ln of the likelihood of a standard deviation by ln of its factor to the spectrum's, less that of the spectrum.
     fn likelihood(&self, log_factor: f64) -> f64 {
         let of = |factor: f64| {
@@ -136,9 +166,8 @@ mod tests {
     use super::super::prior::{Prior, TORQUE};
     use super::*;
 
-    /// Odds of a harmonic that stands out, by the likelihoods of all coefficients with each order of its own.
-    #[test]
-    fn a_harmonic_stands_out_by_the_odds_of_its_orders() {
+    /// Forty samples with a fourth harmonic that stands out, and of a variance of one half.
+    fn samples() -> (Regression, Rest) {
         let prior = Prior {
             cycle: 1,
             harmonics: 5,
@@ -158,30 +187,67 @@ mod tests {
             squares,
             free: 40.0,
             variances: [0.5, 0.5],
+            waves: 5,
+            cost: 1.0,
         };
-        let spectrum = Spectrum {
-            log_size: -0.7,
-            order: 2.0,
-        };
+        (regression, rest)
+    }
+
+    const SPECTRUM: Spectrum = Spectrum {
+        log_size: -0.7,
+        order: 2.0,
+    };
+
+    /// A harmonic that stands out, by the likelihoods of all coefficients with each order of its own.
+    #[test]
+    fn a_harmonic_stands_out_where_its_order_gains_what_it_costs() {
+        let (regression, rest) = samples();
         let likelihood = |order: f64| {
-            let mut deviations = spectrum.deviations(prior);
-            deviations[6..8].fill((spectrum.log_size - order * log(3)).exp());
+            let mut deviations = SPECTRUM.deviations(regression.prior);
+            deviations[6..8].fill((SPECTRUM.log_size - order * log(3)).exp());
             let found = regression.solved_with(deviations);
             found.map_or(f64::NAN, |found| rest.likelihood(&found))
         };
-        let smooth = likelihood(2.0);
-        let parts = 4000;
-        let orders = (0..parts).map(|k| 4.0 * (f64::from(k) + 0.5) / f64::from(parts) - 2.0);
-        let odds = orders.map(|order| (likelihood(order) - smooth).exp());
-        let mean = odds.sum::<f64>() / f64::from(parts);
-        let by_sum = smooth + (mean / 5.0).ln();
-        let found = regression.solved(spectrum, &rest).expect("coefficients");
-        let own: Vec<usize> = (0..prior.harmonics)
-            .filter(|k| found.deviations[2 * k] != spectrum.deviation(*k))
-            .collect();
-        assert_eq!(own, [3]);
-        assert!(by_sum > smooth + 1.0, "{by_sum} {smooth}");
-        let likelihood = rest.likelihood(&found);
-        assert!((likelihood - by_sum).abs() < 1e-2, "{likelihood} {by_sum}");
+        let orders = (0..4000).map(|k| 2.0 - 1e-3 * f64::from(k));
+        let most = orders.map(likelihood).fold(f64::NEG_INFINITY, f64::max);
+        let rise = most - likelihood(2.0);
+        for (cost, expected) in [(rise - 0.1, vec![3]), (rise + 0.1, vec![])] {
+            let rest = Rest { cost, ..rest };
+            let found = regression.solved(SPECTRUM, &rest).expect("coefficients");
+            let out = (0..5).filter(|one| found.stands_out(*one, 2, SPECTRUM));
+            assert_eq!(out.collect::<Vec<_>>(), expected);
+            let of_all = rest.likelihood(&found) + cost * expected.len() as f64;
+            let smooth = most - if expected.is_empty() { rise } else { 0.0 };
+            assert!((of_all - smooth).abs() < 1e-2, "{of_all} {smooth}");
+        }
+        let aliased = Rest { waves: 3, ..rest };
+        let found = regression.solved(SPECTRUM, &aliased).expect("coefficients");
+        assert!(!found.stands_out(3, 2, SPECTRUM));
+    }
+
+    /// Mean square of the coefficients of a harmonic that is not known to stand out, from the posteriors with and without.
+    #[test]
+    fn a_hidden_harmonic_has_the_mean_square_of_both_posteriors() {
+        let (regression, rest) = samples();
+        let found = regression.solved(SPECTRUM, &rest).expect("coefficients");
+        let all = regression.with_hidden(&found, SPECTRUM, &rest);
+        for harmonic in [1, 2, 4] {
+            let own = 2 * harmonic..2 * harmonic + 2;
+            let mut deviations = found.deviations.clone();
+            deviations[own.clone()].fill(found.deviations[6]);
+            let with = regression.solved_with(deviations).expect("coefficients");
+            let without = regression.solved_with(found.deviations.clone());
+            let without = rest.likelihood(&without.expect("coefficients"));
+            let odds = 0.25 * (rest.likelihood(&with) - without).exp();
+            let left = with.factor().columns(own.start, 2).norm_squared();
+            let sizes = with.coefficients[own.clone()].iter();
+            let sizes = sizes.map(|value| value * value / 0.5).sum::<f64>();
+            let smooth = SPECTRUM.deviation(harmonic).powi(2);
+            let mean = (smooth + odds * 0.5 * (left + sizes)) / (1.0 + odds);
+            let expected = mean.max(smooth).sqrt();
+            let off = (all[own.start] / expected - 1.0).abs();
+            assert!(off < 1e-9, "{harmonic}: {} {expected}", all[own.start]);
+        }
+        assert_eq!(all[6], found.deviations[6]);
     }
 }

@@ -61,6 +61,10 @@ pub(super) struct Rest {
     pub free: f64,
     /// Least and largest variance of a sample.
     pub variances: [f64; 2],
+    /// Highest harmonic with two samples in a wave: others may be aliases.
+    pub waves: usize,
+    /// Cost of a harmonic that stands out in ln of the likelihood.
+    pub cost: f64,
 }
 
 impl Rest {
@@ -73,8 +77,7 @@ impl Rest {
     /// ln of the likelihood, up to what no spectrum changes.
     pub fn likelihood(&self, found: &Posterior) -> f64 {
         let (variance, squares) = (self.variance(found), self.squares - found.fall);
-        -0.5 * (self.free * variance.ln() + squares / variance + found.log_determinant)
-            - found.price
+        -0.5 * (self.free * variance.ln() + squares / variance + found.penalty)
     }
 }
 
@@ -186,10 +189,9 @@ impl Regression {
     pub fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Option<Scoring> {
         let factor = inverse_of_lower(&found.lower);
         let left = factor.transpose() * factor;
-        // Those that stand out of the spectrum have a deviation of their own.
-        let of = |j: usize| j / self.prior.of_harmonic();
-        let smooth = (0..left.ncols()).filter(|j| found.deviations[*j] == at.deviation(of(*j)));
-        let logs: Vec<(usize, f64)> = smooth.map(|j| (j, log(of(j)))).collect();
+        let of = self.prior.of_harmonic();
+        let smooth = (0..left.ncols()).filter(|j| !found.stands_out(j / of, of, at));
+        let logs: Vec<(usize, f64)> = smooth.map(|j| (j, log(j / of))).collect();
         let (mut slope, mut information) = ([0.0; 2], [0.0; 3]);
         for &(j, log) in &logs {
             let size = found.coefficients[j] / found.deviations[j];
@@ -233,9 +235,8 @@ impl Regression {
         let lower = cholesky.l();
         Some(Posterior {
             fall: right.dot(&solved),
-            log_determinant: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
+            penalty: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
             coefficients: (0..count).map(|j| deviations[j] * solved[j]).collect(),
-            price: 0.0,
             deviations,
             lower,
         })
@@ -256,11 +257,9 @@ pub(super) struct Scoring {
 pub(super) struct Posterior {
     /// Fall of the sum of squared prediction errors.
     pub fall: f64,
-    /// ln |I + D½ information D½|
-    pub log_determinant: f64,
+    /// ln |I + D½ information D½|, and twice what the harmonics that stand out cost.
+    pub penalty: f64,
     pub coefficients: Vec<f64>,
-    /// What the harmonics that stand out cost of ln of the likelihood.
-    pub price: f64,
     /// Standard deviations before the samples.
     pub deviations: Vec<f64>,
     /// Lower factor of Cholesky.

@@ -16,6 +16,8 @@ pub(super) struct Scales {
     pub lever: f64,
     /// Root mean squares of θ̈, rad/s², and its rate, rad/s³: spread of the prior before the first sample.
     pub motion: [f64; 2],
+    /// Root mean square of the speed, rad/s.
+    pub speed: f64,
     /// Standard deviations of ω, rad/s, and of ω|ω|, rad²/s², along the record.
     pub powers: [f64; 2],
     /// Root mean square of u along the record, in σ: what a power of the speed that varies by its standard deviation adds to u has

@@ -19,30 +19,42 @@ struct Grid<'a> {
     least: f64,
 }
 
-/// A spectrum with the standard deviations of the coefficients by it and by what stands out of it.
+/// Standard deviations of the coefficients before the samples, in units of σ.
+#[derive(Debug)]
+pub(super) struct OverSpectra {
+    /// Those by which the coefficients are estimated.
+    pub told: Vec<f64>,
+    /// Those with what the noise may hide beside, for the covariance.
+    pub all: Vec<f64>,
+}
+
+/// A spectrum with the standard deviations by it and by what stands out of it.
 struct Tried {
     spectrum: Spectrum,
-    deviations: Vec<f64>,
+    deviations: OverSpectra,
 }
 
 impl Regression {
-    /// Returns the standard deviations of the coefficients before the samples, in units of σ: roots of the means of their
-    /// variances over all spectra, of which one is the likeliest.
-    pub fn over_spectra(&self, likeliest: Spectrum, rest: &Rest) -> Option<Vec<f64>> {
+    /// Returns the standard deviations of the coefficients: roots of the means of their variances over all spectra, of which one is
+    /// the likeliest.
+    pub fn over_spectra(&self, likeliest: Spectrum, rest: &Rest) -> Option<OverSpectra> {
         let found = self.solved(likeliest, rest)?;
         let scoring = self.scoring(&found, rest.variance(&found), likeliest)?;
         let list = Grid::new(self, rest, scoring.information).spectra(likeliest);
         let total: f64 = list.iter().map(|one| one.log.exp()).sum();
-        if total == 0.0 {
-            return None;
-        }
-        let mut sums = vec![0.0; self.prior.coefficients()];
-        for one in list {
-            let share = one.log.exp() / total;
-            let pairs = sums.iter_mut().zip(one.value.deviations);
-            pairs.for_each(|(sum, deviation)| *sum += share * deviation * deviation);
-        }
-        Some(sums.into_iter().map(f64::sqrt).collect())
+        let mean = |of: fn(&OverSpectra) -> &Vec<f64>| {
+            let mut sums = vec![0.0; self.prior.coefficients()];
+            for one in &list {
+                let share = one.log.exp() / total;
+                let pairs = sums.iter_mut().zip(of(&one.value.deviations));
+                pairs.for_each(|(sum, deviation)| *sum += share * deviation * deviation);
+            }
+            sums.into_iter().map(f64::sqrt).collect()
+        };
+        (total > 0.0).then(|| OverSpectra {
+            told: mean(|deviations| &deviations.told),
+            all: mean(|deviations| &deviations.all),
+        })
     }
 }
 
@@ -107,7 +119,9 @@ impl<'a> Grid<'a> {
     fn at(&self, spectrum: Spectrum) -> Option<Weighed<Tried>> {
         let found = self.of.solved(spectrum, self.rest)?;
         let log = self.rest.likelihood(&found) + spectrum.log_size;
-        let deviations = found.deviations;
+        let all = self.of.with_hidden(&found, spectrum, self.rest);
+        let told = found.deviations;
+        let deviations = OverSpectra { told, all };
         let value = Tried {
             spectrum,
             deviations,
@@ -168,6 +182,8 @@ mod tests {
             squares: errors.norm_squared(),
             free: 57.0,
             variances: [1e-6, f64::INFINITY],
+            waves: 3,
+            cost: 4.0,
         };
         let (likeliest, _) = regression.likeliest(None, &rest).expect("a spectrum");
         let over = regression
@@ -177,7 +193,7 @@ mod tests {
         // Where the orders end, the coarse grid may have a line of one on their bound.
         let close = |deviation: f64, j: usize| (deviation / means[j].sqrt() - 1.0).abs() < 0.15;
         let alone = likeliest.deviations(of);
-        assert!((0..of.coefficients()).all(|j| close(over[j], j)));
+        assert!((0..of.coefficients()).all(|j| close(over.told[j], j)));
         assert!((0..of.coefficients()).any(|j| !close(alone[j], j)));
     }
 }

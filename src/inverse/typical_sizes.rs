@@ -57,6 +57,7 @@ impl Problem<'_> {
             lever: (lever / count).sqrt(),
             // The start of the first prior is compared with others only once the motion is known.
             motion: [1.0; 2],
+            speed: path.speed(),
             powers: std::array::from_fn(|k| {
                 let states = path.states.iter().step_by(stride);
                 spread(states.map(|state| powers_of(state[1])[k]))
