@@ -8,9 +8,10 @@ use super::fixed_interval::Companion;
 use super::kalman::{self, Evidence};
 use super::periodic::Regressed;
 use super::prior::{Prior, State};
-use super::regression::{Regression, Rest, Spectrum};
+use super::regression::{Regression, Rest};
 use super::scales::{Noise, Scales};
 use super::spectra::OverSpectra;
+use super::spectrum::Spectrum;
 use super::state_space::{Deviations, Stretch, with_dimension};
 use crate::numeric::parallel;
 

@@ -10,7 +10,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::regression::{Posterior, Regression, Rest, Spectrum, log};
+use super::regression::{Posterior, Regression, Rest};
+use super::spectrum::{Spectrum, log};
 
 /// A harmonic with an order of its own.
 struct Line {
@@ -40,8 +41,14 @@ impl Regression {
 
     /// Returns the harmonic that stands out most, if one gains more than it costs.
     fn line(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Option<Line> {
-        let told = self.told(found, spectrum, rest).into_iter();
-        let told = told.filter(|(one, told)| *one < rest.waves && told.most() > rest.cost);
+        let before = rest.likelihood_of(found);
+        let rise = |[fall, penalty]: [f64; 2]| {
+            rest.likelihood(found.fall + fall, found.penalty + penalty) - before
+        };
+        let told = self.told(found, spectrum).into_iter();
+        let told = told.filter(|(harmonic, told)| {
+            *harmonic < rest.waves && rise([told.largest_fall(), 0.0]) > rest.cost
+        });
         let likeliest = told.filter_map(|(harmonic, told)| {
             // The likelihood as a function of ln of the factor is about one wide.
             let parts = 64;
@@ -50,7 +57,7 @@ impl Regression {
             let lines = logs.map(|log_factor| Line {
                 harmonic,
                 log_factor,
-                rise: told.likelihood(log_factor),
+                rise: rise(told.change(log_factor)),
             });
             lines.max_by(|a, b| a.rise.total_cmp(&b.rise))
         });
@@ -59,9 +66,9 @@ impl Regression {
     }
 
     /// Returns what the samples tell of each harmonic of the spectrum, by its index.
-    fn told(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Vec<(usize, Told)> {
+    fn told(&self, found: &Posterior, spectrum: Spectrum) -> Vec<(usize, Told)> {
         let of = self.prior.of_harmonic();
-        let (factor, sigma) = (found.factor(), rest.variance(found).sqrt());
+        let factor = found.factor();
         let smooth =
             (1..self.prior.harmonics).filter(|harmonic| !found.stands_out(*harmonic, of, spectrum));
         let told = smooth.map(|harmonic| {
@@ -69,7 +76,7 @@ impl Regression {
             let columns = factor.columns(harmonic * of, of);
             let covariance = columns.tr_mul(&columns) / (unit * unit);
             let mean = found.coefficients[harmonic * of..][..of].iter();
-            let mean = mean.map(|value| value / (unit * sigma));
+            let mean = mean.map(|value| value / unit);
             (
                 harmonic,
                 Told::new(covariance, DVector::from_iterator(of, mean)),
@@ -89,10 +96,13 @@ impl Regression {
         }
         let size = logs.iter().sum::<f64>() / logs.len() as f64;
         let rate = logs.len() as f64 / (all - logs.len()) as f64;
-        for (harmonic, told) in self.told(found, spectrum, rest) {
+        let variance = rest.variance(found.fall);
+        for (harmonic, told) in self.told(found, spectrum) {
             let log_factor = size - deviations[harmonic * of].ln();
-            let part = 1.0 / (1.0 + 1.0 / (rate * told.likelihood(log_factor).exp()));
-            let mean = 1.0 - part + part * told.mean_square((2.0 * log_factor).exp());
+            let [fall, penalty] = told.change(log_factor);
+            let odds = rate * (0.5 * (fall / variance - penalty)).exp();
+            let part = 1.0 / (1.0 + 1.0 / odds);
+            let mean = 1.0 - part + part * told.mean_square(log_factor, variance);
             let own = deviations.iter_mut().skip(harmonic * of).take(of);
             own.for_each(|value| *value *= mean.sqrt().max(1.0));
         }
@@ -133,31 +143,31 @@ impl Told {
         Told(of_axis.collect())
     }
 
-    /// The most that ln of the likelihood may rise with the standard deviation.
-    fn most(&self) -> f64 {
+    /// The largest fall of the sum of squares that another standard deviation leaves.
+    fn largest_fall(&self) -> f64 {
         let of = |axis: &OfAxis| axis.square / (axis.precision * (1.0 + axis.precision));
-        0.5 * self.0.iter().map(of).sum::<f64>()
+        self.0.iter().map(of).sum()
     }
 
-    /// The mean square of a coefficient by the square of the factor of its standard deviation.
-    fn mean_square(&self, factor: f64) -> f64 {
+    /// Further fall of the sum of squares and further penalty by ln of the factor of the standard deviation.
+    fn change(&self, log_factor: f64) -> [f64; 2] {
+        let factor = (2.0 * log_factor).exp();
+        let of = |[fall, penalty]: [f64; 2], axis: &OfAxis| {
+            let [with, without] = [factor, 1.0].map(|one| 1.0 + one * axis.precision);
+            let more = axis.square * (factor - 1.0) / (with * without);
+            [fall + more, penalty + (with / without).ln()]
+        };
+        self.0.iter().fold([0.0; 2], of)
+    }
+
+    /// The mean square of a coefficient by ln of the factor of its standard deviation, with this variance of a sample.
+    fn mean_square(&self, log_factor: f64, of_sample: f64) -> f64 {
+        let factor = (2.0 * log_factor).exp();
         let of = |axis: &OfAxis| {
             let variance = factor / (1.0 + factor * axis.precision);
-            variance + variance * variance * axis.square
+            variance + variance * variance * axis.square / of_sample
         };
         self.0.iter().map(of).sum::<f64>() / self.0.len() as f64
-    }
-
-    /// ln of the likelihood of a standard deviation by ln of its factor to the spectrum's, less that of the spectrum.
-    fn likelihood(&self, log_factor: f64) -> f64 {
-        let of = |factor: f64| {
-            let axes = self.0.iter().map(|axis| {
-                let sum = 1.0 + factor * axis.precision;
-                factor * axis.square / sum - sum.ln()
-            });
-            0.5 * axes.sum::<f64>()
-        };
-        of((2.0 * log_factor).exp()) - of(1.0)
     }
 }
 
@@ -206,7 +216,7 @@ mod tests {
             let mut deviations = SPECTRUM.deviations(regression.prior);
             deviations[6..8].fill((SPECTRUM.log_size - order * log(3)).exp());
             let found = regression.solved_with(deviations);
-            found.map_or(f64::NAN, |found| rest.likelihood(&found))
+            found.map_or(f64::NAN, |found| rest.likelihood_of(&found))
         };
         let orders = (0..4000).map(|k| 2.0 - 1e-3 * f64::from(k));
         let most = orders.map(likelihood).fold(f64::NEG_INFINITY, f64::max);
@@ -216,7 +226,7 @@ mod tests {
             let found = regression.solved(SPECTRUM, &rest).expect("coefficients");
             let out = (0..5).filter(|one| found.stands_out(*one, 2, SPECTRUM));
             assert_eq!(out.collect::<Vec<_>>(), expected);
-            let of_all = rest.likelihood(&found) + cost * expected.len() as f64;
+            let of_all = rest.likelihood_of(&found) + cost * expected.len() as f64;
             let smooth = most - if expected.is_empty() { rise } else { 0.0 };
             assert!((of_all - smooth).abs() < 1e-2, "{of_all} {smooth}");
         }
@@ -237,8 +247,8 @@ mod tests {
             deviations[own.clone()].fill(found.deviations[6]);
             let with = regression.solved_with(deviations).expect("coefficients");
             let without = regression.solved_with(found.deviations.clone());
-            let without = rest.likelihood(&without.expect("coefficients"));
-            let odds = 0.25 * (rest.likelihood(&with) - without).exp();
+            let without = rest.likelihood_of(&without.expect("coefficients"));
+            let odds = 0.25 * (rest.likelihood_of(&with) - without).exp();
             let left = with.factor().columns(own.start, 2).norm_squared();
             let sizes = with.coefficients[own.clone()].iter();
             let sizes = sizes.map(|value| value * value / 0.5).sum::<f64>();

@@ -86,6 +86,7 @@ mod simpler_models;
 mod smoother;
 mod span;
 mod spectra;
+mod spectrum;
 mod state_space;
 mod stretch_search;
 mod summary;

@@ -1,7 +1,7 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
 use super::prior::State;
-use super::regression::Spectrum;
+use super::spectrum::Spectrum;
 
 /// Typical magnitudes along a record.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,8 @@
 //! They are sums over a grid in units of the standard errors of ln s and m (Rue, Martino and Chopin, J. R. Statist. Soc. B 71
 //! (2009) 319). The standard deviation s has a uniform prior (Gelman, Bayesian Analysis 1 (2006) 515), and so has the order m.
 
-use super::regression::{ORDERS, Regression, Rest, Spectrum};
+use super::regression::{Regression, Rest};
+use super::spectrum::{ORDERS, Spectrum};
 use super::weighed::{Weighed, counting, most, on_both_sides};
 
 /// A grid about the likeliest spectrum, in lines of one order each.
@@ -39,7 +40,7 @@ impl Regression {
     /// the likeliest.
     pub fn over_spectra(&self, likeliest: Spectrum, rest: &Rest) -> Option<OverSpectra> {
         let found = self.solved(likeliest, rest)?;
-        let scoring = self.scoring(&found, rest.variance(&found), likeliest)?;
+        let scoring = self.scoring(&found, rest.variance(found.fall), likeliest);
         let list = Grid::new(self, rest, scoring.information).spectra(likeliest);
         let total: f64 = list.iter().map(|one| one.log.exp()).sum();
         let mean = |of: fn(&OverSpectra) -> &Vec<f64>| {
@@ -118,7 +119,7 @@ impl<'a> Grid<'a> {
     /// Returns a spectrum with its probability.
     fn at(&self, spectrum: Spectrum) -> Option<Weighed<Tried>> {
         let found = self.of.solved(spectrum, self.rest)?;
-        let log = self.rest.likelihood(&found) + spectrum.log_size;
+        let log = self.rest.likelihood_of(&found) + spectrum.log_size;
         let all = self.of.with_hidden(&found, spectrum, self.rest);
         let told = found.deviations;
         let deviations = OverSpectra { told, all };
@@ -135,7 +136,8 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::super::prior::{Prior, TORQUE};
-    use super::super::regression::{ORDERS, Regression, Rest};
+    use super::super::regression::{Regression, Rest};
+    use super::super::spectrum::ORDERS;
 
     /// Means of the variances by sums over a fine grid, of determinants and inverses.
     fn by_brute_force(rows: &DMatrix<f64>, errors: &DVector<f64>, free: f64) -> DVector<f64> {
