@@ -1201,7 +1201,7 @@ fn a_motor_alone_repeats_nothing_with_few_rows_in_a_turn() {
 
 /// A motor's line over the speed, seen by few precise samples in a turn: a motion without mechanics errs between them, and about
 /// that path a slope of the line that varies from sample to sample is likely. The line has two parameters, and the samples are
-/// worth few more.
+/// worth few more. Other priors are as likely about that path alone: with their odds there the band would have 1e-5 N m.
 #[test]
 fn a_motor_alone_has_a_steady_line_with_few_rows_in_a_turn() {
     for rows in [300, 400, 500] {
@@ -1214,9 +1214,14 @@ fn a_motor_alone_has_a_steady_line_with_few_rows_in_a_turn() {
         };
         let truth = start_up.run();
         for seed in 1..=4 {
-            let fit = of_angles(&start_up, &truth, 1e-5, seed).summary.fit;
-            let (worth, prior) = (fit.parameters, fit.prior);
+            let found = of_angles(&start_up, &truth, 1e-5, seed);
+            let errors = found.rows.iter().map(|row| row.crank_torque_se);
+            let errors = errors.map(|se| se.unwrap_or(f64::INFINITY));
+            let squares = errors.map(|se| se * se).sum::<f64>();
+            let (worth, prior) = (found.summary.fit.parameters, found.summary.fit.prior);
             assert!(worth < 60.0, "{rows}, seed {seed}: {worth}, {prior}");
+            let se = (squares / found.rows.len() as f64).sqrt();
+            assert!(se < 6e-6, "{rows}, seed {seed}: {se} N m");
         }
     }
 }
