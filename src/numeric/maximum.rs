@@ -20,11 +20,11 @@ pub fn largest(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
 pub fn largest_to(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], width: f64) -> (f64, f64) {
     let first = a + GOLDEN_PART * (b - a);
     let first = (first, f(first));
-    brent(f, [a, b], [first; 3], 0.0, width)
+    brent(&mut f, [a, b], [first; 3], 0.0, width)
 }
 
 /// Locates the maximum as [`largest`], of a function known at three places in order and no smaller at the middle one.
-pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
+pub fn between(mut f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
     let [low, middle, high] = known;
     let (next, last) = if low.1 > high.1 {
         (low, high)
@@ -33,7 +33,7 @@ pub fn between(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) 
     };
     let width = high.0 - low.0;
     brent(
-        f,
+        &mut f,
         [low.0, high.0],
         [middle, next, last],
         width,
@@ -177,7 +177,7 @@ fn reach(rows: &[(f64, f64)], row: usize, [before, here, after]: [(f64, f64); 3]
 
 /// Runs Brent's iteration from the best three points, the best one first, and the size of the step before last.
 fn brent(
-    mut f: impl FnMut(f64) -> f64,
+    f: &mut dyn FnMut(f64) -> f64,
     [mut a, mut b]: [f64; 2],
     mut best: [(f64, f64); 3],
     mut last_step: f64,

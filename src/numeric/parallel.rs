@@ -1,6 +1,7 @@
 //! Long lists on all cores, equal to the last bit for any number of cores: sums are taken over fixed pieces.
 
 use rayon::prelude::*;
+use std::sync::Mutex;
 
 /// Does work on one of the threads that share jobs: those in it begin there at once, where another thread would have to wake
 /// this one and to wait for it each time.
@@ -17,13 +18,30 @@ pub fn map<J: Send, R: Send>(
     if jobs.len() < 2 {
         return jobs.into_iter().map(work).collect();
     }
-    jobs.into_par_iter().with_max_len(1).map(&work).collect()
+    let jobs: Vec<_> = jobs
+        .into_iter()
+        .map(|job| Mutex::new((Some(job), None)))
+        .collect();
+    each(jobs.len(), &|index| {
+        if let Ok(mut job) = jobs[index].lock() {
+            job.1 = job.0.take().map(&work);
+        }
+    });
+    let done = jobs.into_iter().flat_map(Mutex::into_inner);
+    done.filter_map(|(_, result)| result).collect()
+}
+
+/// Does the work of each index. Rayon's part is compiled once, not for every kind of work.
+fn each(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    let indices = (0..count).into_par_iter().with_max_len(1);
+    indices.for_each(work);
 }
 
 /// Returns the list of `f(0)`, `f(1)`, ... of this length; a short list is computed in this thread.
 pub fn list<T: Send>(length: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let f: &(dyn Fn(usize) -> T + Sync) = &f;
     match entries(length) {
-        Some(entries) => entries.map(&f).collect(),
+        Some(entries) => entries.map(f).collect(),
         None => (0..length).map(f).collect(),
     }
 }

@@ -11,7 +11,7 @@ pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
 /// Solves f(x) = 0 between a and b to `width`, where the last bits of the root are not needed.
 pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
     let ends = [a, b].map(|at| (at, f(at)));
-    brent(f, ends, width)
+    brent(&mut f, ends, width)
 }
 
 /// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known, to a width.
@@ -24,17 +24,18 @@ pub fn between<E>(
     width: f64,
 ) -> Result<Option<f64>, E> {
     let mut failed = None;
-    let known = |at: f64| {
+    let mut known = |at: f64| {
         f(at).unwrap_or_else(|error| {
             failed = Some(error);
             f64::NAN
         })
     };
-    let root = brent(known, ends, width);
+    let root = brent(&mut known, ends, width);
     failed.map_or(Ok(root), Err)
 }
 
-fn brent(mut f: impl FnMut(f64) -> f64, ends: [(f64, f64); 2], width: f64) -> Option<f64> {
+// Compiled once, not for every function.
+fn brent(f: &mut dyn FnMut(f64) -> f64, ends: [(f64, f64); 2], width: f64) -> Option<f64> {
     let [(mut a, mut fa), (mut b, mut fb)] = ends;
     if fa == 0.0 {
         return Some(a);
