@@ -13,7 +13,7 @@ use super::smoother::Smoothed;
 use super::state_space::Stretch;
 use crate::numeric::parallel;
 
-/// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
+/// Least number of harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
@@ -57,12 +57,12 @@ impl Tried {
 /// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
 pub(super) struct About {
     pub linear: Linear,
-    path: Path,
+    pub path: Path,
 }
 
 impl About {
     /// The linear model of a prior with the same steps.
-    fn of(&self, prior: Prior) -> Linear {
+    pub fn of(&self, prior: Prior) -> Linear {
         Linear {
             prior,
             ..self.linear.clone()
@@ -189,6 +189,10 @@ impl Problem<'_> {
             following.noise.likelihood > torque.noise.likelihood + SIGNIFICANT_RISE
         };
         let plain = of(FOLLOWING).filter(is_shown).unwrap_or(torque);
+        let about = abouts
+            .iter()
+            .find(|about| about.linear.prior == plain.prior);
+        let high = about.and_then(|about| about.standing_out(plain));
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
@@ -217,7 +221,7 @@ impl Problem<'_> {
         };
         let first = Prior {
             cycle: 1,
-            harmonics: FIRST_HARMONICS,
+            harmonics: FIRST_HARMONICS.max(high.unwrap_or(0)),
             ..plain.prior
         };
         let cost = self.cost(2.0);

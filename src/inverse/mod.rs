@@ -65,6 +65,7 @@ mod options;
 mod outliers;
 mod parted;
 mod periodic;
+mod periodogram;
 mod polynomial;
 mod prediction;
 mod prior;
