@@ -13,7 +13,7 @@ use super::smoother::Smoothed;
 use super::state_space::Stretch;
 use crate::numeric::parallel;
 
-/// Least number of harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
+/// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
@@ -70,7 +70,7 @@ impl About {
     }
 
     /// The linear model of a torque with a part that repeats.
-    fn repeating(&self, prior: Prior) -> Linear {
+    pub fn repeating(&self, prior: Prior) -> Linear {
         let pairs = self.path.ranges.iter().zip(self.linear.stretches.iter());
         let with = |(range, stretch): (&Range<usize>, &Stretch)| {
             let states = self.path.piece(range).states;
@@ -192,7 +192,7 @@ impl Problem<'_> {
         let about = abouts
             .iter()
             .find(|about| about.linear.prior == plain.prior);
-        let high = about.and_then(|about| about.standing_out(plain));
+        let high = about.map(|about| about.standing_out(plain, FIRST_HARMONICS));
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
@@ -221,7 +221,8 @@ impl Problem<'_> {
         };
         let first = Prior {
             cycle: 1,
-            harmonics: FIRST_HARMONICS.max(high.unwrap_or(0)),
+            harmonics: FIRST_HARMONICS,
+            high: high.unwrap_or_default(),
             ..plain.prior
         };
         let cost = self.cost(2.0);
@@ -239,16 +240,9 @@ impl Problem<'_> {
             extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
         }
         if turns >= 4.0 {
-            extend(ENOUGH_RISE, |prior| Prior {
-                cycle: 2,
-                harmonics: 2 * prior.harmonics,
-                ..prior
-            });
+            extend(ENOUGH_RISE, Prior::over_two_turns);
         }
-        while extend(SIGNIFICANT_RISE, |prior| Prior {
-            harmonics: 2 * prior.harmonics,
-            ..prior
-        }) {}
+        while extend(SIGNIFICANT_RISE, Prior::with_twice_the_harmonics) {}
         let without = tried.iter().map(|one| one.noise.likelihood);
         let least = without.fold(f64::NEG_INFINITY, f64::max) + cost;
         found.retain(|one| one.noise.likelihood > least);

@@ -2,7 +2,7 @@
 
 use super::linearised::Linearised;
 use super::prior::{Prior, State};
-use super::repeating::{cosines_and_sines, dot};
+use super::repeating::{dot, waves};
 use crate::numeric::gauss::LOBATTO;
 use crate::numeric::interpolate::cubic;
 
@@ -48,7 +48,7 @@ impl Increments {
     pub fn new(ways: impl ExactSizeIterator<Item = [[f64; 2]; 4]>, prior: Prior) -> Increments {
         let count = prior.coefficients();
         let fill = |row: &mut [f64], [angle, speed]: [f64; 2]| {
-            let pairs = cosines_and_sines(angle / f64::from(prior.cycle), prior.harmonics);
+            let pairs = waves(angle / f64::from(prior.cycle), prior);
             for (to, [cos, sin]) in row.chunks_exact_mut(prior.of_harmonic()).zip(pairs) {
                 let values = [cos, sin, speed * cos, speed * sin];
                 to.copy_from_slice(&values[..to.len()]);

@@ -82,7 +82,7 @@ impl Linear {
     }
 
     /// Returns the normal equations of the coefficients of what repeats.
-    fn regression(&self, noise: &Noise) -> Regression {
+    pub fn regression(&self, noise: &Noise) -> Regression {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
             with_dimension!(model.dimension(), N => {

@@ -15,8 +15,8 @@ use super::spectrum::{Spectrum, log};
 
 /// A harmonic with an order of its own.
 struct Line {
-    /// Index of the harmonic, from 0.
-    harmonic: usize,
+    /// Index of the harmonic.
+    index: usize,
     /// ln of its standard deviation over that of the spectrum.
     log_factor: f64,
     /// Rise of ln of the likelihood.
@@ -27,14 +27,19 @@ impl Regression {
     /// The coefficients given the samples, by a spectrum and the harmonics that stand out of it.
     pub fn solved(&self, spectrum: Spectrum, rest: &Rest) -> Option<Posterior> {
         let mut found = self.solved_with(spectrum.deviations(self.prior))?;
-        let (mut cost, of) = (0.0, self.prior.of_harmonic());
+        let of = self.prior.of_harmonic();
         while let Some(line) = self.line(&found, spectrum, rest) {
-            let mut deviations = found.deviations;
-            let own = deviations.iter_mut().skip(line.harmonic * of).take(of);
+            let Posterior {
+                mut deviations,
+                mut lines,
+                ..
+            } = found;
+            let own = deviations.iter_mut().skip(line.index * of).take(of);
             own.for_each(|value| *value *= line.log_factor.exp());
+            lines.push(line.index);
             found = self.solved_with(deviations)?;
-            cost += 2.0 * rest.cost;
-            found.penalty += cost;
+            found.penalty += 2.0 * rest.cost * lines.len() as f64;
+            found.lines = lines;
         }
         Some(found)
     }
@@ -46,16 +51,16 @@ impl Regression {
             rest.likelihood(found.fall + fall, found.penalty + penalty) - before
         };
         let told = self.told(found, spectrum).into_iter();
-        let told = told.filter(|(harmonic, told)| {
-            *harmonic < rest.waves && rise([told.largest_fall(), 0.0]) > rest.cost
+        let told = told.filter(|told| {
+            told.number <= rest.waves && rise([told.largest_fall(), 0.0]) > rest.cost
         });
-        let likeliest = told.filter_map(|(harmonic, told)| {
+        let likeliest = told.filter_map(|told| {
             // The likelihood as a function of ln of the factor is about one wide.
             let parts = 64;
-            let range = 2.0 * spectrum.order * log(harmonic);
+            let range = 2.0 * spectrum.order * log(told.number);
             let logs = (1..=parts).map(|k| range * f64::from(k) / f64::from(parts));
             let lines = logs.map(|log_factor| Line {
-                harmonic,
+                index: told.index,
                 log_factor,
                 rise: rise(told.change(log_factor)),
             });
@@ -65,60 +70,60 @@ impl Regression {
         lines.max_by(|a, b| a.rise.total_cmp(&b.rise))
     }
 
-    /// Returns what the samples tell of each harmonic of the spectrum, by its index.
-    fn told(&self, found: &Posterior, spectrum: Spectrum) -> Vec<(usize, Told)> {
+    /// Returns what the samples tell of each harmonic of the spectrum but the first one.
+    fn told(&self, found: &Posterior, spectrum: Spectrum) -> Vec<Told> {
         let of = self.prior.of_harmonic();
         let factor = found.factor();
-        let smooth =
-            (1..self.prior.harmonics).filter(|harmonic| !found.stands_out(*harmonic, of, spectrum));
-        let told = smooth.map(|harmonic| {
-            let unit = spectrum.deviation(harmonic);
-            let columns = factor.columns(harmonic * of, of);
+        let numbers = self.prior.numbers().enumerate();
+        let smooth = numbers.filter(|(index, number)| *number > 1 && !found.lines.contains(index));
+        let told = smooth.map(|(index, number)| {
+            let unit = spectrum.deviation(number);
+            let columns = factor.columns(index * of, of);
             let covariance = columns.tr_mul(&columns) / (unit * unit);
-            let mean = found.coefficients[harmonic * of..][..of].iter();
-            let mean = mean.map(|value| value / unit);
-            (
-                harmonic,
-                Told::new(covariance, DVector::from_iterator(of, mean)),
-            )
+            let mean = found.coefficients[index * of..][..of].iter();
+            let mean = DVector::from_iterator(of, mean.map(|value| value / unit));
+            Told {
+                index,
+                number,
+                axes: OfAxis::list(covariance, mean),
+            }
         });
         told.collect()
     }
 
     /// Returns the standard deviations of the coefficients with the harmonics that stand out and are hidden.
     pub fn with_hidden(&self, found: &Posterior, spectrum: Spectrum, rest: &Rest) -> Vec<f64> {
-        let (all, of) = (self.prior.harmonics, self.prior.of_harmonic());
+        let (all, of) = (self.prior.numbers().count(), self.prior.of_harmonic());
         let mut deviations = found.deviations.clone();
-        let out = (1..all).filter(|one| found.stands_out(*one, of, spectrum));
-        let logs: Vec<f64> = out.map(|one| deviations[one * of].ln()).collect();
-        if logs.is_empty() {
+        let out = found.lines.len();
+        if out == 0 {
             return deviations;
         }
-        let size = logs.iter().sum::<f64>() / logs.len() as f64;
-        let rate = logs.len() as f64 / (all - logs.len()) as f64;
+        let logs = found.lines.iter().map(|one| deviations[one * of].ln());
+        let size = logs.sum::<f64>() / out as f64;
+        let rate = out as f64 / (all - out) as f64;
         let variance = rest.variance(found.fall);
-        for (harmonic, told) in self.told(found, spectrum) {
-            let log_factor = size - deviations[harmonic * of].ln();
+        for told in self.told(found, spectrum) {
+            let log_factor = size - deviations[told.index * of].ln();
             let [fall, penalty] = told.change(log_factor);
             let odds = rate * (0.5 * (fall / variance - penalty)).exp();
             let part = 1.0 / (1.0 + 1.0 / odds);
             let mean = 1.0 - part + part * told.mean_square(log_factor, variance);
-            let own = deviations.iter_mut().skip(harmonic * of).take(of);
+            let own = deviations.iter_mut().skip(told.index * of).take(of);
             own.for_each(|value| *value *= mean.sqrt().max(1.0));
         }
         deviations
     }
 }
 
-impl Posterior {
-    /// True if a harmonic has another standard deviation than by the spectrum.
-    pub fn stands_out(&self, harmonic: usize, of: usize, spectrum: Spectrum) -> bool {
-        self.deviations[harmonic * of] != spectrum.deviation(harmonic)
-    }
+/// What the samples tell of the coefficients of a harmonic without its prior.
+struct Told {
+    /// Index and number of the harmonic.
+    index: usize,
+    number: usize,
+    /// The axes that the samples tell apart.
+    axes: Vec<OfAxis>,
 }
-
-/// What the samples tell of the coefficients of a harmonic without its prior, on each of the axes that they tell apart.
-struct Told(Vec<OfAxis>);
 
 /// An estimate, whose unit is the standard deviation by the spectrum.
 struct OfAxis {
@@ -128,9 +133,9 @@ struct OfAxis {
     square: f64,
 }
 
-impl Told {
+impl OfAxis {
     /// Of a covariance and a mean that the spectrum is a part of, in units of its standard deviation.
-    fn new(covariance: DMatrix<f64>, mean: DVector<f64>) -> Told {
+    fn list(covariance: DMatrix<f64>, mean: DVector<f64>) -> Vec<OfAxis> {
         let axes = covariance.symmetric_eigen();
         let along = axes.eigenvectors.tr_mul(&mean);
         // Rounding leaves no less of a variance.
@@ -140,13 +145,15 @@ impl Told {
             precision: (1.0 / variance - 1.0).max(f64::EPSILON),
             square: (mean / variance).powi(2),
         });
-        Told(of_axis.collect())
+        of_axis.collect()
     }
+}
 
+impl Told {
     /// The largest fall of the sum of squares that another standard deviation leaves.
     fn largest_fall(&self) -> f64 {
         let of = |axis: &OfAxis| axis.square / (axis.precision * (1.0 + axis.precision));
-        self.0.iter().map(of).sum()
+        self.axes.iter().map(of).sum()
     }
 
     /// Further fall of the sum of squares and further penalty by ln of the factor of the standard deviation.
@@ -157,7 +164,7 @@ impl Told {
             let more = axis.square * (factor - 1.0) / (with * without);
             [fall + more, penalty + (with / without).ln()]
         };
-        self.0.iter().fold([0.0; 2], of)
+        self.axes.iter().fold([0.0; 2], of)
     }
 
     /// The mean square of a coefficient by ln of the factor of its standard deviation, with this variance of a sample.
@@ -167,7 +174,7 @@ impl Told {
             let variance = factor / (1.0 + factor * axis.precision);
             variance + variance * variance * axis.square / of_sample
         };
-        self.0.iter().map(of).sum::<f64>() / self.0.len() as f64
+        self.axes.iter().map(of).sum::<f64>() / self.axes.len() as f64
     }
 }
 
@@ -219,7 +226,7 @@ mod tests {
         };
         let likelihood = |order: f64| {
             let mut deviations = SPECTRUM.deviations(regression.prior);
-            deviations[6..8].fill((SPECTRUM.log_size - order * log(3)).exp());
+            deviations[6..8].fill((SPECTRUM.log_size - order * log(4)).exp());
             let found = regression.solved_with(deviations);
             found.map_or(f64::NAN, |found| rest.likelihood_of(&found))
         };
@@ -229,15 +236,14 @@ mod tests {
         for (cost, expected) in [(rise - 0.1, vec![3]), (rise + 0.1, vec![])] {
             let rest = Rest { cost, ..rest };
             let found = regression.solved(SPECTRUM, &rest).expect("coefficients");
-            let out = (0..5).filter(|one| found.stands_out(*one, 2, SPECTRUM));
-            assert_eq!(out.collect::<Vec<_>>(), expected);
+            assert_eq!(found.lines, expected);
             let of_all = rest.likelihood_of(&found) + cost * expected.len() as f64;
             let smooth = most - if expected.is_empty() { rise } else { 0.0 };
             assert!((of_all - smooth).abs() < 1e-2, "{of_all} {smooth}");
         }
         let aliased = Rest { waves: 3, ..rest };
         let found = regression.solved(SPECTRUM, &aliased).expect("coefficients");
-        assert!(!found.stands_out(3, 2, SPECTRUM));
+        assert!(found.lines.is_empty());
     }
 
     /// Mean square of the coefficients of a harmonic that is not known to stand out, from the posteriors with and without.
@@ -257,7 +263,7 @@ mod tests {
             let left = with.factor().columns(own.start, 2).norm_squared();
             let sizes = with.coefficients[own.clone()].iter();
             let sizes = sizes.map(|value| value * value / 0.5).sum::<f64>();
-            let smooth = SPECTRUM.deviation(harmonic).powi(2);
+            let smooth = SPECTRUM.deviation(harmonic + 1).powi(2);
             let mean = (smooth + odds * 0.5 * (left + sizes)) / (1.0 + odds);
             let expected = mean.max(smooth).sqrt();
             let off = (all[own.start] / expected - 1.0).abs();

@@ -4,9 +4,12 @@
 use std::f64::consts::TAU;
 
 use super::candidates::{About, Candidate};
+use super::harmonics::Increments;
 use super::kalman;
+use super::likelihood::Linear;
+use super::prior::{High, Prior};
 use super::repeating::cosines_and_sines;
-use super::state_space::with_dimension;
+use super::state_space::{Stretch, with_dimension};
 
 /// Sums over the prediction errors e of a model, in their standard deviations.
 #[derive(Default)]
@@ -20,25 +23,52 @@ struct Sums {
 }
 
 impl About {
-    /// Returns the highest harmonic of a turn that stands out of what a model without harmonics leaves, among those that the samples
-    /// can tell; none where its number and its size cost more than it gains (Schwarz, Ann. Statist. 6 (1978) 461).
-    pub fn standing_out(&self, of: &Candidate) -> Option<usize> {
-        let Sums {
-            count,
-            squares,
-            waves,
-        } = self.sums(of);
-        let stands_out = |[cos, sin]: &[f64; 2]| {
-            let ordinate = (cos * cos + sin * sin) / squares;
-            // The rise of ln of the marginal likelihood by two amplitudes with their likeliest variance.
-            ordinate > 1.0 && ordinate - 1.0 - ordinate.ln() > count.ln()
+    /// Returns the harmonics of a turn above one that stand out of what a model without harmonics leaves, among those that the
+    /// samples can tell: one after the other, each beside the torque of the former ones.
+    pub fn standing_out(&self, of: &Candidate, above: usize) -> High {
+        let mut high = High::default();
+        let mut linear = self.of(of.prior);
+        for k in 0..high.len() {
+            high[k] = self.sums(&linear, of).largest(above);
+            match high[k].and_then(|_| self.beside(high, of)) {
+                Some(next) => linear = next,
+                None => break,
+            }
+        }
+        high
+    }
+
+    /// The linear model beside the torque of high harmonics, by least squares.
+    fn beside(&self, high: High, of: &Candidate) -> Option<Linear> {
+        let prior = Prior {
+            cycle: 1,
+            high,
+            ..of.prior
         };
-        waves.iter().rposition(stands_out).map(|index| index + 1)
+        let linear = self.repeating(prior);
+        let regression = linear.regression(&of.noise);
+        // No amplitude is larger in its standard errors than the root of the number of samples.
+        let wide = regression.least_error() * (regression.evidence.samples as f64).sqrt();
+        let found = regression.solved_with(vec![wide; prior.coefficients()])?;
+        let opposite: Vec<f64> = found.coefficients.iter().map(|one| -one).collect();
+        let with = |stretch: &Stretch| {
+            let mut steps = stretch.steps.to_vec();
+            stretch.increments.take_out(&opposite, &mut steps);
+            Stretch {
+                steps: steps.into(),
+                increments: Increments::default(),
+                ..stretch.clone()
+            }
+        };
+        let stretches = linear.stretches.iter().map(with).collect();
+        Some(Linear {
+            stretches,
+            ..Linear::of(of.prior, linear.scales)
+        })
     }
 
     /// The sums of a model's errors, of all harmonics with two samples in a wave and two samples for each coefficient.
-    fn sums(&self, of: &Candidate) -> Sums {
-        let linear = self.of(of.prior);
+    fn sums(&self, linear: &Linear, of: &Candidate) -> Sums {
         let samples: usize = linear.stretches.iter().map(|one| one.observed.len()).sum();
         let waves = 0.5 * TAU / (of.scales.speed * of.scales.spacing);
         let most = samples / (2 * of.prior.of_harmonic());
@@ -70,5 +100,17 @@ impl Sums {
         for (sum, [cos, sin]) in self.waves.iter_mut().zip(pairs) {
             *sum = [sum[0] + error * cos, sum[1] + error * sin];
         }
+    }
+
+    /// Returns the harmonic above one that gains most; none where its number and its size cost more (Schwarz, Ann. Statist. 6 (1978)
+    /// 461).
+    fn largest(&self, above: usize) -> Option<u16> {
+        let square = |[cos, sin]: &[f64; 2]| cos * cos + sin * sin;
+        let ordinates = self.waves.iter().map(|wave| square(wave) / self.squares);
+        let high = (1..).zip(ordinates).skip(above);
+        let (number, ordinate) = high.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        // The rise of ln of the marginal likelihood by two amplitudes with their likeliest variance.
+        let gains = ordinate > 1.0 && ordinate - 1.0 - ordinate.ln() > self.count.ln();
+        gains.then_some(number)
     }
 }

@@ -33,9 +33,14 @@ pub(super) struct Prior {
     pub powers: usize,
     /// Turns of the cycle in which a part of u repeats; 0 without such a part.
     pub cycle: u8,
-    /// Harmonics of that part in a cycle.
+    /// Harmonics of that part in a cycle: 1, 2, ... up to this one.
     pub harmonics: usize,
+    /// Harmonics in a cycle beside those.
+    pub high: High,
 }
+
+/// Numbers of high harmonics.
+pub(super) type High = [Option<u16>; 4];
 
 impl Prior {
     /// u as an integrated Wiener process, and nothing beside.
@@ -46,6 +51,7 @@ impl Prior {
             powers: 0,
             cycle: 0,
             harmonics: 0,
+            high: [None; 4],
         }
     }
 
@@ -54,13 +60,41 @@ impl Prior {
         Prior {
             cycle: 0,
             harmonics: 0,
+            high: [None; 4],
             ..self
         }
     }
 
+    /// This prior with twice the harmonics from the first one on.
+    pub fn with_twice_the_harmonics(self) -> Prior {
+        let harmonics = 2 * self.harmonics;
+        let is_beside = |high: &u16| usize::from(*high) > harmonics;
+        Prior {
+            harmonics,
+            high: self.high.map(|high| high.filter(is_beside)),
+            ..self
+        }
+    }
+
+    /// This prior of every turn with a cycle of two turns.
+    pub fn over_two_turns(self) -> Prior {
+        Prior {
+            cycle: 2,
+            harmonics: 2 * self.harmonics,
+            high: self.high.map(|high| high.map(|number| 2 * number)),
+            ..self
+        }
+    }
+
+    /// Returns the numbers of the harmonics in the order of their coefficients: the high ones first.
+    pub fn numbers(self) -> impl Iterator<Item = usize> + Clone {
+        let high = self.high.into_iter().flatten().map(usize::from);
+        high.chain(1..=self.harmonics)
+    }
+
     /// Number of coefficients of what repeats.
     pub fn coefficients(self) -> usize {
-        self.of_harmonic() * self.harmonics
+        self.of_harmonic() * self.numbers().count()
     }
 
     /// Number of coefficients of each harmonic: of cos kθ and sin kθ, and of these times the speed.

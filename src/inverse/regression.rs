@@ -129,6 +129,7 @@ impl Regression {
             penalty: 2.0 * lower.diagonal().iter().map(|d| d.ln()).sum::<f64>(),
             coefficients: (0..count).map(|j| deviations[j] * solved[j]).collect(),
             deviations,
+            lines: Vec::new(),
             lower,
         })
     }
@@ -144,17 +145,20 @@ pub(super) struct Posterior {
     pub coefficients: Vec<f64>,
     /// Standard deviations before the samples.
     pub deviations: Vec<f64>,
+    /// Indices of the harmonics that stand out of the spectrum.
+    pub lines: Vec<usize>,
     /// Lower factor of Cholesky.
     lower: DMatrix<f64>,
 }
 
 impl Posterior {
-    /// Returns the highest harmonic whose variance the samples reduce by more than half, at the mean speed, or 0; `factor` is
+    /// Returns the highest harmonic, but for the high ones, whose variance the samples reduce by more than half, at the mean speed, or 0; `factor` is
     /// that of the covariance.
     pub fn told(&self, factor: &DMatrix<f64>, prior: Prior) -> usize {
         let of = prior.of_harmonic();
+        let high = prior.high.iter().flatten().count();
         let is_told = |harmonic: &usize| {
-            let first = (harmonic - 1) * of;
+            let first = (high + harmonic - 1) * of;
             let (mut left, mut before) = (0.0, 0.0);
             for j in first..first + 2 {
                 // At the mean speed the coefficients with and without the speed add up.

@@ -42,7 +42,7 @@ impl Repeating {
         told: usize,
         covariance: Matrix<3>,
     ) -> Repeating {
-        let count = 16 * prior.harmonics;
+        let count = 16 * prior.numbers().max().unwrap_or(0);
         let length = TAU / count as f64;
         let ends: Vec<[Series; 2]> = (0..=count)
             .map(|k| series(prior, &coefficients, k as f64 * length))
@@ -89,10 +89,10 @@ impl Repeating {
 /// Returns the torque alone and that per unit of the speed at an angle of the cycle, rad.
 fn series(prior: Prior, coefficients: &[f64], angle: f64) -> [Series; 2] {
     let mut sums = [[0.0; 3]; 2];
-    let pairs = cosines_and_sines(angle, prior.harmonics);
+    let pairs = waves(angle, prior);
     let of = coefficients.chunks_exact(prior.of_harmonic());
-    for (k, ([cos, sin], some)) in (1..).zip(pairs.zip(of)) {
-        let k = f64::from(k);
+    for (k, ([cos, sin], some)) in prior.numbers().zip(pairs.zip(of)) {
+        let k = k as f64;
         for (sum, some) in sums.iter_mut().zip(some.chunks_exact(2)) {
             let value = some[0] * cos + some[1] * sin;
             sum[0] += value;
@@ -103,7 +103,15 @@ fn series(prior: Prior, coefficients: &[f64], angle: f64) -> [Series; 2] {
     sums
 }
 
-/// cos kθ and sin kθ of the cycle angle.
+/// cos kθ and sin kθ of the cycle angle, for the harmonics of a prior.
+pub(super) fn waves(angle: f64, prior: Prior) -> impl Iterator<Item = [f64; 2]> {
+    let high = prior.high.into_iter().flatten();
+    let high = high.map(move |k| (f64::from(k) * angle).sin_cos());
+    let high = high.map(|(sin, cos)| [cos, sin]);
+    high.chain(cosines_and_sines(angle, prior.harmonics))
+}
+
+/// cos kθ and sin kθ of the cycle angle, from k = 1 on.
 pub(super) fn cosines_and_sines(angle: f64, harmonics: usize) -> impl Iterator<Item = [f64; 2]> {
     let (sin, cos) = angle.sin_cos();
     let next = move |[c, s]: &[f64; 2]| Some([c * cos - s * sin, s * cos + c * sin]);

@@ -188,6 +188,7 @@ impl Problem<'_> {
         for iteration in 0..ITERATIONS {
             // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
             if is_at_rest && result.prior == candidate.prior {
+                // High ones stay in their place even where they are among those now.
                 prior.harmonics *= 2;
             }
             let linear = self.linear(prior, scales, &path, noise.sigma);

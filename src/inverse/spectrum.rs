@@ -1,5 +1,7 @@
 //! Spectrum of what repeats, and the search for the likeliest one.
 
+use std::iter;
+
 use super::maximum::ENOUGH_RISE;
 use super::prior::Prior;
 use super::regression::{Posterior, Regression, Rest};
@@ -18,15 +20,15 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// Standard deviation of the coefficients of a harmonic, from index 0, in units of σ.
-    pub fn deviation(self, harmonic: usize) -> f64 {
-        (self.log_size - self.order * log(harmonic)).exp()
+    /// Standard deviation of the coefficients of a harmonic, by its number, in units of σ.
+    pub fn deviation(self, number: usize) -> f64 {
+        (self.log_size - self.order * log(number)).exp()
     }
 
     /// Standard deviation of each coefficient in units of σ.
     pub fn deviations(self, prior: Prior) -> Vec<f64> {
-        let of = |j: usize| self.deviation(j / prior.of_harmonic());
-        (0..prior.coefficients()).map(of).collect()
+        let of = |number| iter::repeat_n(self.deviation(number), prior.of_harmonic());
+        prior.numbers().flat_map(of).collect()
     }
 
     /// Returns the spectrum after a step along ln s and m, within the bounds of both.
@@ -38,9 +40,9 @@ impl Spectrum {
     }
 }
 
-/// ln of the number of a harmonic, from index 0.
-pub(super) fn log(harmonic: usize) -> f64 {
-    ((1 + harmonic) as f64).ln()
+/// ln of the number of a harmonic.
+pub(super) fn log(number: usize) -> f64 {
+    (number as f64).ln()
 }
 
 impl Regression {
@@ -89,8 +91,11 @@ impl Regression {
     /// coefficients β, the score of ln of each deviation is β²/(σ² D) − H, with the covariance 2 H² of each two.
     pub fn scoring(&self, found: &Posterior, variance: f64, at: Spectrum) -> Scoring {
         let (left, of) = (found.left(), self.prior.of_harmonic());
-        let smooth = (0..left.ncols()).filter(|j| !found.stands_out(j / of, of, at));
-        let logs: Vec<(usize, f64)> = smooth.map(|j| (j, log(j / of))).collect();
+        let numbers = self.prior.numbers().enumerate();
+        let smooth = numbers.filter(|(index, _)| !found.lines.contains(index));
+        let columns =
+            |(index, number)| (of * index..of * (index + 1)).map(move |j| (j, log(number)));
+        let logs: Vec<(usize, f64)> = smooth.flat_map(columns).collect();
         let (mut slope, mut information) = ([0.0; 2], [0.0; 3]);
         for &(j, log) in &logs {
             let size = found.coefficients[j] / found.deviations[j];

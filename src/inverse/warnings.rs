@@ -81,10 +81,10 @@ pub(super) fn of_sensor(
         let told = fitted.told;
         match measured {
             Measured::Theta => format!(
-                "the torque that repeats rests on the samples alone, up to harmonic {told} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn), and what varies faster is hidden by noise; neither is in the band"
+                "the torque that repeats rests on the samples alone, up to harmonic {told} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn) and not in the band; what varies faster is hidden by noise, and in the band as far as these harmonics suggest it"
             ),
             _ => format!(
-                "the torque that repeats is known up to harmonic {told} of a turn: what varies faster is hidden by noise, and not in the band"
+                "the torque that repeats is known up to harmonic {told} of a turn: what varies faster is hidden by noise, and in the band as far as these harmonics suggest it"
             ),
         }
     })
