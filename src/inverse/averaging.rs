@@ -28,7 +28,7 @@ impl Problem<'_> {
     /// own.
     pub fn averaged(&self, mut smoothed: Smoothed) -> Smoothed {
         if self.sampled() != self.all() {
-            return smoothed;
+            return self.with_errors_of_tones(smoothed);
         }
         let linear = self.about_itself(&smoothed);
         if smoothed.prior.cycle > 0 {
@@ -56,7 +56,7 @@ impl Problem<'_> {
                 pairs.for_each(|(sum, square)| *sum += weight / total * square);
             }
         }
-        smoothed
+        self.with_errors_of_tones(smoothed)
     }
 
     /// Returns the models of the intensities of a prior with its linear model, whose weights add to its odds to the likeliest one.

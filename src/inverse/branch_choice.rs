@@ -62,7 +62,7 @@ pub(super) fn crank_angles<'a>(
     let window = begin..begin + count;
     let pairs = parallel::map(motions.into_iter(), |one| {
         let read = |angles: CrankAngles<'a>| {
-            let mut record = record(measurement, &angles);
+            let mut record = record(measurement, &angles, &[]);
             record.keep(window.clone());
             let problem = problem(record, &angles.theta[window.clone()], equation, stop);
             Reading::new(&problem, motion, angles, &window)

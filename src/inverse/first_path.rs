@@ -7,6 +7,7 @@ use super::grid::{Grid, NODE_ROTATION, Path};
 use super::prior::{Prior, State, Unknown};
 use super::problem::Problem;
 use super::smoother::Smoothed;
+use super::tone::{self, Carrier};
 use crate::numeric::parallel;
 
 /// Returns a path along crank angles, rad, with their slopes by differences.
@@ -30,10 +31,12 @@ impl Problem<'_> {
             return [theta, omega, alpha, from.state[3], 0.0];
         }
         let terms = self.equation.terms(theta);
+        let tones = tone::sum(&self.record.tones, Carrier::Torque, t);
         let t = self.record.origin + t;
         let known = self.equation.loads().value(t, theta, omega, &terms.pose);
         let torque = self.equation.generalized_force(&terms, omega, alpha)
-            - known.generalized(terms.pose.dx);
+            - known.generalized(terms.pose.dx)
+            - tones;
         let (r, dx) = (self.equation.linkage().r, terms.pose.dx);
         let unknown = match prior.unknown {
             Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),

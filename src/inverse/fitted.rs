@@ -1,6 +1,10 @@
 //! Estimated motion at each sample, by polynomial or smoother, with residuals and figures of the fit.
 
+use std::f64::consts::TAU;
+
+use super::beside_tones::{BesideTones, Rival};
 use super::branch_tracking::CrankAngles;
+use super::candidates::Candidate;
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
 use super::prior::Unknown;
@@ -11,7 +15,9 @@ use super::row::Residual;
 use super::samples;
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
-use super::summary::{CandidateSummary, FitSummary, IntensitySummary};
+use super::summary::FitSummary;
+use super::tone::{self, Carrier, Tone};
+use super::tone_choice::Given;
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::median::range;
@@ -60,7 +66,7 @@ impl Fitted {
         options: &InverseOptions,
         sources: &[Source],
     ) -> Result<Fitted, String> {
-        let record = samples::record(measurement, angles);
+        let record = samples::record(measurement, angles, &[]);
         let degree = match options.size {
             FitSize::Auto => None,
             FitSize::Fixed(degree) => Some(degree),
@@ -108,9 +114,21 @@ impl Fitted {
         if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
         }
-        let (mut problem, kinematic) =
-            samples::kinematic(measurement, angles, equation, options.stop.as_ref());
-        let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
+        let given = Given {
+            measurement,
+            angles,
+            equation,
+            stop: options.stop.as_ref(),
+            suspected,
+        };
+        let mut found = given.likeliest();
+        let rival = found.take_rival(measurement.elapsed());
+        let BesideTones {
+            problem,
+            kinematic,
+            smoothed,
+            ..
+        } = found;
         if let Some((polynomial, fit)) = simple {
             let degree = polynomial.summary.degree;
             let log_odds = problem.log_odds(degree, &kinematic, &smoothed);
@@ -123,11 +141,15 @@ impl Fitted {
         // Frees the memory of a long record.
         drop(kinematic);
         let smoothed = problem.averaged(smoothed);
-        Ok(Fitted {
+        let fitted = Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
             ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
+        };
+        Ok(match rival {
+            Some(Rival { motion, log_odds }) => fitted.beside(motion, log_odds),
+            None => fitted,
         })
     }
 
@@ -137,37 +159,27 @@ impl Fitted {
         problem: &Problem<'_>,
         smoothed: &Smoothed,
     ) -> Fitted {
-        let samples = samples::record(measurement, angles);
         let record = &problem.record;
+        let samples = samples::record(measurement, angles, &record.tones);
         let motion = problem.motion_at(smoothed, measurement.elapsed());
-        let sigma = smoothed.noise.sigma;
+        let (prior, sigma) = (smoothed.prior, smoothed.noise.sigma);
         let parameters = problem.parameters(smoothed, &motion);
         let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let innovations = smoothed.estimates.iter().map(|e| e.innovation);
-        let prior = smoothed.prior;
-        let beside = record.beside.iter();
-        let beside = beside.map(|other| other.summary(&motion)).collect();
+        let beside = (record.beside.iter().map(|other| other.summary(&motion))).collect();
         let whiteness = Some(Whiteness::of(innovations));
         let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
         fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
         fitted.held = record.outliers().find(|row| samples.repeats(*row));
-        let intensities = problem.intensities.0.iter().map(|span| IntensitySummary {
-            from_s: record.origin + span.from,
-            to_s: record.origin + span.to,
-            factor: span.factor,
-        });
+        let intensities = problem.intensities.0.iter();
+        let intensities = intensities.map(|span| span.summary(record.origin));
         let mut with_equation = (smoothed.compared.iter())
             .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)
             .peekable();
         fitted.without_equation = with_equation.peek().is_some()
             && with_equation.all(|candidate| candidate.noise.likelihood == f64::NEG_INFINITY);
         fitted.coded = record.codes.map(|codes| codes.step);
-        let compared = smoothed.compared.iter();
-        let compared = compared.map(|candidate| CandidateSummary {
-            prior: candidate.prior.name(),
-            log_likelihood: candidate.noise.likelihood,
-        });
         fitted.free = (counted - parameters).max(1.0);
         // Prediction errors of codes are not normal.
         fitted.patterned &= sigma > record.floor && record.codes.is_none();
@@ -179,13 +191,14 @@ impl Fitted {
             kind: "smoother",
             reason: "its prior is the likeliest".to_owned(),
             prior: prior.name(),
-            candidates: compared.collect(),
+            candidates: smoothed.compared.iter().map(Candidate::summary).collect(),
             degree: 2 * (prior.order + 2) - 1,
             time_origin_s: record.origin,
             sigma,
             parameters,
-            corner_hz: Some(smoothed.noise.corner / std::f64::consts::TAU),
+            corner_hz: Some(smoothed.noise.corner / TAU),
             intensities: intensities.collect(),
+            tones: record.tones.iter().map(Tone::summary).collect(),
             noise_correlation_s: smoothed.noise.correlated.map(f64::recip),
             beside,
             outliers: record.outliers().count(),
@@ -238,11 +251,12 @@ impl Fitted {
         let residuals = parallel::list(motion.len(), |row| {
             let value = record.values[row];
             let (residual, shown) = sensor.residual(value, motion[row].turning());
+            let tones = tone::sum(&record.tones, Carrier::Sensor, record.times[row]);
             Residual {
                 t: times[row],
                 measured: match sensor.measured {
-                    Measured::Gamma => shown.value + residual,
-                    _ => value,
+                    Measured::Gamma => shown.value + residual + tones,
+                    _ => value + tones,
                 },
                 residual,
             }
@@ -282,5 +296,5 @@ impl Fitted {
 /// True if crank angles, rad, lie within one turn: a polynomial may serve.
 fn is_within_a_turn(theta: &[f64]) -> bool {
     let (least, most) = range(theta);
-    most - least <= std::f64::consts::TAU
+    most - least <= TAU
 }

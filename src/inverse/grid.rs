@@ -114,7 +114,7 @@ impl Piece<'_> {
 pub(super) const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 400.0];
 
 /// Least number of blocks or nodes of a long record, and largest crank rotation within a block, rad.
-const LEAST_BLOCKS: usize = 50_000;
+pub(super) const LEAST_BLOCKS: usize = 50_000;
 pub(super) const BLOCK_ROTATION: f64 = 0.02;
 
 /// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.

@@ -5,6 +5,7 @@
 
 use super::prior::{Prior, State, Unknown, powers_of};
 use super::repeating::Repeating;
+use super::tone::{self, Carrier, Tone};
 use super::transition::exponential;
 use crate::mechanism::{Equation, Terms};
 
@@ -39,6 +40,8 @@ pub(super) struct Motion<'a> {
     pub prior: Prior,
     /// Time of the scene at time 0 of the record, s.
     pub origin: f64,
+    /// Tones of the record, of which those of the torque act beside u.
+    pub tones: &'a [Tone],
 }
 
 /// Difference step of the crank angle, rad, and relative step of the speed, right to about 1e-9 of the terms.
@@ -65,8 +68,9 @@ impl Motion<'_> {
         };
         let known =
             load.generalized(terms.pose.dx) - terms.dv - terms.inertia.half_dm * omega * omega;
+        let tones = tone::sum(self.tones, Carrier::Torque, t);
         let m = terms.inertia.m;
-        [(known + arm * unknown) / m, arm / m]
+        [(known + tones + arm * unknown) / m, arm / m]
     }
 
     /// Returns θ̈ and its partial derivatives at a state.
@@ -174,6 +178,7 @@ mod tests {
             equation: &equation,
             prior: QUADRATIC,
             origin: 0.0,
+            tones: &[],
         };
         let (g, rest, first) = ([-0.3, -0.002], 4.0, [0.7, 20.0]);
         let driven = |omega: f64| rest + g[0] * omega + g[1] * omega * omega.abs();

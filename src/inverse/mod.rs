@@ -32,6 +32,7 @@ mod all_samples;
 mod as_printed;
 mod averaging;
 mod bands;
+mod beside_tones;
 mod branch_choice;
 mod branch_tracking;
 mod candidates;
@@ -42,6 +43,7 @@ mod fitted;
 mod fixed_interval;
 mod grid;
 mod harmonics;
+mod high_harmonics;
 mod hypotheses;
 pub mod identify;
 mod intensities;
@@ -84,13 +86,19 @@ mod selection;
 mod sensors_beside;
 mod shared_errors;
 mod simpler_models;
+mod sinusoid;
 mod smoother;
 mod span;
 mod spectra;
 mod spectrum;
 mod state_space;
 mod stretch_search;
+mod summarised;
 mod summary;
+mod tone;
+mod tone_choice;
+mod tone_errors;
+mod tone_search;
 mod transition;
 mod typical_sizes;
 mod unwrap;
@@ -105,7 +113,7 @@ pub use row::{InverseRow, Residual};
 pub use shared_errors::BudgetShare;
 pub use summary::{
     CandidateSummary, DataSummary, FitSummary, ForceRange, IntensitySummary, InverseSummary,
-    SensorSummary,
+    SensorSummary, ToneSummary,
 };
 
 use self::fitted::Fitted;

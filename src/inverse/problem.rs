@@ -33,6 +33,9 @@ pub(super) struct Problem<'a> {
     pub stop: Option<&'a Stop>,
 }
 
+/// Most nodes by which hyper-parameters are estimated.
+pub(super) const MOST_NODES: usize = 6000;
+
 impl<'a> Problem<'a> {
     /// Returns the smoothed motion at a time: between nodes u beside what follows θ and ω is interpolated, the acceleration
     /// is the equation's.
@@ -94,11 +97,12 @@ impl<'a> Problem<'a> {
         self.stop.is_some_and(Stop::is_requested)
     }
 
-    pub fn motion(&self, prior: Prior) -> Motion<'a> {
+    pub fn motion(&self, prior: Prior) -> Motion<'_> {
         Motion {
             equation: self.equation,
             prior,
             origin: self.record.origin,
+            tones: &self.record.tones,
         }
     }
 
@@ -145,7 +149,6 @@ impl<'a> Problem<'a> {
 
     /// The ranges of nodes by which hyper-parameters are estimated: all, or of long records a few stretches.
     pub fn sampled(&self) -> Vec<Range<usize>> {
-        const MOST_NODES: usize = 6000;
         const STRETCHES: usize = 4;
         let nodes = self.grid.len();
         if nodes <= MOST_NODES {

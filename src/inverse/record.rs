@@ -8,6 +8,7 @@ use super::measurement_model::{Scale, Sensor, Shown, Turning};
 use super::quantised::{Codes, Interval};
 use super::residual_tests;
 use super::state_space::Observed;
+use super::tone::Tone;
 use crate::mechanism::Linkage;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::scene::Measured;
@@ -21,8 +22,10 @@ pub(super) struct Record<'a> {
     pub sensor: Sensor<'a>,
     /// Sample times, s, rising.
     pub times: Cow<'a, [f64]>,
-    /// Measured values, rad or m; a crank angle continued over the turns.
+    /// Measured values less tones of the sensor, rad or m; a crank angle continued over the turns.
     pub values: Vec<f64>,
+    /// Tones: those of the sensor are not in the values.
+    pub tones: Vec<Tone>,
     /// Weight of each sample: precision over that of a full one; 0 for none.
     pub weights: Vec<f64>,
     /// Quantisation of the samples, if wider than the noise.
@@ -80,6 +83,7 @@ impl Record<'_> {
             },
             times: self.times.as_ref().into(),
             values: self.values.iter().map(|value| value + zero).collect(),
+            tones: self.tones.clone(),
             weights: self.weights.clone(),
             codes: None,
             intervals: Vec::new(),
@@ -96,6 +100,7 @@ impl Record<'_> {
         Record {
             times: intervals.iter().map(|i| i.t).collect(),
             values: intervals.iter().map(|i| i.middle).collect(),
+            tones: self.tones.clone(),
             weights: vec![1.0; intervals.len()],
             intervals,
             shown: shown.map(|(t, value)| [*t, *value]).collect(),

@@ -10,6 +10,7 @@ use super::record::{Record, SensorBeside};
 use super::scales::root_mean_square;
 use super::smoother::Smoothed;
 use super::span::Intensities;
+use super::tone::{self, Carrier, Tone};
 use super::{first_path, outliers};
 use crate::mechanism::Equation;
 use crate::numeric::ROUNDING_DEVIATION;
@@ -22,19 +23,28 @@ const ROUNDING_STEPS: f64 = 2.0;
 /// Maximum number of rounds of outlier detection.
 const OUTLIER_ROUNDS: usize = 6;
 
-/// Returns the samples of a measurement at full weight; a measured crank angle is the unwrapped one of `angles`.
-pub(super) fn record<'a>(measurement: &'a Measurement, angles: &CrankAngles<'a>) -> Record<'a> {
+/// Returns the samples of a measurement less the tones of the sensor, at full weight; a measured crank angle is the unwrapped one of
+/// `angles`.
+pub(super) fn record<'a>(
+    measurement: &'a Measurement,
+    angles: &CrankAngles<'a>,
+    tones: &[Tone],
+) -> Record<'a> {
     let sensor = angles.sensor;
-    let values = match sensor.measured {
+    let mut values = match sensor.measured {
         Measured::Theta => angles.theta.clone(),
         _ => measurement.values().to_vec(),
     };
+    for (value, t) in values.iter_mut().zip(measurement.elapsed()) {
+        *value -= tone::sum(tones, Carrier::Sensor, *t);
+    }
     let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
     Record {
         sensor,
         times: measurement.elapsed().into(),
         weights: vec![1.0; values.len()],
         values,
+        tones: tones.to_vec(),
         codes: None,
         intervals: Vec::new(),
         shown: Vec::new(),
@@ -87,14 +97,15 @@ pub(super) fn codes(measurement: &Measurement, angles: &CrankAngles<'_>) -> Opti
     alone.then(|| Codes::of(&angles.theta, measurement.resolution()))?
 }
 
-/// Returns the samples of a measurement with their outlier weights, and the motion smoothed without mechanics.
+/// Returns the samples of a measurement less the tones of the sensor, with their outlier weights, and the motion smoothed without mechanics.
 pub(super) fn kinematic<'a>(
     measurement: &'a Measurement,
     angles: &CrankAngles<'a>,
+    tones: &[Tone],
     equation: &'a Equation,
     stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
-    let samples = || record(measurement, angles);
+    let samples = || record(measurement, angles, tones);
     let Some(codes) = codes(measurement, angles) else {
         let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0, stop);
         let kinematic = problem.by_all_sensors(kinematic);

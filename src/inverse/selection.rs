@@ -23,6 +23,11 @@ fn criterion(samples: usize, spread: f64, parameters: f64) -> f64 {
 /// Part of the weights that the confidence set of models has, as the band of a value has of its distribution.
 const CONFIDENCE: f64 = 0.95;
 
+/// True if the less probable of two models, with these odds of the other, is in the least set that has 95 % of the weights.
+pub(super) fn counts(log_odds: f64) -> bool {
+    1.0 / (1.0 + (-log_odds).exp()) < CONFIDENCE
+}
+
 /// Returns the weights of models by their criteria: 0 outside the least set that has 95 % of them.
 fn akaike(criteria: Vec<f64>) -> Vec<f64> {
     let least = criteria.iter().copied().fold(f64::INFINITY, f64::min);

@@ -90,6 +90,8 @@ pub struct FitSummary {
     pub corner_hz: Option<f64>,
     /// Stretches with another intensity of the process noise.
     pub intensities: Vec<IntensitySummary>,
+    /// Sinusoids of fixed frequencies in time, in the values of the sensor or in the torque.
+    pub tones: Vec<ToneSummary>,
     /// Correlation time of the noise of the samples, s, where it is not white.
     pub noise_correlation_s: Option<f64>,
     /// Other sensors of the motion.
@@ -113,6 +115,19 @@ pub struct IntensitySummary {
     pub to_s: f64,
     /// Intensity over the usual intensity.
     pub factor: f64,
+}
+
+/// Sinusoid of a fixed frequency in time.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ToneSummary {
+    /// `sensor` (hum of the mains) or `torque`.
+    pub carrier: &'static str,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Amplitude, rad or m of a sensor, N m of the torque.
+    pub amplitude: f64,
+    /// ln of the odds to a tone of the other one; none where that has no likelihood.
+    pub log_odds: Option<f64>,
 }
 
 /// Sensor beside that of the record.

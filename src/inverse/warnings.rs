@@ -6,6 +6,7 @@ use super::InverseOptions;
 use super::fitted::Fitted;
 use super::residual_tests::DEVIATIONS;
 use super::row::InverseRow;
+use super::selection;
 use crate::mechanism::Equation;
 use crate::numeric::median::median;
 use crate::scene::{Measured, Measurement, Scene};
@@ -169,6 +170,29 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
         warnings.push(format!(
             "the noise is {:.1} counts of the encoder, and no more than one is its own: the samples may be too far apart to show the motion between them, or the counts per turn are others",
             summary.sigma / measurement.resolution()
+        ));
+    }
+    for tone in &summary.tones {
+        let (of, size, other) = match tone.carrier {
+            "sensor" => (
+                "the sensor, as hum of the mains, and is not in the motion",
+                measurement.shown(tone.amplitude),
+                "a torque",
+            ),
+            _ => (
+                "the torque, and is in the result",
+                format!("{:.2e} N m", tone.amplitude),
+                "an error of the sensor",
+            ),
+        };
+        let odds = tone.log_odds.unwrap_or(f64::INFINITY);
+        let band = match selection::counts(odds) {
+            true => ", and in the band",
+            false => "",
+        };
+        warnings.push(format!(
+            "a tone of {:.4} Hz and {size} is taken for one of {of}: {other} of that frequency is e^{odds:.1} times less likely{band}",
+            tone.frequency_hz,
         ));
     }
     if let Some(time) = summary.noise_correlation_s {

@@ -563,7 +563,9 @@ fn a_known_torque_leaves_the_force_of_the_rest() {
     for motion in &MOTIONS {
         let mut truth = motion.run();
         let record = measure(&truth, Sensor::Angle(1e-4), &mut random);
-        let motor: Vec<f64> = truth.t.iter().map(|t| 3.0 * (9.0 * t).sin()).collect();
+        // A known torque is linear from row to row: a triangle between -3 and 3 N m with its corners at rows.
+        let triangle = |row: usize| 6.0 * ((row % 320) as f64 / 160.0 - 1.0).abs() - 3.0;
+        let motor: Vec<f64> = (0..truth.t.len()).map(triangle).collect();
         let samples = Measurement::new(record.measured, record.t.clone(), record.values.clone())
             .and_then(|samples| samples.with(Beside::Torque, motor.clone()));
         let options = InverseOptions::default();
@@ -1296,4 +1298,95 @@ fn correlated_noise_within_one_turn_is_no_motion() {
         told += usize::from(found.summary.fit.noise_correlation_s.is_some());
     }
     assert!(told >= 15, "{told} of 20");
+}
+
+/// Returns the mean error of the torque over records of angles with white noise of 1e-4 rad and a tone of 50 Hz of this amplitude,
+/// rad, the mean coverage of its band, and the last result.
+fn with_hum(motion: &Motion, amplitude: f64, seeds: u64) -> ([f64; 2], Inverse) {
+    let truth = motion.run();
+    let of_seed = |seed: u64| {
+        let mut record = measure(&truth, Sensor::Angle(1e-4), &mut Random(seed * 7919));
+        for (value, t) in record.values.iter_mut().zip(&record.t) {
+            *value += amplitude * (TAU * 50.0 * t + seed as f64).sin();
+        }
+        let found = found(motion, &record, 1.0);
+        (torque_errors(&truth, &found), found)
+    };
+    let mut all: Vec<_> = (1..=seeds).map(of_seed).collect();
+    let mean = [0, 1].map(|k| all.iter().map(|one| one.0[k]).sum::<f64>() / seeds as f64);
+    let (_, last) = all.pop().expect("a record");
+    (mean, last)
+}
+
+/// Hum of the mains of 1e-3 rad in the sensor. As motion it would be a torque of M ω² times as much, 2 N m; a record without it has
+/// no tone. The amplitude of a tone is known to σ √(2/n), 4e-6 rad, and its frequency to √6 σ/(π a T √n), 0.002 Hz.
+#[test]
+fn hum_of_the_mains_is_no_motion() {
+    let dense = Motion {
+        rows: 10_000,
+        ..MOTIONS[0]
+    };
+    for (motion, seeds, most) in [
+        (&MOTIONS[0], 3, 0.05),
+        (&MOTIONS[2], 3, 0.05),
+        (&dense, 1, 0.02),
+    ] {
+        let ([error, covered], found) = with_hum(motion, 1e-3, seeds);
+        let name = motion.name;
+        assert!(error < most, "{name}: {error} N m");
+        assert!(covered > 0.9, "{name}: {covered}");
+        let [tone] = found.summary.fit.tones[..] else {
+            panic!("{name}: {:?}", found.summary.fit.tones);
+        };
+        assert_eq!(tone.carrier, "sensor", "{name}");
+        assert!((tone.frequency_hz - 50.0).abs() < 0.02, "{name}: {tone:?}");
+        assert!((tone.amplitude - 1e-3).abs() < 3e-5, "{name}: {tone:?}");
+        let (_, without) = with_hum(motion, 0.0, 1);
+        assert!(without.summary.fit.tones.is_empty(), "{name}");
+    }
+}
+
+/// A torque of 0.5 N m at 40 Hz on a crank that starts and on a machine at work: as a Wiener process it would be known to a fifth
+/// at best. The tone is in the result, with its error.
+#[test]
+fn a_torque_of_a_fixed_frequency_is_a_tone() {
+    fn ripple(t: f64) -> f64 {
+        0.5 * (TAU * 40.0 * t + 0.4).sin()
+    }
+    let with = |motion: &Motion, torque| Motion { torque, ..*motion };
+    let start = with(&MOTIONS[0], |t, theta, omega| {
+        ripple(t) + (MOTIONS[0].torque)(t, theta, omega)
+    });
+    let steady = with(&MOTIONS[2], |t, theta, omega| {
+        ripple(t) + (MOTIONS[2].torque)(t, theta, omega)
+    });
+    for motion in [start, steady] {
+        let truth = motion.run();
+        let results: Vec<_> = (1..=6)
+            .map(|seed| {
+                let found = of_angles(&motion, &truth, 3e-5, seed);
+                let tones = &found.summary.fit.tones;
+                assert!(
+                    tones.iter().any(|tone| tone.carrier == "torque"),
+                    "{}: {tones:?}",
+                    motion.name
+                );
+                torque_errors(&truth, &found)
+            })
+            .collect();
+        let [error, covered] = [0, 1].map(|k| results.iter().map(|one| one[k]).sum::<f64>() / 6.0);
+        assert!(error < 0.02, "{}: {error} N m: {results:?}", motion.name);
+        assert!(covered > 0.85, "{}: {covered}: {results:?}", motion.name);
+    }
+}
+
+/// Hum of the size of the noise while the crank slows down: whether the sensor or a torque of 0.25 N m has it the samples hardly
+/// tell, and the band has both.
+#[test]
+fn a_tone_that_the_sensor_or_the_torque_may_have_is_in_the_band() {
+    let ([_, covered], found) = with_hum(&MOTIONS[1], 1e-4, 10);
+    assert!(covered > 0.9, "{covered}");
+    let tones = &found.summary.fit.tones;
+    let odds = tones[0].log_odds.expect("odds");
+    assert!((0.0..10.0).contains(&odds), "{tones:?}");
 }

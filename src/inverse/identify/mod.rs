@@ -99,7 +99,7 @@ fn identify_among(
         false => sensor,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion, None)?;
-    let (mut problem, smooth) = kinematic(measurement, &angles, &equation, None);
+    let (mut problem, smooth) = kinematic(measurement, &angles, &[], &equation, None);
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }

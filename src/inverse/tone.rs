@@ -1,0 +1,70 @@
+//! Tones: sinusoids of fixed frequencies in time, in the values of a sensor, as hum of the mains, or in the torque, as the ripple of
+//! an inverter.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// What has a tone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Carrier {
+    Sensor,
+    Torque,
+}
+
+/// A sinusoid a cos ωt + b sin ωt.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tone {
+    pub carrier: Carrier,
+    /// ω, rad/s.
+    pub frequency: f64,
+    /// a and b, rad or m of a sensor, N m of the torque.
+    pub amplitudes: [f64; 2],
+    /// Covariance of a, b and ω.
+    pub covariance: Matrix3<f64>,
+    /// ln of the odds to a tone of the other carrier; none where that has no likelihood.
+    pub log_odds: Option<f64>,
+}
+
+impl Tone {
+    /// Returns its value at a time, s.
+    pub fn at(&self, t: f64) -> f64 {
+        let (sin, cos) = (self.frequency * t).sin_cos();
+        self.amplitudes[0] * cos + self.amplitudes[1] * sin
+    }
+
+    /// Returns the derivatives of its value at a time, s, by a, b and ω.
+    pub fn slopes(&self, t: f64) -> [f64; 3] {
+        let (sin, cos) = (self.frequency * t).sin_cos();
+        let [a, b] = self.amplitudes;
+        [cos, sin, t * (b * cos - a * sin)]
+    }
+
+    /// True if another estimate of it is within a third of the standard errors of this one, in the mean of the three.
+    pub fn agrees(&self, other: &Tone) -> bool {
+        let vector =
+            |tone: &Tone| Vector3::new(tone.amplitudes[0], tone.amplitudes[1], tone.frequency);
+        let off = vector(other) - vector(self);
+        let solved = self
+            .covariance
+            .try_inverse()
+            .map(|inverse| off.dot(&(inverse * off)));
+        solved.is_some_and(|square| square < 1.0 / 3.0)
+    }
+
+    /// Returns its amplitude.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitudes[0].hypot(self.amplitudes[1])
+    }
+
+    /// Returns ln of the density of ln of its amplitude, of which the mean alone is known: the distribution of the most entropy is
+    /// exponential (Jaynes, Probability Theory, 2003, chapter 11).
+    pub fn log_prior(&self, mean: f64) -> f64 {
+        let ratio = self.amplitude() / mean;
+        ratio.ln() - ratio
+    }
+}
+
+/// Returns the sum of the tones of a carrier at a time, s.
+pub(super) fn sum(tones: &[Tone], carrier: Carrier, t: f64) -> f64 {
+    let of_carrier = tones.iter().filter(|tone| tone.carrier == carrier);
+    of_carrier.map(|tone| tone.at(t)).sum()
+}

@@ -1,0 +1,96 @@
+//! The likeliest motion beside the tones that the samples show. A tone has three parameters, and is accepted where the likelihood
+//! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
+//! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
+
+use super::beside_tones::{BesideTones, Less};
+use super::branch_tracking::CrankAngles;
+use super::maximum::SIGNIFICANT_RISE;
+use super::samples;
+use super::tone::{Carrier, Tone};
+use crate::mechanism::Equation;
+use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
+use crate::scene::Measurement;
+
+/// What a motion is estimated from.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a, 'b> {
+    pub measurement: &'a Measurement,
+    pub angles: &'b CrankAngles<'a>,
+    pub equation: &'a Equation,
+    pub stop: Option<&'a Stop>,
+    /// Whether the noise may be correlated.
+    pub suspected: bool,
+}
+
+impl<'a> Given<'a, '_> {
+    /// The likeliest motion, beside the tones that gain what they cost.
+    pub fn likeliest(&self) -> BesideTones<'a> {
+        let mut best = self.beside(&[]);
+        // A bound of the work, for a record of many lines.
+        while best.problem.record.tones.len() < 4 {
+            let known = &best.problem.record.tones;
+            let mut more = best.problem.another_tone(&best.smoothed);
+            // An encoder errs by no more than a count.
+            more.retain(|tone| tone.carrier == Carrier::Torque || !self.measurement.is_counted());
+            let with = |tone| self.refined(known.iter().copied().chain([tone]).collect());
+            let mut tried = parallel::map(more.into_iter(), with);
+            tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
+            let mut tried = tried.into_iter();
+            let least = best.likelihood() + best.problem.cost_of_tone();
+            let Some(mut next) = tried.next().filter(|next| next.likelihood() > least) else {
+                break;
+            };
+            let other = tried.next().map(|other| Less {
+                log_odds: next.log_probability() - other.log_probability(),
+                motion: Box::new(other),
+            });
+            if let Some(tone) = next.problem.record.tones.last_mut() {
+                let log_odds = other.as_ref().map(|other| other.log_odds);
+                tone.log_odds = log_odds.filter(|odds| odds.is_finite());
+            }
+            let rivals = best.rival.take().into_iter().chain(other);
+            next.rival = rivals.min_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
+            best = next;
+        }
+        best
+    }
+
+    /// The likeliest motion beside tones of which the last is estimated anew about it, as long as that moves it and makes the motion
+    /// likelier.
+    fn refined(&self, mut tones: Vec<Tone>) -> BesideTones<'a> {
+        let mut found = self.beside(&tones);
+        while let Some(tone) = found.problem.last_tone(&found.smoothed) {
+            if tones.pop().is_none_or(|known| tone.agrees(&known)) {
+                break;
+            }
+            tones.push(tone);
+            let next = self.beside(&tones);
+            let is_likelier = next.likelihood() > found.likelihood() + SIGNIFICANT_RISE;
+            if !is_likelier {
+                break;
+            }
+            found = next;
+        }
+        found
+    }
+
+    fn beside(&self, tones: &[Tone]) -> BesideTones<'a> {
+        let Given {
+            measurement,
+            angles,
+            equation,
+            stop,
+            suspected,
+        } = *self;
+        let (mut problem, kinematic) =
+            samples::kinematic(measurement, angles, tones, equation, stop);
+        let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
+        BesideTones {
+            problem,
+            kinematic,
+            smoothed,
+            rival: None,
+        }
+    }
+}
