@@ -1346,8 +1346,8 @@ fn hum_of_the_mains_is_no_motion() {
     }
 }
 
-/// A torque of 0.5 N m at 40 Hz on a crank that starts and on a machine at work: as a Wiener process it would be known to a fifth
-/// at best. The tone is in the result, with its error.
+/// A torque of 0.5 N m at 40 Hz on a crank that starts, on a machine at work, and on one that slows down: as a Wiener process it would
+/// be known to a fifth at best. The tone is in the result, with its error, which is all of it where the crank slows down.
 #[test]
 fn a_torque_of_a_fixed_frequency_is_a_tone() {
     fn ripple(t: f64) -> f64 {
@@ -1360,23 +1360,22 @@ fn a_torque_of_a_fixed_frequency_is_a_tone() {
     let steady = with(&MOTIONS[2], |t, theta, omega| {
         ripple(t) + (MOTIONS[2].torque)(t, theta, omega)
     });
-    for motion in [start, steady] {
+    let slowing = with(&MOTIONS[1], |t, theta, omega| {
+        ripple(t) + (MOTIONS[1].torque)(t, theta, omega)
+    });
+    for motion in [start, steady, slowing] {
         let truth = motion.run();
-        let results: Vec<_> = (1..=6)
-            .map(|seed| {
-                let found = of_angles(&motion, &truth, 3e-5, seed);
-                let tones = &found.summary.fit.tones;
-                assert!(
-                    tones.iter().any(|tone| tone.carrier == "torque"),
-                    "{}: {tones:?}",
-                    motion.name
-                );
-                torque_errors(&truth, &found)
-            })
-            .collect();
-        let [error, covered] = [0, 1].map(|k| results.iter().map(|one| one[k]).sum::<f64>() / 6.0);
+        let of_seed = |seed| {
+            let found = of_angles(&motion, &truth, 3e-5, seed);
+            let tones = &found.summary.fit.tones;
+            let is_found = tones.iter().any(|tone| tone.carrier == "torque");
+            assert!(is_found, "{}: {tones:?}", motion.name);
+            torque_errors(&truth, &found)
+        };
+        let results: Vec<_> = (1..=8).map(of_seed).collect();
+        let [error, covered] = [0, 1].map(|k| results.iter().map(|one| one[k]).sum::<f64>() / 8.0);
         assert!(error < 0.02, "{}: {error} N m: {results:?}", motion.name);
-        assert!(covered > 0.85, "{}: {covered}: {results:?}", motion.name);
+        assert!(covered > 0.8, "{}: {covered}: {results:?}", motion.name);
     }
 }
 
