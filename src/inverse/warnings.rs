@@ -185,13 +185,15 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
                 "an error of the sensor",
             ),
         };
-        let odds = tone.log_odds.unwrap_or(f64::INFINITY);
-        let band = match selection::counts(odds) {
-            true => ", and in the band",
-            false => "",
-        };
+        let rival = tone.log_odds.map_or(String::new(), |odds| {
+            let band = match selection::counts(odds) {
+                true => ", and in the band",
+                false => "",
+            };
+            format!(": {other} of that frequency is e^{odds:.1} times less likely{band}")
+        });
         warnings.push(format!(
-            "a tone of {:.4} Hz and {size} is taken for one of {of}: {other} of that frequency is e^{odds:.1} times less likely{band}",
+            "a tone of {:.4} Hz and {size} is taken for one of {of}{rival}",
             tone.frequency_hz,
         ));
     }
