@@ -1,6 +1,8 @@
 //! Likelihood by all samples of a long record, to refine a noise that was estimated from stretches: variations slower
 //! than a stretch show only in the whole. Filters of several noises run side by side along the record.
 
+use std::iter;
+
 use super::candidates::Candidate;
 use super::grid::Path;
 use super::kalman::{self, Evidence, Gaussian};
@@ -26,19 +28,32 @@ impl Problem<'_> {
         let linear = Linear::of(prior.beside_known(), scales);
         let states = linear.prior.states() + usize::from(first.correlated.is_some());
         let [lowest, highest] = scales.corners().map(f64::ln);
-        let mut likeliest = first;
-        for _ in 0..CORNER_ROUNDS {
-            let middle = likeliest.corner.ln();
-            let logs = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|off| middle + off);
-            let noises = logs.map(|log| Noise {
+        let judged_at = |logs: &[f64]| -> Vec<Noise> {
+            let noise = |log: &f64| Noise {
                 corner: log.clamp(lowest, highest).exp(),
                 likelihood: f64::NEG_INFINITY,
                 ..first
-            });
+            };
+            let noises: Vec<Noise> = logs.iter().map(noise).collect();
             let evidences =
                 with_dimension!(states, N => self.filtered::<N>(path, &linear, &noises));
             let pairs = noises.iter().zip(&evidences);
-            let judged: Vec<Noise> = pairs.map(|(n, e)| linear.judged(*n, e, 1)).collect();
+            pairs.map(|(n, e)| linear.judged(*n, e, 1)).collect()
+        };
+        // A stretch does not show at all what is slower than itself.
+        let part = self.grid.len() as f64 / self.sampled()[0].len() as f64;
+        let slow: Vec<f64> = iter::successors(Some(lowest), |log| Some(log + 1.0))
+            .take_while(|log| *log <= (part / scales.duration).ln() + 2.0)
+            .collect();
+        let mut likeliest = match slow.last() {
+            Some(last) if first.corner < last.exp() => {
+                judged_at(&slow).into_iter().reduce(better).unwrap_or(first)
+            }
+            _ => first,
+        };
+        for _ in 0..CORNER_ROUNDS {
+            let middle = likeliest.corner.ln();
+            let judged = judged_at(&[-2.0, -1.0, 0.0, 1.0, 2.0].map(|off| middle + off));
             likeliest = judged.iter().copied().fold(judged[2], better);
             if likeliest.corner == lowest.exp() || likeliest.corner == highest.exp() {
                 return likeliest;
