@@ -12,7 +12,8 @@ use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::fork;
 use super::problem::Problem;
 use super::samples::{problem, record};
-use super::{alignment, first_path, limit, unwrap};
+use super::smoother::Smoothed;
+use super::{alignment, limit, unwrap};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -64,8 +65,10 @@ pub(super) fn crank_angles<'a>(
         let read = |angles: CrankAngles<'a>| {
             let mut record = record(measurement, &angles, &[]);
             record.keep(window.clone());
-            let problem = problem(record, &angles.theta[window.clone()], equation, stop);
-            Reading::new(&problem, motion, angles, &window)
+            let theta = &angles.theta[window.clone()];
+            let (problem, first) = problem(record, theta, 1, equation, stop);
+            let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
+            Reading::new(&problem, &kinematic, motion, angles, &window)
         };
         let taken = read(one.angles);
         let other = match one.leaves {
@@ -145,19 +148,18 @@ struct Reading<'a> {
 impl<'a> Reading<'a> {
     fn new(
         problem: &Problem<'_>,
+        kinematic: &Smoothed,
         motion: &Motion,
         angles: CrankAngles<'a>,
         window: &Range<usize>,
     ) -> Reading<'a> {
-        let first = first_path::coarse(problem, &angles.theta[window.clone()]);
-        let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
         // A zero and a gain that are found from the samples cost ln of their width before over that after (MacKay, Neural
         // Computation 4 (1992) 415).
         let Scale { shift, stretch } = angles.sensor.scale;
         let found = f64::from(u8::from(shift != 0.0) + u8::from(stretch != 1.0));
         let width = LARGEST_VALUE_ERROR * angles.sensor.size();
         let cost = found * (width / angles.sigma).max(1.0).ln();
-        let likelihood = problem.evidence(&kinematic) - cost;
+        let likelihood = problem.evidence(kinematic) - cost;
         let begin = angles.theta[0];
         let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;
         let way = angles.theta.iter().find(far).or(angles.theta.last());

@@ -1,5 +1,6 @@
 //! Priors about a smoothed path with the noise that makes the samples likeliest.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::grid::Path;
@@ -8,6 +9,7 @@ use super::likelihood::Linear;
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
 use super::prior::{FOLLOWING, LADDERS, Prior, TORQUE};
 use super::problem::Problem;
+use super::rotation::Rotation;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
@@ -128,7 +130,7 @@ impl Problem<'_> {
 
     /// The cost of parameters in ln of the likelihood (Schwarz, Ann. Statist. 6 (1978) 461).
     pub fn cost(&self, parameters: f64) -> f64 {
-        0.5 * parameters * (self.record.times.len() as f64).ln()
+        0.5 * parameters * (self.samples().times.len() as f64).ln()
     }
 
     /// Priors about a path.
@@ -141,7 +143,7 @@ impl Problem<'_> {
             about.of(*prior).candidate(first, f64::NEG_INFINITY)
         });
         let plain = plain.into_iter().flatten().collect();
-        self.with_repeating(plain, abouts, self.turns(kinematic), false)
+        self.with_repeating(plain, abouts, Rotation::of(kinematic.angles()), false)
     }
 
     /// The priors with the likeliest correlation of the sample noise.
@@ -152,7 +154,7 @@ impl Problem<'_> {
             let about = abouts.find(|(_, ladder)| ladder.contains(&one.prior));
             about.map_or(*one, |(about, _)| about.of(one.prior).with_correlation(one))
         });
-        self.with_repeating(plain, white.abouts, self.turns(kinematic), true)
+        self.with_repeating(plain, white.abouts, Rotation::of(kinematic.angles()), true)
     }
 
     /// Priors without and with a part that repeats.
@@ -160,12 +162,12 @@ impl Problem<'_> {
         &self,
         mut candidates: Vec<Candidate>,
         abouts: Vec<About>,
-        turns: f64,
+        rotation: Rotation,
         is_correlated: bool,
     ) -> Tried {
         // What repeats is noise that comes down: of what was computed there is none.
-        if !self.record.is_computed() {
-            candidates.extend(self.repeating(turns, &candidates, &abouts, is_correlated));
+        if !self.is_computed() {
+            candidates.extend(self.repeating(rotation, &candidates, &abouts, is_correlated));
         }
         candidates.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
         Tried { candidates, abouts }
@@ -175,13 +177,13 @@ impl Problem<'_> {
     /// beside the likeliest prior without.
     fn repeating(
         &self,
-        turns: f64,
+        rotation: Rotation,
         tried: &[Candidate],
         abouts: &[About],
         is_correlated: bool,
     ) -> Vec<Candidate> {
         let of = |prior: Prior| tried.iter().find(|one| one.prior == prior);
-        let Some(torque) = of(TORQUE).filter(|_| turns >= 2.0) else {
+        let Some(torque) = of(TORQUE).filter(|_| rotation.turns >= 2.0) else {
             return Vec::new();
         };
         // A part that follows the speed is there at once where the samples show it without what repeats.
@@ -195,10 +197,9 @@ impl Problem<'_> {
         let high = about.map(|about| about.standing_out(plain, FIRST_HARMONICS));
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
-            let waves = (prior.harmonics / usize::from(prior.cycle)) as f64;
             if self.is_stopped()
                 || 2 * prior.coefficients() > self.record.times.len()
-                || 2.0 * waves * turns > self.grid.len() as f64
+                || prior.waves() * rotation.step > PI
             {
                 return None;
             }
@@ -239,7 +240,7 @@ impl Problem<'_> {
         if first.powers == 0 {
             extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
         }
-        if turns >= 4.0 {
+        if rotation.turns >= 4.0 {
             extend(ENOUGH_RISE, Prior::over_two_turns);
         }
         while extend(SIGNIFICANT_RISE, Prior::with_twice_the_harmonics) {}

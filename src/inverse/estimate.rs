@@ -57,10 +57,10 @@ impl Problem<'_> {
     }
 
     /// Returns the number of parameters that a smoothed motion is worth, the trace of its hat matrix; `motion` at the samples,
-    /// or at those that intervals stand for.
+    /// or at those that intervals or means stand for.
     pub fn parameters(&self, smoothed: &Smoothed, motion: &[MotionEstimate]) -> f64 {
         let record = &self.record;
-        let motion = match record.intervals.is_empty() {
+        let motion = match motion.len() == record.times.len() {
             true => Cow::Borrowed(motion),
             false => Cow::Owned(self.motion_at(smoothed, &record.times)),
         };
@@ -75,7 +75,7 @@ impl Problem<'_> {
     /// Returns the acceleration, rad/s², that would make up for what each step leaves out of angle and speed, if the samples are
     /// computed; others have more noise.
     fn left_out(&self, smoothed: &Smoothed) -> Vec<f64> {
-        if !self.record.is_computed() {
+        if !self.is_computed() {
             return Vec::new();
         }
         let motion = self.motion(smoothed.prior);

@@ -3,20 +3,19 @@
 use std::ops::Range;
 
 use super::estimate::Estimate;
-use super::grid::{Grid, NODE_ROTATION, Path};
+use super::grid::{Grid, Path};
 use super::prior::{Prior, State, Unknown};
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use super::tone::{self, Carrier};
 use crate::numeric::parallel;
 
-/// Returns a path along crank angles, rad, with their slopes by differences.
-pub(super) fn coarse(problem: &Problem<'_>, theta: &[f64]) -> Path {
-    let (times, record) = (&problem.grid.times, &problem.record);
+/// Returns a path along crank angles, rad, of samples at times, s, with their slopes by differences.
+pub(super) fn coarse(grid: &Grid, times: &[f64], theta: &[f64]) -> Path {
     let last = theta.len() - 1;
-    let states = times.iter().enumerate().map(|(node, t)| {
-        let next = problem.grid.first[node].clamp(1, last);
-        let (a, b) = (record.times[next - 1], record.times[next]);
+    let states = grid.times.iter().zip(&grid.first).map(|(t, next)| {
+        let next = *next.clamp(&1, &last);
+        let (a, b) = (times[next - 1], times[next]);
         let slope = (theta[next] - theta[next - 1]) / (b - a);
         [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0, 0.0]
     });
@@ -62,24 +61,5 @@ impl Problem<'_> {
             repeating: None,
             ranges,
         }
-    }
-
-    /// Returns the states of a smoothed motion along a smoothed motion without mechanics, at all nodes. These become blocks
-    /// of samples where the prior leaves nothing but noise within a block.
-    pub fn whole_path(&mut self, found: &Smoothed, from: &Smoothed) -> Path {
-        let angles = from.estimates.iter().map(|estimate| estimate.state[0]);
-        let corner = found.noise.corner.max(found.noise.speed_corner);
-        let is_white = self.grid.block == 0.0 && found.noise.correlated.is_none();
-        let blocks = Grid::in_blocks(&self.record.times, angles, NODE_ROTATION[0])
-            .filter(|blocks| is_white && blocks.resolves(corner));
-        let Some(blocks) = blocks else {
-            return self.path_of(found.prior, from, self.all());
-        };
-        let states = parallel::list(blocks.len(), |k| {
-            let t = blocks.times[k];
-            self.state_of(found.prior, &self.at(from, t), t)
-        });
-        self.grid = blocks;
-        Path::whole(states)
     }
 }

@@ -164,23 +164,23 @@ impl Fitted {
         let motion = problem.motion_at(smoothed, measurement.elapsed());
         let (prior, sigma) = (smoothed.prior, smoothed.noise.sigma);
         let parameters = problem.parameters(smoothed, &motion);
-        let counted = record.weights.iter().filter(|w| **w > 0.0).count() as f64;
         let innovations = smoothed.estimates.iter().map(|e| e.innovation);
         let beside = (record.beside.iter().map(|other| other.summary(&motion))).collect();
         let whiteness = Some(Whiteness::of(innovations));
         let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
-        fitted.farthest_outlier = record.outliers().max_by(|a, b| size(a).total_cmp(&size(b)));
-        fitted.held = record.outliers().find(|row| samples.repeats(*row));
-        let intensities = problem.intensities.0.iter();
-        let intensities = intensities.map(|span| span.summary(record.origin));
+        let outliers: Vec<usize> = problem.samples().outliers().collect();
+        fitted.farthest_outlier =
+            (outliers.iter().copied()).max_by(|a, b| size(a).total_cmp(&size(b)));
+        fitted.held = (outliers.iter().copied()).find(|row| samples.repeats(*row));
+        let spans = problem.intensities.0.iter();
         let mut with_equation = (smoothed.compared.iter())
             .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)
             .peekable();
         fitted.without_equation = with_equation.peek().is_some()
             && with_equation.all(|candidate| candidate.noise.likelihood == f64::NEG_INFINITY);
         fitted.coded = record.codes.map(|codes| codes.step);
-        fitted.free = (counted - parameters).max(1.0);
+        fitted.free = (record.counted() - parameters).max(1.0);
         // Prediction errors of codes are not normal.
         fitted.patterned &= sigma > record.floor && record.codes.is_none();
         fitted.converged = smoothed.converged;
@@ -195,13 +195,14 @@ impl Fitted {
             degree: 2 * (prior.order + 2) - 1,
             time_origin_s: record.origin,
             sigma,
+            sigma_error: sigma / (2.0 * fitted.free).sqrt(),
             parameters,
             corner_hz: Some(smoothed.noise.corner / TAU),
-            intensities: intensities.collect(),
+            intensities: spans.map(|span| span.summary(record.origin)).collect(),
             tones: record.tones.iter().map(Tone::summary).collect(),
             noise_correlation_s: smoothed.noise.correlated.map(f64::recip),
             beside,
-            outliers: record.outliers().count(),
+            outliers: outliers.len(),
             ..fitted.summary
         };
         fitted
@@ -234,6 +235,7 @@ impl Fitted {
             standard_errors: fit.standard_errors.iter().map(finite).collect(),
             condition: finite(&fit.condition),
             sigma: fit.sigma,
+            sigma_error: fit.sigma / (2.0 * fitted.free).sqrt(),
             parameters,
             ..fitted.summary
         };
@@ -264,10 +266,7 @@ impl Fitted {
         let whiteness =
             whiteness.unwrap_or_else(|| Whiteness::of(residuals.iter().map(|row| row.residual)));
         let n = residuals.len() as f64;
-        let squares: f64 = residuals
-            .iter()
-            .map(|row| row.residual * row.residual)
-            .sum();
+        let squares: f64 = residuals.iter().map(|row| row.residual.powi(2)).sum();
         let measured = residuals.iter().map(|row| row.measured);
         let mean = measured.clone().sum::<f64>() / n;
         let about: f64 = measured.map(|v| (v - mean) * (v - mean)).sum();

@@ -16,8 +16,6 @@ pub(super) struct Grid {
     pub times: Vec<f64>,
     /// Index of the first sample of each node, then the number of samples: node k has `first[k]..first[k + 1]`.
     pub first: Vec<usize>,
-    /// Time of a block of samples that stand at one node, s; 0 where each has its own.
-    pub block: f64,
 }
 
 /// Nominal path of a linear model.
@@ -113,56 +111,16 @@ impl Piece<'_> {
 /// or no more than rounding.
 pub(super) const NODE_ROTATION: [f64; 2] = [TAU / 50.0, TAU / 400.0];
 
-/// Least number of blocks or nodes of a long record, and largest crank rotation within a block, rad.
-pub(super) const LEAST_BLOCKS: usize = 50_000;
-pub(super) const BLOCK_ROTATION: f64 = 0.02;
-
-/// Largest product of block duration and corner frequency, rad: motion within a block is then below the noise.
-const BLOCK_PHASE: f64 = 0.3;
+/// Number of nodes from which on those of a record are as few as may be.
+pub(super) const LONG: usize = 50_000;
 
 impl Grid {
-    /// Returns nodes that stand for blocks of samples, if there are so many that blocks of at most this rotation, rad, pay:
-    /// `BLOCK_ROTATION` where little may happen in a block, `NODE_ROTATION` for the motion of an equation that is known in it.
-    pub fn in_blocks(
-        times: &[f64],
-        angles: impl ExactSizeIterator<Item = f64>,
-        longest: f64,
-    ) -> Option<Grid> {
-        let count = times.len();
-        let stride = angles.len().div_ceil(1000);
-        let some: Vec<f64> = angles.step_by(stride).collect();
-        let way: f64 = some.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-        let dense = (longest * count as f64 / way.max(f64::MIN_POSITIVE)) as usize;
-        let length = dense.min(count / LEAST_BLOCKS);
-        if length < 2 {
-            return None;
-        }
-        let blocks = count / length;
-        let mut first: Vec<usize> = (0..=blocks).map(|k| k * count / blocks).collect();
-        first.dedup();
-        let times: Vec<f64> = first
-            .windows(2)
-            .map(|w| 0.5 * (times[w[0]] + times[w[1] - 1]))
-            .collect();
-        let widest = times.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
-        Some(Grid {
-            times,
-            first,
-            block: widest,
-        })
-    }
-
-    /// True if a smoother with a corner frequency, rad/s, finds nothing but noise within a block.
-    pub fn resolves(&self, corner: f64) -> bool {
-        self.block * corner <= BLOCK_PHASE
-    }
-
     /// Nodes at the samples, computed or measured, and between those that are far apart.
     pub fn new(times: &[f64], angles: &[f64], are_computed: bool) -> Grid {
         let mut grid = Grid::default();
         let way: f64 = angles.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
         // The nodes of a long record are as few as may be.
-        let is_long = way > LEAST_BLOCKS as f64 * NODE_ROTATION[1];
+        let is_long = way > LONG as f64 * NODE_ROTATION[1];
         let longest = NODE_ROTATION[usize::from(are_computed && !is_long)];
         for (i, t) in times.iter().enumerate() {
             grid.times.push(*t);

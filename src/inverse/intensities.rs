@@ -152,7 +152,7 @@ impl Problem<'_> {
         while best.prior.cycle == 0
             && best.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
-            && !self.record.is_computed()
+            && !self.is_computed()
         {
             let sites = self.sites();
             let before = std::mem::take(&mut self.intensities);
@@ -182,10 +182,7 @@ impl Problem<'_> {
         }
         let judged = outliers::judge(self, best, 0.0);
         let judged = judged.filter(|judged| judged.few);
-        judged.is_some_and(|judged| {
-            let before = std::mem::replace(&mut self.record.weights, judged.weights);
-            !outliers::alike(&before, &self.record.weights)
-        })
+        judged.is_some_and(|judged| self.weigh(judged.weights, best))
     }
 
     fn likeliest_of_all(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {

@@ -43,7 +43,16 @@ pub(super) struct Shown {
     pub curvature: f64,
 }
 
-impl Sensor<'_> {
+impl<'a> Sensor<'a> {
+    /// An exact sensor of a linkage.
+    pub fn exact(linkage: &'a Linkage, measured: Measured) -> Sensor<'a> {
+        Sensor {
+            linkage,
+            measured,
+            scale: Scale::TRUE,
+        }
+    }
+
     /// Returns the crank angles of a reading, and its distance from all possible readings, rad or m.
     pub fn angles(&self, value: f64) -> (InversePosition, f64) {
         match self.measured {

@@ -37,6 +37,7 @@ mod branch_choice;
 mod branch_tracking;
 mod candidates;
 mod code_moments;
+mod condensed;
 mod estimate;
 mod first_path;
 mod fitted;
@@ -59,6 +60,7 @@ mod links;
 mod matrix;
 mod maximum;
 mod mean_cycle;
+mod mean_length;
 mod measurement_model;
 mod mirror_image;
 mod motion_estimate;
@@ -78,6 +80,7 @@ mod refusals;
 mod regression;
 mod repeating;
 mod residual_tests;
+mod rotation;
 mod row;
 mod rows;
 mod samples;
@@ -118,7 +121,7 @@ pub use summary::{
 
 use self::fitted::Fitted;
 use self::inverse_dynamics::{Guide, InverseDynamics};
-use self::measurement_model::{Scale, Sensor};
+use self::measurement_model::Sensor;
 use self::rows::Rows;
 use self::shared_errors::SharedErrors;
 use crate::error::Error;
@@ -204,15 +207,9 @@ fn recovered(
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;
     let equation = Equation::new(scene);
-    let sensor = Sensor {
-        linkage: equation.linkage(),
-        measured: measurement.measured(),
-        scale: Scale::TRUE,
-    };
+    let sensor = Sensor::exact(equation.linkage(), measurement.measured());
     let stop = options.stop.as_ref();
-    let motion = &scene.motion;
-    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, motion, stop)?;
-    let noted = angles.warnings.clone();
+    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion, stop)?;
     let zero = samples::codes(measurement, &angles).and_then(|codes| codes.zero_error());
     let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
@@ -239,7 +236,7 @@ fn recovered(
     let (measured, rows) = (measurement.measured(), &found.rows);
     let warnings = [
         measurement.notes().to_vec(),
-        noted,
+        angles.warnings.clone(),
         warnings::of_scene(scene, options),
         warnings::of_motion(scene, measured, rows),
         locked.into_iter().collect(),

@@ -30,7 +30,7 @@ pub(super) struct Judgement {
 
 /// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
 pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
-    let record = &problem.record;
+    let record = problem.samples();
     let sigma = smoothed.noise.sigma;
     let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
@@ -100,7 +100,23 @@ fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
     first.windows(2).map(|w| w[0]..w[1]).collect()
 }
 
+impl Problem<'_> {
+    /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights.
+    pub fn weigh(&mut self, weights: Vec<f64>, about: &Smoothed) -> bool {
+        let weighed = match &mut self.condensed {
+            None => &mut self.record,
+            Some(condensed) => &mut condensed.record,
+        };
+        let is_alike = alike(&weighed.weights, &weights);
+        weighed.weights = weights;
+        if let Some(condensed) = &self.condensed {
+            self.record = condensed.about(&self.grid, &about.path());
+        }
+        !is_alike
+    }
+}
+
 /// True if two lists of weights differ by less than 0.1.
-pub(super) fn alike(a: &[f64], b: &[f64]) -> bool {
+fn alike(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1)
 }

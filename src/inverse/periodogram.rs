@@ -58,9 +58,9 @@ impl Periodogram {
         (1..).zip(ordinates.take(self.harmonics))
     }
 
-    /// Returns the harmonics that stand out of their neighbours, the sharpest first, by the likelihood ratio of a variance of their
-    /// own, against the cost of a number and a size. Harmonics of half the resolution are two for each independent ordinate.
-    fn lines(&self) -> Vec<u16> {
+    /// Returns the harmonics that stand out of their neighbours, by the likelihood ratio of a variance of their own, against the cost
+    /// of a number and a size. Harmonics of this frequency, rad/s, half the resolution, are two for each independent ordinate.
+    fn lines(&self, width: f64) -> Vec<Line> {
         let all: Vec<f64> = self.ordinates().map(|(_, ordinate)| ordinate).collect();
         let gain = |k: &usize| {
             let side = |from: usize, to: usize| all.iter().take(to).skip(from);
@@ -72,14 +72,13 @@ impl Periodogram {
         };
         let is_peak =
             |k: &usize| all[*k] >= all[k - 1] && all.get(k + 1).is_none_or(|next| all[*k] > *next);
-        let peaks = (1..all.len()).filter(is_peak).map(|k| (gain(&k), k));
-        let mut lines: Vec<(f64, usize)> =
-            peaks.filter(|(gain, _)| *gain > self.count.ln()).collect();
-        lines.sort_by(|a, b| b.0.total_cmp(&a.0));
-        lines
-            .into_iter()
-            .filter_map(|(_, k)| u16::try_from(k + 1).ok())
-            .collect()
+        let peaks = (1..all.len()).filter(is_peak).map(|k| Line {
+            frequency: (k + 1) as f64 * width,
+            width,
+            gain: gain(&k),
+        });
+        let found = peaks.filter(|line| line.gain > self.count.ln());
+        found.collect()
     }
 
     /// Returns the harmonic above one that gains most; none where its number and its size cost more (Schwarz, Ann. Statist. 6 (1978)
@@ -93,31 +92,55 @@ impl Periodogram {
     }
 }
 
-/// Returns the angular frequencies, rad/s, of the lines of prediction errors at times, s, the sharpest first: by the first ones, up
-/// to a number, then next to it by all.
-pub(super) fn lines(errors: &[[f64; 2]], most: usize) -> Vec<f64> {
-    let some = &errors[..errors.len().min(most)];
-    let [width, of_all] = [some, errors].map(half_width);
-    let mut coarse = Periodogram::of(some.len());
-    for [t, error] in some {
-        coarse.add(*error, width * t);
-    }
-    let ordinate = |frequency: f64| {
-        let mut fine = Periodogram::of(1);
-        errors
-            .iter()
-            .for_each(|[t, error]| fine.add(*error, frequency * t));
-        fine.ordinates().map(|(_, ordinate)| ordinate).sum::<f64>()
+/// A frequency that stands out of its neighbours.
+pub(super) struct Line {
+    /// Angular frequency, rad/s.
+    frequency: f64,
+    /// Half the distance of two frequencies that are told apart, rad/s.
+    width: f64,
+    /// Rise of ln of the likelihood.
+    gain: f64,
+}
+
+/// Returns the lines of prediction errors at times, s, the sharpest first: of the first ones, up to a number, and of as many means of
+/// two, of four and of more of them.
+pub(super) fn lines(errors: &[[f64; 2]], most: usize) -> Vec<Line> {
+    let means = |finer: &Vec<[f64; 2]>| {
+        let mean = |pair: &[[f64; 2]]| [0, 1].map(|k| 0.5 * (pair[0][k] + pair[1][k]));
+        (finer.len() > most).then(|| finer.chunks_exact(2).map(mean).collect())
     };
-    let highest = |number: u16| {
-        let line = f64::from(number) * width;
-        let places = iter::successors(Some(line - width), |place| Some(place + of_all));
-        let places = places.take_while(|place| *place <= line + width);
+    let levels = iter::successors(Some(errors.to_vec()), means);
+    let of_first = |level: Vec<[f64; 2]>| {
+        let some = &level[..most.min(level.len())];
+        let width = half_width(some);
+        let mut sums = Periodogram::of(some.len());
+        some.iter()
+            .for_each(|[t, error]| sums.add(*error, width * t));
+        sums.lines(width)
+    };
+    let mut lines: Vec<Line> = levels.flat_map(of_first).collect();
+    lines.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    lines
+}
+
+impl Line {
+    /// Returns the frequency next to its own, rad/s, at which prediction errors at times, s, have the largest ordinate.
+    pub fn highest(&self, errors: &[[f64; 2]]) -> f64 {
+        let ordinate = |frequency: f64| {
+            let mut sums = Periodogram::of(1);
+            let pairs = errors.iter();
+            pairs.for_each(|[t, error]| sums.add(*error, frequency * t));
+            sums.ordinates().map(|(_, ordinate)| ordinate).sum::<f64>()
+        };
+        let step = half_width(errors);
+        let places = iter::successors(Some(self.frequency - self.width), |place| {
+            Some(place + step)
+        });
+        let places = places.take_while(|place| *place <= self.frequency + self.width);
         let fine = places.map(|place| (place, ordinate(place)));
         let highest = fine.max_by(|a, b| a.1.total_cmp(&b.1));
-        highest.map_or(line, |highest| highest.0)
-    };
-    coarse.lines().into_iter().map(highest).collect()
+        highest.map_or(self.frequency, |highest| highest.0)
+    }
 }
 
 /// Half the distance of two frequencies that samples from the first to the last tell apart, rad/s.

@@ -102,6 +102,11 @@ impl Prior {
         if self.powers > 0 { 4 } else { 2 }
     }
 
+    /// Number of waves of its highest harmonic in a turn, but for the high ones.
+    pub fn waves(self) -> f64 {
+        self.harmonics as f64 / f64::from(self.cycle.max(1))
+    }
+
     /// Number of states.
     pub fn states(self) -> usize {
         self.diffuse() + self.powers

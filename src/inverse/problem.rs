@@ -2,6 +2,7 @@
 
 use std::ops::{Range, RangeInclusive};
 
+use super::condensed::Condensed;
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
 use super::harmonics::{Increments, ways};
@@ -25,6 +26,8 @@ use crate::numeric::stop::Stop;
 #[derive(Debug)]
 pub(super) struct Problem<'a> {
     pub record: Record<'a>,
+    /// Samples that have the means of the record in their place, if there are any.
+    pub condensed: Option<Condensed<'a>>,
     pub grid: Grid,
     pub equation: &'a Equation,
     /// Intensity factors of the process noise along the record.
@@ -70,10 +73,23 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// The samples themselves.
+    pub fn samples(&self) -> &Record<'a> {
+        self.condensed
+            .as_ref()
+            .map_or(&self.record, |condensed| &condensed.record)
+    }
+
+    /// True if the samples were computed.
+    pub fn is_computed(&self) -> bool {
+        self.samples().is_computed()
+    }
+
     /// Returns the record less its codes by another mechanism and scale of the sensor, shifted by a zero, rad.
     pub fn moved<'b>(&'b self, equation: &'b Equation, scale: Scale, zero: f64) -> Problem<'b> {
         Problem {
             record: self.record.moved(equation.linkage(), scale, zero),
+            condensed: None,
             grid: self.grid.clone(),
             equation,
             intensities: self.intensities.clone(),
@@ -81,15 +97,20 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// Leaves out all but a range of nodes; returns the range of their samples.
-    pub fn keep(&mut self, nodes: RangeInclusive<usize>) -> Range<usize> {
+    /// Leaves out all but a range of nodes; returns the number of their samples.
+    pub fn keep(&mut self, nodes: RangeInclusive<usize>) -> usize {
         let (begin, end) = nodes.into_inner();
         let samples = self.grid.first[begin]..self.grid.first[end + 1];
         self.record.keep(samples.clone());
         self.grid.times = self.grid.times[begin..=end].to_vec();
         let first = self.grid.first[begin..=end + 1].iter();
         self.grid.first = first.map(|sample| sample - samples.start).collect();
-        samples
+        match self.condensed.take() {
+            Some(Condensed { blocks, .. }) => {
+                blocks.first[samples.end] - blocks.first[samples.start]
+            }
+            None => samples.len(),
+        }
     }
 
     /// True if a stop is requested.

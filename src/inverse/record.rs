@@ -32,6 +32,8 @@ pub(super) struct Record<'a> {
     pub codes: Option<Codes>,
     /// Intervals in the place of quantised samples, represented by normal distributions at `values`.
     pub intervals: Vec<Interval>,
+    /// Standard deviations, s, of the times of the samples whose means these are; none of single ones.
+    pub spreads: Vec<f64>,
     /// Times, s, and values, rad, of the samples that the intervals stand for.
     pub shown: Vec<[f64; 2]>,
     /// Other sensors of the motion.
@@ -60,6 +62,7 @@ impl Record<'_> {
         self.times = self.times[range.clone()].to_vec().into();
         self.values = self.values[range.clone()].to_vec();
         self.weights = self.weights[range.clone()].to_vec();
+        self.spreads = self.spreads.get(range.clone()).unwrap_or_default().to_vec();
         for sensor in &mut self.beside {
             sensor.values = sensor.values[range.clone()].to_vec().into();
         }
@@ -85,6 +88,7 @@ impl Record<'_> {
             values: self.values.iter().map(|value| value + zero).collect(),
             tones: self.tones.clone(),
             weights: self.weights.clone(),
+            spreads: self.spreads.clone(),
             codes: None,
             intervals: Vec::new(),
             shown: Vec::new(),
@@ -102,11 +106,17 @@ impl Record<'_> {
             values: intervals.iter().map(|i| i.middle).collect(),
             tones: self.tones.clone(),
             weights: vec![1.0; intervals.len()],
+            spreads: Vec::new(),
             intervals,
             shown: shown.map(|(t, value)| [*t, *value]).collect(),
             beside: Vec::new(),
             ..*self
         }
+    }
+
+    /// Returns the number of samples that count.
+    pub fn counted(&self) -> f64 {
+        self.weights.iter().filter(|weight| **weight > 0.0).count() as f64
     }
 
     /// Returns the indices of the samples with little weight because they are far off.
@@ -141,23 +151,18 @@ impl Record<'_> {
         self.codes.is_none() && noise.max(of_codes) < self.instrument_noise()
     }
 
-    /// Returns the motion of a path at a sample of a node.
-    fn turning(&self, grid: &Grid, path: &Piece<'_>, node: usize, sample: usize) -> Turning {
-        match grid.block > 0.0 {
-            true => path.turning(grid, self.times[sample]),
-            false => {
-                let [theta, omega, ..] = path.states[node - path.first];
-                [theta, omega]
-            }
-        }
+    /// Returns two times that have the mean and the variance of those of the samples whose mean a sample is.
+    pub fn times_of(&self, sample: usize) -> [f64; 2] {
+        let (t, spread) = (self.times[sample], self.spreads.get(sample).unwrap_or(&0.0));
+        [t - spread, t + spread]
     }
 
     /// Returns the mean deviation of the samples of a node from the nominal path; of several sensors, that of the angle by
     /// their information Σ w h′² and Σ w h′ r.
     pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
+        let [theta, omega, ..] = path.states[node - path.first];
         let mut sums = [0.0; 5];
         for i in grid.first[node]..grid.first[node + 1] {
-            let turning = self.turning(grid, path, node, i);
             let beside = self.beside.iter();
             let beside = beside.map(|other| {
                 (
@@ -168,7 +173,17 @@ impl Record<'_> {
             });
             let own = (&self.sensor, self.values[i], self.weights[i]);
             for (sensor, value, weight) in std::iter::once(own).chain(beside) {
-                let (residual, Shown { slope, .. }) = sensor.residual(value, turning);
+                let off = |turning: Turning| {
+                    let (residual, Shown { slope, .. }) = sensor.residual(value, turning);
+                    [residual, slope]
+                };
+                let [residual, slope] = match self.spreads.is_empty() {
+                    true => off([theta, omega]),
+                    false => {
+                        let [a, b] = self.times_of(i).map(|t| off(path.turning(grid, t)));
+                        [0, 1].map(|k| 0.5 * (a[k] + b[k]))
+                    }
+                };
                 if weight > 0.0 && residual.is_finite() && slope.is_finite() {
                     let parts = [1.0, residual, slope, slope * residual, slope * slope];
                     (0..5).for_each(|k| sums[k] += weight * parts[k]);

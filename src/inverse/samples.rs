@@ -1,7 +1,8 @@
 //! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
 use super::branch_tracking::CrankAngles;
-use super::grid::{BLOCK_ROTATION, Grid, Path};
+use super::condensed::{Blocks, Condensed};
+use super::grid::{Grid, Path};
 use super::measurement_model::{Scale, Sensor};
 use super::prior::KINEMATIC;
 use super::problem::Problem;
@@ -43,6 +44,7 @@ pub(super) fn record<'a>(
         sensor,
         times: measurement.elapsed().into(),
         weights: vec![1.0; values.len()],
+        spreads: Vec::new(),
         values,
         tones: tones.to_vec(),
         codes: None,
@@ -73,22 +75,38 @@ fn sensors_beside<'a>(measurement: &'a Measurement, own: Sensor<'a>) -> Vec<Sens
     measurement.beside().iter().filter_map(of).collect()
 }
 
-/// Returns a record with its nodes, at blocks of samples where these are dense.
+/// Returns a record with its nodes, and a path along crank angles, rad: of means of up to so many samples where these are dense.
 pub(super) fn problem<'a>(
     record: Record<'a>,
     theta: &[f64],
+    most: usize,
     equation: &'a Equation,
     stop: Option<&'a Stop>,
-) -> Problem<'a> {
-    let grid = Grid::in_blocks(&record.times, theta.iter().copied(), BLOCK_ROTATION)
-        .unwrap_or_else(|| Grid::new(&record.times, theta, record.is_computed()));
-    Problem {
+) -> (Problem<'a>, Path) {
+    let blocks = Blocks::new(&record, theta, most);
+    let means = |values: &[f64]| match &blocks {
+        Some(blocks) => blocks.means(values),
+        None => values.to_vec(),
+    };
+    let (times, angles) = (means(&record.times), means(theta));
+    let grid = Grid::new(&times, &angles, record.is_computed());
+    let path = first_path::coarse(&grid, &times, &angles);
+    let (record, condensed) = match blocks {
+        None => (record, None),
+        Some(blocks) => {
+            let condensed = Condensed { record, blocks };
+            (condensed.about(&grid, &path), Some(condensed))
+        }
+    };
+    let problem = Problem {
         record,
+        condensed,
         grid,
         equation,
         intensities: Intensities::default(),
         stop,
-    }
+    };
+    (problem, path)
 }
 
 /// Returns the quantisation of crank angles that were measured alone.
@@ -97,23 +115,27 @@ pub(super) fn codes(measurement: &Measurement, angles: &CrankAngles<'_>) -> Opti
     alone.then(|| Codes::of(&angles.theta, measurement.resolution()))?
 }
 
-/// Returns the samples of a measurement less the tones of the sensor, with their outlier weights, and the motion smoothed without mechanics.
+/// Returns the samples of a measurement less the tones of the sensor, or means of up to so many, with their outlier weights, and the
+/// motion smoothed without mechanics.
 pub(super) fn kinematic<'a>(
     measurement: &'a Measurement,
     angles: &CrankAngles<'a>,
     tones: &[Tone],
+    most: usize,
     equation: &'a Equation,
     stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
     let samples = || record(measurement, angles, tones);
     let Some(codes) = codes(measurement, angles) else {
-        let (mut problem, kinematic) = without_outliers(samples(), angles, equation, 0.0, stop);
+        let (mut problem, kinematic) =
+            without_outliers(samples(), angles, most, equation, 0.0, stop);
         let kinematic = problem.by_all_sensors(kinematic);
         return (problem, kinematic);
     };
     let coded = samples().coded(codes);
     let is_whole = coded.times.len() == measurement.len();
-    let (mut problem, kinematic) = without_outliers(coded, angles, equation, codes.step, stop);
+    let (mut problem, kinematic) =
+        without_outliers(coded, angles, most, equation, codes.step, stop);
     if kinematic.noise.sigma < codes.step {
         let first = problem.record.clone();
         let record = &mut problem.record;
@@ -135,7 +157,7 @@ pub(super) fn kinematic<'a>(
             problem.record.intervals.clear();
             (problem, kinematic)
         }
-        false => without_outliers(samples(), angles, equation, codes.step, stop),
+        false => without_outliers(samples(), angles, most, equation, codes.step, stop),
     }
 }
 
@@ -143,6 +165,7 @@ pub(super) fn kinematic<'a>(
 fn without_outliers<'a>(
     record: Record<'a>,
     angles: &CrankAngles<'_>,
+    most: usize,
     equation: &'a Equation,
     step: f64,
     stop: Option<&'a Stop>,
@@ -151,15 +174,13 @@ fn without_outliers<'a>(
         true => record.values.clone(),
         false => angles.theta.clone(),
     };
-    let mut problem = problem(record, &theta, equation, stop);
-    let first = first_path::coarse(&problem, &theta);
+    let (mut problem, first) = problem(record, &theta, most, equation, stop);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
-    if !problem.grid.resolves(kinematic.noise.corner) {
-        let are_computed = problem.record.is_computed();
-        problem.grid = Grid::new(&problem.record.times, &theta, are_computed);
-        let first = first_path::coarse(&problem, &theta);
-        kinematic = problem.kinematic(first, sigma);
+    if problem.condensed.is_some() {
+        // The first path follows the noise.
+        problem.weigh(vec![1.0; problem.samples().times.len()], &kinematic);
+        kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     let mut few = true;
     for _ in 0..OUTLIER_ROUNDS {
@@ -167,14 +188,14 @@ fn without_outliers<'a>(
             break;
         };
         few = judged.few;
-        let before = std::mem::replace(&mut problem.record.weights, judged.weights);
+        let changes = problem.weigh(judged.weights, &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
-        if outliers::alike(&before, &problem.record.weights) {
+        if !changes {
             break;
         }
     }
     if !few {
-        problem.record.weights.fill(1.0);
+        problem.weigh(vec![1.0; problem.samples().times.len()], &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     (problem, kinematic)

@@ -6,8 +6,10 @@ use super::spectrum::Spectrum;
 /// Typical magnitudes along a record.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales {
-    /// Mean time between samples, s.
+    /// Mean time between samples, or the means in their place, s.
     pub spacing: f64,
+    /// Number of samples of a mean, in the mean.
+    pub samples: f64,
     /// Duration of the record, s.
     pub duration: f64,
     /// Root mean square of d measured/dθ.
@@ -102,7 +104,7 @@ impl Scales {
     /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.
     pub fn density(&self, corner: f64, order: usize) -> f64 {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);
-        corner.powi(integrations) * self.spacing / (self.lever * self.slope).powi(2)
+        corner.powi(integrations) * self.spacing / self.samples / (self.lever * self.slope).powi(2)
     }
 }
 

@@ -6,6 +6,7 @@ use super::harmonics::responses;
 use super::kalman;
 use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
+use super::problem::Problem;
 use super::repeating::dot;
 use super::scales::Noise;
 use super::state_space::{Stretch, with_dimension};
@@ -17,8 +18,7 @@ use crate::numeric::maximum;
 pub(super) struct Beside<'a> {
     pub linear: &'a Linear,
     pub stretch: Stretch,
-    /// Times of its nodes, s.
-    pub times: &'a [f64],
+    pub problem: &'a Problem<'a>,
     pub carrier: Carrier,
 }
 
@@ -100,7 +100,8 @@ impl Beside<'_> {
     pub fn with(&self, part: f64, wave: impl Fn(f64) -> f64) -> Stretch {
         let mut steps = self.stretch.steps.to_vec();
         let mut observed = self.stretch.observed.to_vec();
-        for (step, t) in steps.iter_mut().zip(self.times) {
+        let Problem { grid, record, .. } = self.problem;
+        for (step, t) in steps.iter_mut().zip(&grid.times) {
             step.defect = step.defect.map(|own| part * own);
             if self.carrier == Carrier::Torque {
                 let ends = LOBATTO.map(|part| wave(t + part * step.h));
@@ -110,10 +111,11 @@ impl Beside<'_> {
                 pairs.for_each(|(value, response)| *value -= dot(&response, &torques));
             }
         }
-        for (sample, t) in observed.iter_mut().zip(self.times) {
-            sample.residual *= part;
-            if self.carrier == Carrier::Sensor {
-                sample.residual += wave(*t);
+        for (observed, first) in observed.iter_mut().zip(&grid.first) {
+            observed.residual *= part;
+            if self.carrier == Carrier::Sensor && *first < record.times.len() {
+                let [a, b] = record.times_of(*first).map(&wave);
+                observed.residual += 0.5 * (a + b);
             }
         }
         Stretch {

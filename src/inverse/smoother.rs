@@ -37,6 +37,11 @@ impl Smoothed {
         }
     }
 
+    /// The crank angles at its nodes, rad.
+    pub fn angles(&self) -> impl Iterator<Item = f64> + Clone {
+        self.estimates.iter().map(|estimate| estimate.state[0])
+    }
+
     /// The path of the states that were smoothed at all nodes.
     pub fn path(&self) -> Path {
         let states = self.estimates.iter().map(|e| e.state);
@@ -114,8 +119,12 @@ impl Problem<'_> {
                 },
             };
         }
-        let path = self.whole_path(&found, kinematic);
-        self.completed(found, path, true)
+        let path = self.path_of(found.prior, kinematic, self.all());
+        match self.finer(&found, kinematic) {
+            // Means of fewer samples come first.
+            Some(_) => found,
+            None => self.completed(found, path, true),
+        }
     }
 
     /// The smoothed motion with the likeliest prior about a first one. Noise of the samples is correlated where that is
@@ -130,7 +139,7 @@ impl Problem<'_> {
         };
         let found = self.without_repeating(found);
         let innovations = found.estimates.iter().map(|e| e.innovation);
-        let is_noise = self.record.codes.is_none() && !self.record.is_computed();
+        let is_noise = self.record.codes.is_none() && !self.is_computed();
         if !is_noise || !suspected && !Whiteness::of(innovations).is_violated() {
             return found;
         }

@@ -84,6 +84,8 @@ pub struct FitSummary {
     pub condition: Option<f64>,
     /// Standard deviation of a sample, rad or m: rms corrected for the parameters, at least the rounding of the digits.
     pub sigma: f64,
+    /// Standard error of that, for normal noise.
+    pub sigma_error: f64,
     /// Number of parameters; for a smoother, the effective number.
     pub parameters: f64,
     /// Corner frequency of the smoother, Hz: slower variations of the acceleration are followed.

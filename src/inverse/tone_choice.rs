@@ -5,6 +5,7 @@
 use super::beside_tones::{BesideTones, Less};
 use super::branch_tracking::CrankAngles;
 use super::maximum::SIGNIFICANT_RISE;
+use super::problem::MOST_NODES;
 use super::samples;
 use super::tone::{Carrier, Tone};
 use crate::mechanism::Equation;
@@ -26,14 +27,21 @@ pub(super) struct Given<'a, 'b> {
 impl<'a> Given<'a, '_> {
     /// The likeliest motion, beside the tones that gain what they cost.
     pub fn likeliest(&self) -> BesideTones<'a> {
-        let mut best = self.beside(&[]);
+        let mut most = self.measurement.len().div_ceil(MOST_NODES);
+        let mut best = loop {
+            let found = self.beside(&[], most);
+            match found.problem.finer(&found.smoothed, &found.kinematic) {
+                Some(finer) => most = finer,
+                None => break found,
+            }
+        };
         // A bound of the work, for a record of many lines.
         while best.problem.record.tones.len() < 4 {
             let known = &best.problem.record.tones;
             let mut more = best.problem.another_tone(&best.smoothed);
             // An encoder errs by no more than a count.
             more.retain(|tone| tone.carrier == Carrier::Torque || !self.measurement.is_counted());
-            let with = |tone| self.refined(known.iter().copied().chain([tone]).collect());
+            let with = |tone| self.refined(known.iter().copied().chain([tone]).collect(), most);
             let mut tried = parallel::map(more.into_iter(), with);
             tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
             let mut tried = tried.into_iter();
@@ -58,14 +66,14 @@ impl<'a> Given<'a, '_> {
 
     /// The likeliest motion beside tones of which the last is estimated anew about it, as long as that moves it and makes the motion
     /// likelier.
-    fn refined(&self, mut tones: Vec<Tone>) -> BesideTones<'a> {
-        let mut found = self.beside(&tones);
+    fn refined(&self, mut tones: Vec<Tone>, most: usize) -> BesideTones<'a> {
+        let mut found = self.beside(&tones, most);
         while let Some(tone) = found.problem.last_tone(&found.smoothed) {
             if tones.pop().is_none_or(|known| tone.agrees(&known)) {
                 break;
             }
             tones.push(tone);
-            let next = self.beside(&tones);
+            let next = self.beside(&tones, most);
             let is_likelier = next.likelihood() > found.likelihood() + SIGNIFICANT_RISE;
             if !is_likelier {
                 break;
@@ -75,7 +83,8 @@ impl<'a> Given<'a, '_> {
         found
     }
 
-    fn beside(&self, tones: &[Tone]) -> BesideTones<'a> {
+    /// The likeliest motion beside tones, by means of up to so many samples.
+    fn beside(&self, tones: &[Tone], most: usize) -> BesideTones<'a> {
         let Given {
             measurement,
             angles,
@@ -84,7 +93,7 @@ impl<'a> Given<'a, '_> {
             suspected,
         } = *self;
         let (mut problem, kinematic) =
-            samples::kinematic(measurement, angles, tones, equation, stop);
+            samples::kinematic(measurement, angles, tones, most, equation, stop);
         let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
         BesideTones {
             problem,

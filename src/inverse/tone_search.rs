@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::grid::{LEAST_BLOCKS, Path};
+use super::grid::{LONG, Path};
 use super::likelihood::Linear;
-use super::periodogram::lines;
+use super::periodogram::{Line, lines};
 use super::prior::{TORQUE, Unknown};
 use super::problem::{MOST_NODES, Problem};
 use super::repeating::dot;
@@ -28,9 +28,10 @@ impl Problem<'_> {
     /// out there, or if no tone gains what it costs. A very long record and one of codes or of several sensors have none.
     pub fn another_tone(&self, smoothed: &Smoothed) -> Vec<Tone> {
         let record = &self.record;
-        let may_have = record.codes.is_none() && record.beside.is_empty() && !record.is_computed();
-        let is_long = self.grid.block > 0.0 || self.grid.len() > LEAST_BLOCKS;
-        if !may_have || is_long || self.is_stopped() {
+        let may_have = record.codes.is_none() && record.beside.is_empty() && !self.is_computed();
+        // The likelihoods of stretches of means do not tell a tone.
+        let is_long = self.condensed.is_some() && self.sampled() != self.all();
+        if !may_have || is_long || self.grid.len() > LONG || self.is_stopped() {
             return Vec::new();
         }
         let nodes = self.grid.times.iter().zip(&smoothed.estimates);
@@ -42,15 +43,16 @@ impl Problem<'_> {
         }
         let BesideKnown { linear, noise, .. } = self.beside_known(smoothed);
         let least = noise.likelihood + self.cost_of_tone();
-        let at = |line: f64| {
+        let at = |line: &Line| {
+            let near = line.highest(&errors);
             let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
             let found = carriers
-                .filter_map(|carrier| self.beside(&linear, carrier)?.likeliest(line, noise));
+                .filter_map(|carrier| self.beside(&linear, carrier)?.likeliest(near, noise));
             let found: Vec<(Tone, Noise)> = found.collect();
             let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
             gains.then(|| found.into_iter().map(|(tone, _)| tone).collect())
         };
-        lines.into_iter().find_map(at).unwrap_or_default()
+        lines.iter().find_map(at).unwrap_or_default()
     }
 
     /// The cost of a frequency and two amplitudes in ln of the likelihood.
@@ -71,7 +73,7 @@ impl Problem<'_> {
         Some(Beside {
             linear,
             stretch: linear.stretches.first()?.clone(),
-            times: &self.grid.times,
+            problem: self,
             carrier,
         })
     }

@@ -1,12 +1,10 @@
 //! Typical magnitudes along a record: root mean squares over at most 1000 of its nodes.
 
-use super::estimate::Estimate;
 use super::grid::Path;
 use super::prior::{Prior, powers_of};
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::scales::{Scales, root_mean_square};
-use super::smoother::Smoothed;
 
 impl Problem<'_> {
     /// Returns the root mean square of d measured/dθ along a path; a sample of the speed is one of the way in the mean time
@@ -29,13 +27,6 @@ impl Problem<'_> {
         (times[times.len() - 1] - times[0]) / (self.record.times.len() as f64 - 1.0)
     }
 
-    /// Returns the turns from one end of a smoothed motion to the other, without sign.
-    pub fn turns(&self, path: &Smoothed) -> f64 {
-        let angle = |estimate: Option<&Estimate>| estimate.map_or(0.0, |e| e.state[0]);
-        let way = angle(path.estimates.last()) - angle(path.estimates.first());
-        way.abs() / std::f64::consts::TAU
-    }
-
     /// Returns the typical magnitudes along a path with a prior, for samples of a slope and a standard deviation σ.
     pub fn scales(&self, prior: Prior, path: &Path, slope: f64, sigma: f64) -> Scales {
         let (motion, times) = (self.motion(prior), &self.grid.times);
@@ -52,6 +43,7 @@ impl Problem<'_> {
         }
         Scales {
             spacing: self.spacing(),
+            samples: self.samples().times.len() as f64 / self.record.times.len() as f64,
             duration,
             slope,
             lever: (lever / count).sqrt(),

@@ -890,6 +890,37 @@ fn codes_within_one_turn_are_smoothed() {
     assert_eq!(found.summary.fit.kind, "smoother");
 }
 
+/// Twelve times the rows of a motion tell more of it, whatever is off in them: all of them count in the noise of sensor and torque.
+#[test]
+fn dense_samples_tell_more() {
+    let mut random = Random(0x6c07_8965_1f3d_5b79);
+    let (mut logs, mut report) = (Vec::new(), String::new());
+    for motion in [&MOTIONS[1], &MOTIONS[2], &MOTIONS[4]] {
+        let dense = Motion {
+            rows: 12 * motion.rows,
+            ..*motion
+        };
+        for sensor in [
+            Sensor::Angle(1e-3),
+            Sensor::Outliers(1e-3),
+            Sensor::Gap(1e-3),
+            Sensor::AngleModel(1e-3, 1.0),
+        ] {
+            let [few, many] = [motion, &dense].map(|motion| {
+                let truth = motion.run();
+                let record = measure(&truth, sensor, &mut random);
+                judge(&truth, &record, &found(motion, &record, 1.0))
+            });
+            let place = format!("{}, {sensor:?}: {few:?}, then {many:?}", motion.name);
+            assert!(many[1] > 0.85, "{place}");
+            report += &format!("{place}\n");
+            logs.push((many[0] / few[0]).ln());
+        }
+    }
+    let ratio = (logs.iter().sum::<f64>() / logs.len() as f64).exp();
+    assert!(ratio < 0.5, "{ratio}\n{report}");
+}
+
 /// Noise of 0.02 rad hides a ripple of 12 periods in a turn. The result says that it hides how the torque varies or, where a torque
 /// is found that repeats every turn, what varies faster than the harmonics that the samples tell.
 #[test]

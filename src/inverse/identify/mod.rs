@@ -24,9 +24,9 @@ use self::gauss_newton::Search;
 use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
-use super::first_path::coarse;
 use super::hypotheses::FAR;
 use super::measurement_model::{Scale, Sensor};
+use super::problem::MOST_NODES;
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
 use super::scales::root_mean_square;
@@ -89,32 +89,28 @@ fn identify_among(
     let scene = scene_at(&start)?;
     modelled(&scene)?;
     let equation = Equation::new(&scene);
-    let sensor = Sensor {
-        linkage: equation.linkage(),
-        measured: measurement.measured(),
-        scale: Scale::TRUE,
-    };
+    let sensor = Sensor::exact(equation.linkage(), measurement.measured());
     let sensor = match free.iter().any(|one| one.is_sensor_zero) {
         true => alignment::centred(sensor, measurement),
         false => sensor,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion, None)?;
-    let (mut problem, smooth) = kinematic(measurement, &angles, &[], &equation, None);
+    let by = |most: usize| kinematic(measurement, &angles, &[], most, &equation, None);
+    let (mut problem, mut smooth) = by(measurement.len().div_ceil(MOST_NODES));
+    while let Some(finer) = problem.finer(&smooth, &smooth) {
+        (problem, smooth) = by(finer);
+    }
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }
     problem.record.beside.clear();
-    let mut theta = angles.theta;
     let mut at_rest = 0;
     if equation.loads().are_dry() {
-        let samples = problem.keep(moving(&smooth, &problem.grid.times));
-        at_rest = theta.len() - samples.len();
-        theta = theta[samples].to_vec();
+        let nodes = moving(&smooth, &problem.grid.times);
+        smooth.estimates = smooth.estimates[nodes.clone()].to_vec();
+        at_rest = problem.samples().times.len() - problem.keep(nodes);
     }
-    if problem.record.is_linear() {
-        theta.clone_from(&problem.record.values);
-    }
-    let first = coarse(&problem, &theta);
+    let first = smooth.path();
     let smooth = problem.kinematic(first, smooth.noise.sigma);
     // The first path is by the zero and gain that fit the scene's lengths, the identification by the lengths alone.
     problem.record.sensor.scale = Scale::TRUE;

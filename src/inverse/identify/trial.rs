@@ -118,7 +118,7 @@ impl<'a> Trials<'a> {
     /// white, or if it is not likelier than its two parameters cost (Schwarz 1978) beside a missing torque with white noise.
     pub fn correlation(&self, at: &Optimum) -> Result<Option<f64>, Error> {
         let is_white = !Whiteness::of(at.innovations.iter().copied()).is_violated();
-        if is_white || self.noise.is_infinite() || self.problem.record.is_computed() {
+        if is_white || self.noise.is_infinite() || self.problem.is_computed() {
             return Ok(None);
         }
         let model = self.model(&at.values, &at.path, at.noise.sigma)?;

@@ -109,15 +109,13 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
         fact!(facts, "  coefficients", "{more} more: --json has all");
     }
     fact!(facts, "  R^2", "{:.9}", fit.r_squared);
-    let free = (data.rows as f64 - fit.parameters).max(1.0);
     fact!(
         facts,
         "  residuals",
         "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
         fit.rms,
         fit.sigma,
-        // Standard error of sigma for normal noise.
-        fit.sigma / (2.0 * free).sqrt()
+        fit.sigma_error
     );
     if let Some(condition) = fit.condition {
         fact!(facts, "  condition", "{condition:.3e}");
