@@ -115,8 +115,8 @@ pub use options::{FitKind, FitSize, InverseOptions};
 pub use row::{InverseRow, Residual};
 pub use shared_errors::BudgetShare;
 pub use summary::{
-    CandidateSummary, DataSummary, FitSummary, ForceRange, IntensitySummary, InverseSummary,
-    SensorSummary, ToneSummary,
+    CandidateSummary, Carrier, DataSummary, FitSummary, ForceRange, IntensitySummary,
+    InverseSummary, SensorSummary, ToneSummary,
 };
 
 use self::fitted::Fitted;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::candidates::Candidate;
 use super::span::Span;
 use super::summary::{CandidateSummary, IntensitySummary, ToneSummary};
-use super::tone::{Carrier, Tone};
+use super::tone::Tone;
 
 impl Candidate {
     /// Returns its name and likelihood.
@@ -32,10 +32,7 @@ impl Tone {
     /// Returns its frequency and amplitude with the odds.
     pub fn summary(&self) -> ToneSummary {
         ToneSummary {
-            carrier: match self.carrier {
-                Carrier::Sensor => "sensor",
-                Carrier::Torque => "torque",
-            },
+            carrier: self.carrier,
             frequency_hz: self.frequency / TAU,
             amplitude: self.amplitude(),
             log_odds: self.log_odds,

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::bands::{BandRule, DeadCentreBand};
 use super::row::InverseRow;
 use super::shared_errors::BudgetShare;
+pub use super::tone::Carrier;
 use crate::numeric::median::median;
 use crate::plan::Plan;
 use crate::scene::Measurement;
@@ -122,8 +123,8 @@ pub struct IntensitySummary {
 /// Sinusoid of a fixed frequency in time.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ToneSummary {
-    /// `sensor` (hum of the mains) or `torque`.
-    pub carrier: &'static str,
+    /// What has it.
+    pub carrier: Carrier,
     /// Frequency, Hz.
     pub frequency_hz: f64,
     /// Amplitude, rad or m of a sensor, N m of the torque.

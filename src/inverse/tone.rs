@@ -2,11 +2,15 @@
 //! an inverter.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::Serialize;
 
 /// What has a tone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Carrier {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Carrier {
+    /// The values of a sensor, as hum of the mains: not part of the motion.
     Sensor,
+    /// The torque, as the ripple of an inverter: part of the result.
     Torque,
 }
 

@@ -7,6 +7,7 @@ use super::fitted::Fitted;
 use super::residual_tests::DEVIATIONS;
 use super::row::InverseRow;
 use super::selection;
+use super::tone::Carrier;
 use crate::mechanism::Equation;
 use crate::numeric::median::median;
 use crate::scene::{Measured, Measurement, Scene};
@@ -174,12 +175,12 @@ pub(super) fn of_fit(fitted: &Fitted, measurement: &Measurement) -> Vec<String> 
     }
     for tone in &summary.tones {
         let (of, size, other) = match tone.carrier {
-            "sensor" => (
+            Carrier::Sensor => (
                 "the sensor, as hum of the mains, and is not in the motion",
                 measurement.shown(tone.amplitude),
                 "a torque",
             ),
-            _ => (
+            Carrier::Torque => (
                 "the torque, and is in the result",
                 format!("{:.2e} N m", tone.amplitude),
                 "an error of the sensor",

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use rayon::prelude::*;
-use slider_crank::inverse::{InverseOptions, inverse};
+use slider_crank::inverse::{Carrier, InverseOptions, inverse};
 use slider_crank::scene::{Crank, Measured, Measurement, Reading, Scene, Slider};
 
+use super::noise::Random;
 use super::white_snap::white_snap;
 
 const R: f64 = 0.05;
@@ -166,4 +167,47 @@ fn noise_of_more_than_a_count_is_told() {
     };
     assert!(noted(0.73));
     assert!(!noted(0.03));
+}
+
+/// An encoder errs by no more than a count, and has no hum: a swing of a fixed frequency beside noise of some counts is one of the
+/// torque, and there are no odds to tell.
+#[test]
+fn a_tone_of_counts_is_one_of_the_torque() {
+    const INERTIA: f64 = 0.02;
+    const TORQUE: f64 = 0.5;
+    const PULSATION: f64 = TAU * 40.0;
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let counts = f64::from(1 << 16);
+    let mut row = |i: u32| {
+        let t = 1e-3 * f64::from(i);
+        let swing = -TORQUE / (INERTIA * PULSATION * PULSATION) * (PULSATION * t).sin();
+        let angle = 0.3 + 20.0 * t + swing + 3e-4 * random.normal();
+        format!("{t},{}\n", (angle / TAU * counts).round())
+    };
+    let rows: String = (0..800).map(&mut row).collect();
+    let reading = Reading {
+        counts_per_turn: Some(1 << 16),
+        ..Reading::default()
+    };
+    let text = format!("t [s],theta [counts]\n{rows}");
+    let motion = Measurement::parse(Path::new("ripple.csv"), text, &reading).expect("a motion");
+    let scene = Scene::new(R, L).crank(Crank {
+        mass: 1.0,
+        inertia: INERTIA,
+        ..Crank::default()
+    });
+    let found = inverse(&scene, &motion, &InverseOptions::default()).expect("an inversion");
+    let [tone] = found.summary.fit.tones[..] else {
+        panic!("{:?}", found.summary.fit.tones);
+    };
+    assert_eq!(tone.carrier, Carrier::Torque);
+    assert!((tone.amplitude - TORQUE).abs() < 0.1 * TORQUE, "{tone:?}");
+    assert_eq!(tone.log_odds, None);
+    let mut warnings = found.summary.warnings.iter();
+    let said = warnings.find(|warning| warning.starts_with("a tone of "));
+    let said = said.expect("a warning");
+    assert!(
+        said.ends_with("is taken for one of the torque, and is in the result"),
+        "{said}"
+    );
 }

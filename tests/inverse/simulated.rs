@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use slider_crank::inverse::{FitKind, Inverse, InverseOptions, InverseRow, inverse};
+use slider_crank::inverse::{Carrier, FitKind, Inverse, InverseOptions, InverseRow, inverse};
 use slider_crank::scene::{Beside, Crank, Measured, Measurement, Scene, Slider};
 
 use super::noise::Random;
@@ -1369,7 +1369,7 @@ fn hum_of_the_mains_is_no_motion() {
         let [tone] = found.summary.fit.tones[..] else {
             panic!("{name}: {:?}", found.summary.fit.tones);
         };
-        assert_eq!(tone.carrier, "sensor", "{name}");
+        assert_eq!(tone.carrier, Carrier::Sensor, "{name}");
         assert!((tone.frequency_hz - 50.0).abs() < 0.02, "{name}: {tone:?}");
         assert!((tone.amplitude - 1e-3).abs() < 3e-5, "{name}: {tone:?}");
         let (_, without) = with_hum(motion, 0.0, 1);
@@ -1399,7 +1399,7 @@ fn a_torque_of_a_fixed_frequency_is_a_tone() {
         let of_seed = |seed| {
             let found = of_angles(&motion, &truth, 3e-5, seed);
             let tones = &found.summary.fit.tones;
-            let is_found = tones.iter().any(|tone| tone.carrier == "torque");
+            let is_found = tones.iter().any(|tone| tone.carrier == Carrier::Torque);
             assert!(is_found, "{}: {tones:?}", motion.name);
             torque_errors(&truth, &found)
         };
