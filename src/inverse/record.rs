@@ -119,6 +119,12 @@ impl Record<'_> {
         self.weights.iter().filter(|weight| **weight > 0.0).count() as f64
     }
 
+    /// Returns the number of samples whose means these are, but for outliers; none of single ones.
+    pub fn stands_for(&self) -> Option<usize> {
+        let all = self.weights.iter().sum::<f64>().round();
+        (!self.spreads.is_empty()).then_some(all as usize)
+    }
+
     /// Returns the indices of the samples with little weight because they are far off.
     pub fn outliers(&self) -> impl Iterator<Item = usize> {
         let far = (0..self.weights.len()).filter(|i| match self.intervals.get(*i) {

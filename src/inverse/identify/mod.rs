@@ -127,12 +127,12 @@ fn identify_among(
     warnings.extend(several.then(|| alone(measurement)));
     warnings.extend(warnings_of(&found, free, measurement));
     let Found { best, missing, .. } = found;
-    let samples = best.innovations.len();
-    let freedom = samples as f64 - 2.0 - free.len() as f64;
+    let told = best.innovations.len();
+    let freedom = told as f64 - 2.0 - free.len() as f64;
     let band_factor = student::half_band(freedom.max(1.0));
     Ok(Identification {
         scene: scene.title.unwrap_or_default(),
-        samples,
+        samples: problem.record.stands_for().unwrap_or(told),
         column: measurement.measured().name().to_owned(),
         values: best.values(free, band_factor),
         correlations: best.correlations(),
