@@ -75,7 +75,7 @@ impl About {
     pub fn repeating(&self, prior: Prior) -> Linear {
         let pairs = self.path.ranges.iter().zip(self.linear.stretches.iter());
         let with = |(range, stretch): (&Range<usize>, &Stretch)| {
-            let states = self.path.piece(range).states;
+            let states = self.path.part(range);
             let ways = ways(states, &stretch.steps, self.path.speed());
             Stretch {
                 increments: Increments::new(ways, prior),
@@ -130,7 +130,7 @@ impl Problem<'_> {
 
     /// The cost of parameters in ln of the likelihood (Schwarz, Ann. Statist. 6 (1978) 461).
     pub fn cost(&self, parameters: f64) -> f64 {
-        0.5 * parameters * (self.samples().times.len() as f64).ln()
+        0.5 * parameters * (self.single().times.len() as f64).ln()
     }
 
     /// Priors about a path.

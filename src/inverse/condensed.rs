@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::grid::{Grid, LONG, NODE_ROTATION, Path};
+use super::grid::{Course, LONG, NODE_ROTATION};
 use super::record::Record;
 use super::scales::root_mean_square;
 use crate::numeric::parallel;
@@ -81,10 +81,9 @@ impl Blocks {
 }
 
 impl<'a> Condensed<'a> {
-    /// Returns the means: of the deviations from a path, beside what that path shows.
-    pub fn about(&self, grid: &Grid, path: &Path) -> Record<'a> {
+    /// Returns the means: of the deviations from a motion, beside what that shows.
+    pub fn about(&self, path: &Course<'_>) -> Record<'a> {
         let own = &self.record;
-        let path = path.piece(&(0..grid.len()));
         let means = self.blocks.means(&own.times);
         let blocks: Vec<Range<usize>> = self.blocks.ranges().collect();
         let spreads = blocks.iter().zip(&means).map(|(block, mean)| {
@@ -104,15 +103,13 @@ impl<'a> Condensed<'a> {
         let weighed = parallel::list(blocks.len(), |k| {
             let (mut weight, mut sum) = (0.0, 0.0);
             for i in blocks[k].clone() {
-                let (residual, _) = own
-                    .sensor
-                    .residual(own.values[i], path.turning(grid, own.times[i]));
+                let (residual, _) = own.sensor.residual(own.values[i], path.at(own.times[i]));
                 if own.weights[i] > 0.0 && residual.is_finite() {
                     weight += own.weights[i];
                     sum += own.weights[i] * residual;
                 }
             }
-            let shown = |t: f64| own.sensor.shown(path.turning(grid, t)).value;
+            let shown = |t: f64| own.sensor.shown(path.at(t)).value;
             let [a, b] = record.times_of(k).map(shown);
             let off = if weight > 0.0 { sum / weight } else { 0.0 };
             [0.5 * (a + b) + off, weight]

@@ -169,7 +169,7 @@ impl Fitted {
         let whiteness = Some(Whiteness::of(innovations));
         let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
-        let outliers: Vec<usize> = problem.samples().outliers().collect();
+        let outliers: Vec<usize> = problem.single().outliers().collect();
         fitted.farthest_outlier =
             (outliers.iter().copied()).max_by(|a, b| size(a).total_cmp(&size(b)));
         fitted.held = (outliers.iter().copied()).find(|row| samples.repeats(*row));

@@ -7,7 +7,7 @@ use super::measurement_model::Turning;
 use super::prior::{Prior, State};
 use super::repeating::Repeating;
 use super::scales::root_mean_square;
-use crate::numeric::interpolate::cubic;
+use crate::numeric::interpolate::between;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]
@@ -29,12 +29,14 @@ pub(super) struct Path {
     pub repeating: Option<Repeating>,
 }
 
-/// A stretch of a path.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece<'a> {
+/// Motion along nodes.
+#[derive(Clone, Debug)]
+pub(super) struct Course<'a> {
+    pub grid: &'a Grid,
     /// The first node.
     pub first: usize,
-    pub states: &'a [State],
+    /// θ (rad), ω (rad/s), θ̈ (rad/s²) at each.
+    pub motion: Vec<[f64; 3]>,
 }
 
 impl Path {
@@ -47,8 +49,8 @@ impl Path {
         }
     }
 
-    /// The part along some nodes of one of its ranges.
-    pub fn piece(&self, nodes: &Range<usize>) -> Piece<'_> {
+    /// The states at some nodes of one of its ranges.
+    pub fn part(&self, nodes: &Range<usize>) -> &[State] {
         let mut before = 0;
         for range in &self.ranges {
             if range.contains(&nodes.start) {
@@ -57,18 +59,14 @@ impl Path {
             }
             before += range.len();
         }
-        let places = before..before + nodes.len();
-        Piece {
-            first: nodes.start,
-            states: &self.states[places],
-        }
+        &self.states[before..before + nodes.len()]
     }
 
     /// Returns the path along some nodes of its ranges only.
     pub fn along(&self, ranges: Vec<Range<usize>>) -> Path {
-        let pieces = ranges.iter().map(|range| self.piece(range).states);
+        let parts = ranges.iter().map(|range| self.part(range));
         Path {
-            states: pieces.flatten().copied().collect(),
+            states: parts.flatten().copied().collect(),
             repeating: self.repeating.clone(),
             ranges,
         }
@@ -96,14 +94,13 @@ impl Path {
     }
 }
 
-impl Piece<'_> {
-    /// Crank angle and speed at a time.
-    pub fn turning(&self, grid: &Grid, t: f64) -> Turning {
-        let last = self.first + self.states.len() - 1;
-        let a = grid.before(t).clamp(self.first, last - 1);
-        let state = |k: usize| [0, 1].map(|i| self.states[k - self.first][i]);
-        let times = [grid.times[a], grid.times[a + 1]];
-        cubic(times, [state(a), state(a + 1)], t)
+impl Course<'_> {
+    /// Crank angle and speed at a time, by the quintic between its neighbours.
+    pub fn at(&self, t: f64) -> Turning {
+        let last = self.first + self.motion.len() - 1;
+        let a = self.grid.before(t).clamp(self.first, last - 1);
+        let times = [self.grid.times[a], self.grid.times[a + 1]];
+        between(times, [a, a + 1].map(|k| self.motion[k - self.first]), t)
     }
 }
 

@@ -63,7 +63,7 @@ impl About {
         let most = samples / (2 * of.prior.of_harmonic());
         let mut sums = Periodogram::of(most.min(waves as usize));
         for (range, stretch) in self.path.ranges.iter().zip(linear.stretches.iter()) {
-            let states = self.path.piece(range).states;
+            let states = self.path.part(range);
             let model = linear.deviations(stretch, &of.noise);
             with_dimension!(model.dimension(), N => {
                 kalman::run::<N>(&model, None, |node, at| {

@@ -33,6 +33,13 @@ pub(super) struct Node<'a> {
     pub repeated: f64,
 }
 
+impl Node<'_> {
+    /// Returns θ (rad), ω (rad/s), θ̈ (rad/s²).
+    pub fn motion(&self) -> [f64; 3] {
+        [self.state[0], self.state[1], self.rates.alpha]
+    }
+}
+
 /// Equation of motion with its unknown.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion<'a> {

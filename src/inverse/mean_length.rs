@@ -1,14 +1,36 @@
-//! Number of samples of a mean that a smoothed motion allows.
+//! Length of means that a smoothed motion allows.
 
 use std::f64::consts::PI;
 
 use super::condensed::Condensed;
-use super::problem::Problem;
+use super::problem::{MOST_NODES, Problem};
 use super::rotation::Rotation;
 use super::smoother::Smoothed;
 
 /// Largest product of the time of a mean and the corner frequency of a smoother, rad: motion in that time is then below the noise.
 const PHASE: f64 = 0.3;
+
+/// What was found by means of up to so many samples.
+pub(super) struct ByMeans<T> {
+    pub found: T,
+    pub most: usize,
+}
+
+/// Finds something by means of samples: by shorter ones until it allows those that it was found by.
+pub(super) fn by_means<T>(
+    samples: usize,
+    of: impl Fn(usize) -> T,
+    finer: impl Fn(&T) -> Option<usize>,
+) -> ByMeans<T> {
+    let mut most = samples.div_ceil(MOST_NODES);
+    loop {
+        let found = of(most);
+        match finer(&found) {
+            Some(shorter) => most = shorter,
+            None => return ByMeans { found, most },
+        }
+    }
+}
 
 impl Problem<'_> {
     /// Returns the most samples of a mean, if a smoothed motion may change by more than noise in the time of one, or has harmonics of

@@ -30,7 +30,7 @@ pub(super) struct Judgement {
 
 /// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
 pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
-    let record = problem.samples();
+    let record = problem.single();
     let sigma = smoothed.noise.sigma;
     let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
@@ -110,7 +110,7 @@ impl Problem<'_> {
         let is_alike = alike(&weighed.weights, &weights);
         weighed.weights = weights;
         if let Some(condensed) = &self.condensed {
-            self.record = condensed.about(&self.grid, &about.path());
+            self.record = condensed.about(&about.course(&self.grid));
         }
         !is_alike
     }

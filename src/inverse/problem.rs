@@ -4,7 +4,7 @@ use std::ops::{Range, RangeInclusive};
 
 use super::condensed::Condensed;
 use super::estimate::Estimate;
-use super::grid::{Grid, Path};
+use super::grid::{Course, Grid, Path};
 use super::harmonics::{Increments, ways};
 use super::kalman;
 use super::likelihood::Linear;
@@ -18,7 +18,7 @@ use super::smoother::Smoothed;
 use super::span::Intensities;
 use super::state_space::Stretch;
 use crate::mechanism::Equation;
-use crate::numeric::interpolate::cubic;
+use crate::numeric::interpolate::between;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 
@@ -29,6 +29,8 @@ pub(super) struct Problem<'a> {
     /// Samples that have the means of the record in their place, if there are any.
     pub condensed: Option<Condensed<'a>>,
     pub grid: Grid,
+    /// Whether the samples, if not codes, were computed.
+    pub computed: bool,
     pub equation: &'a Equation,
     /// Intensity factors of the process noise along the record.
     pub intensities: Intensities,
@@ -51,8 +53,7 @@ impl<'a> Problem<'a> {
         if part == 0.0 || part == 1.0 {
             return if part == 0.0 { *a } else { *b };
         }
-        let end = |e: &Estimate| [e.state[0], e.state[1]];
-        let [theta, omega] = cubic(times, [end(a), end(b)], t);
+        let [theta, omega] = between(times, [a.motion(), b.motion()], t);
         let torque = smoothed.repeating.as_ref();
         let follows = |theta, omega| {
             let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]);
@@ -73,8 +74,8 @@ impl<'a> Problem<'a> {
         }
     }
 
-    /// The samples themselves.
-    pub fn samples(&self) -> &Record<'a> {
+    /// The samples that may have means in their place.
+    pub fn single(&self) -> &Record<'a> {
         self.condensed
             .as_ref()
             .map_or(&self.record, |condensed| &condensed.record)
@@ -82,7 +83,7 @@ impl<'a> Problem<'a> {
 
     /// True if the samples were computed.
     pub fn is_computed(&self) -> bool {
-        self.samples().is_computed()
+        self.computed && self.record.codes.is_none()
     }
 
     /// Returns the record less its codes by another mechanism and scale of the sensor, shifted by a zero, rad.
@@ -91,6 +92,7 @@ impl<'a> Problem<'a> {
             record: self.record.moved(equation.linkage(), scale, zero),
             condensed: None,
             grid: self.grid.clone(),
+            computed: self.computed,
             equation,
             intensities: self.intensities.clone(),
             stop: self.stop,
@@ -131,8 +133,7 @@ impl<'a> Problem<'a> {
     pub fn stretch(&self, prior: Prior, path: &Path, range: Range<usize>, sigma: f64) -> Stretch {
         let motion = self.motion(prior);
         let times = &self.grid.times[range.clone()];
-        let piece = path.piece(&range);
-        let states = piece.states;
+        let states = path.part(&range);
         let torque = path.repeating.as_ref();
         let nodes = parallel::list(times.len(), |k| {
             let (t, state) = (times[k], &states[k]);
@@ -156,9 +157,14 @@ impl<'a> Problem<'a> {
                 increments.take_out(&known.coefficients, &mut steps);
             }
         }
+        let course = nodes.iter().map(Node::motion);
+        let course = Course {
+            grid: &self.grid,
+            first: range.start,
+            motion: course.collect(),
+        };
         let observed = parallel::list(range.len(), |k| {
-            let node = range.start + k;
-            self.record.observed(&self.grid, &piece, node, sigma)
+            self.record.observed(&course, range.start + k, sigma)
         });
         Stretch {
             steps: steps.into(),
@@ -215,13 +221,13 @@ impl<'a> Problem<'a> {
         noise: &Noise,
     ) -> Vec<Estimate> {
         let motion = self.motion(prior);
-        let piece = path.piece(&(from..from + deviations.len()));
+        let states = path.part(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
         let dimension = prior.states();
         let known = path.repeating.as_ref().filter(|_| prior.cycle == 0);
         let beside = known.map_or([[0.0; 3]; 3], |known| known.covariance);
         parallel::list(deviations.len(), |at| {
-            let (deviation, mut state) = (&deviations[at], piece.states[at]);
+            let (deviation, mut state) = (&deviations[at], states[at]);
             // The model has the deviation of u less what follows θ and ω.
             let slopes = path.slopes(prior, &state);
             state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();

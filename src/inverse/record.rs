@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::grid::{Grid, Piece};
+use super::grid::Course;
 use super::measurement_model::{Scale, Sensor, Shown, Turning};
 use super::quantised::{Codes, Interval};
 use super::residual_tests;
@@ -165,10 +165,10 @@ impl Record<'_> {
 
     /// Returns the mean deviation of the samples of a node from the nominal path; of several sensors, that of the angle by
     /// their information Σ w h′² and Σ w h′ r.
-    pub fn observed(&self, grid: &Grid, path: &Piece<'_>, node: usize, sigma: f64) -> Observed {
-        let [theta, omega, ..] = path.states[node - path.first];
+    pub fn observed(&self, path: &Course<'_>, node: usize, sigma: f64) -> Observed {
+        let [theta, omega, _] = path.motion[node - path.first];
         let mut sums = [0.0; 5];
-        for i in grid.first[node]..grid.first[node + 1] {
+        for i in path.grid.first[node]..path.grid.first[node + 1] {
             let beside = self.beside.iter();
             let beside = beside.map(|other| {
                 (
@@ -186,7 +186,7 @@ impl Record<'_> {
                 let [residual, slope] = match self.spreads.is_empty() {
                     true => off([theta, omega]),
                     false => {
-                        let [a, b] = self.times_of(i).map(|t| off(path.turning(grid, t)));
+                        let [a, b] = self.times_of(i).map(|t| off(path.at(t)));
                         [0, 1].map(|k| 0.5 * (a[k] + b[k]))
                     }
                 };

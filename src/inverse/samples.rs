@@ -2,7 +2,7 @@
 
 use super::branch_tracking::CrankAngles;
 use super::condensed::{Blocks, Condensed};
-use super::grid::{Grid, Path};
+use super::grid::{Course, Grid, Path};
 use super::measurement_model::{Scale, Sensor};
 use super::prior::KINEMATIC;
 use super::problem::Problem;
@@ -89,19 +89,29 @@ pub(super) fn problem<'a>(
         None => values.to_vec(),
     };
     let (times, angles) = (means(&record.times), means(theta));
-    let grid = Grid::new(&times, &angles, record.is_computed());
+    let computed = record.is_computed();
+    let grid = Grid::new(&times, &angles, computed);
     let path = first_path::coarse(&grid, &times, &angles);
     let (record, condensed) = match blocks {
         None => (record, None),
         Some(blocks) => {
             let condensed = Condensed { record, blocks };
-            (condensed.about(&grid, &path), Some(condensed))
+            let course = path.states.iter();
+            let course = Course {
+                grid: &grid,
+                first: 0,
+                motion: course
+                    .map(|[theta, omega, ..]| [*theta, *omega, 0.0])
+                    .collect(),
+            };
+            (condensed.about(&course), Some(condensed))
         }
     };
     let problem = Problem {
         record,
         condensed,
         grid,
+        computed,
         equation,
         intensities: Intensities::default(),
         stop,
@@ -179,7 +189,7 @@ fn without_outliers<'a>(
     let mut kinematic = problem.kinematic(first, sigma);
     if problem.condensed.is_some() {
         // The first path follows the noise.
-        problem.weigh(vec![1.0; problem.samples().times.len()], &kinematic);
+        problem.weigh(vec![1.0; problem.single().times.len()], &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     let mut few = true;
@@ -195,7 +205,7 @@ fn without_outliers<'a>(
         }
     }
     if !few {
-        problem.weigh(vec![1.0; problem.samples().times.len()], &kinematic);
+        problem.weigh(vec![1.0; problem.single().times.len()], &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     (problem, kinematic)

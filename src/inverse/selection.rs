@@ -55,7 +55,7 @@ impl Problem<'_> {
         kinematic: &Smoothed,
         smoothed: &Smoothed,
     ) -> Option<f64> {
-        let are_plain = self.record.codes.is_none() && self.samples().outliers().next().is_none();
+        let are_plain = self.record.codes.is_none() && self.single().outliers().next().is_none();
         let mut priors = WITHOUT_MECHANICS.iter().filter(|_| are_plain);
         let prior = priors.find(|prior| prior.order + 1 >= degree);
         prior.map(|prior| {

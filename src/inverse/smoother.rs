@@ -3,7 +3,7 @@
 
 use super::candidates::Candidate;
 use super::estimate::Estimate;
-use super::grid::Path;
+use super::grid::{Course, Grid, Path};
 use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
@@ -40,6 +40,15 @@ impl Smoothed {
     /// The crank angles at its nodes, rad.
     pub fn angles(&self) -> impl Iterator<Item = f64> + Clone {
         self.estimates.iter().map(|estimate| estimate.state[0])
+    }
+
+    /// The motion along its nodes.
+    pub fn course<'a>(&self, grid: &'a Grid) -> Course<'a> {
+        Course {
+            grid,
+            first: 0,
+            motion: self.estimates.iter().map(Estimate::motion).collect(),
+        }
     }
 
     /// The path of the states that were smoothed at all nodes.

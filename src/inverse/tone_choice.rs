@@ -5,7 +5,7 @@
 use super::beside_tones::{BesideTones, Less};
 use super::branch_tracking::CrankAngles;
 use super::maximum::SIGNIFICANT_RISE;
-use super::problem::MOST_NODES;
+use super::mean_length::{ByMeans, by_means};
 use super::samples;
 use super::tone::{Carrier, Tone};
 use crate::mechanism::Equation;
@@ -27,14 +27,13 @@ pub(super) struct Given<'a, 'b> {
 impl<'a> Given<'a, '_> {
     /// The likeliest motion, beside the tones that gain what they cost.
     pub fn likeliest(&self) -> BesideTones<'a> {
-        let mut most = self.measurement.len().div_ceil(MOST_NODES);
-        let mut best = loop {
-            let found = self.beside(&[], most);
-            match found.problem.finer(&found.smoothed, &found.kinematic) {
-                Some(finer) => most = finer,
-                None => break found,
-            }
-        };
+        let finer =
+            |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
+        let of = |most| self.beside(&[], most);
+        let ByMeans {
+            found: mut best,
+            most,
+        } = by_means(self.measurement.len(), of, finer);
         // A bound of the work, for a record of many lines.
         while best.problem.record.tones.len() < 4 {
             let known = &best.problem.record.tones;

@@ -43,7 +43,7 @@ impl Problem<'_> {
         }
         Scales {
             spacing: self.spacing(),
-            samples: self.samples().times.len() as f64 / self.record.times.len() as f64,
+            samples: self.single().times.len() as f64 / self.record.times.len() as f64,
             duration,
             slope,
             lever: (lever / count).sqrt(),

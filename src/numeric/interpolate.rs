@@ -271,6 +271,15 @@ pub fn cubic(times: [f64; 2], ends: [[f64; 2]; 2], t: f64) -> [f64; 2] {
 #[derive(Clone, Copy, Debug)]
 pub struct Quintic([f64; 5]);
 
+/// Returns value and slope at t of the quintic with values, slopes and second derivatives at two times.
+pub fn between(times: [f64; 2], ends: [[f64; 3]; 2], t: f64) -> [f64; 2] {
+    let h = times[1] - times[0];
+    let [begin, end] = ends.map(|[_, slope, second]| [h * slope, 0.5 * h * h * second]);
+    let change = Quintic::new(begin, end, ends[1][0] - ends[0][0]);
+    let [change, rate, _] = change.at((t - times[0]) / h);
+    [ends[0][0] + change, rate / h]
+}
+
 impl Quintic {
     /// Interpolates between ends with a rate and half a second derivative each; `apart` is the change between the ends.
     pub fn new([v0, c0]: [f64; 2], [v1, c1]: [f64; 2], apart: f64) -> Quintic {

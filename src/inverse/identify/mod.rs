@@ -25,8 +25,9 @@ use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
 use super::hypotheses::FAR;
+use super::mean_length::by_means;
 use super::measurement_model::{Scale, Sensor};
-use super::problem::MOST_NODES;
+use super::problem::Problem;
 use super::residual_tests::Whiteness;
 use super::samples::kinematic;
 use super::scales::root_mean_square;
@@ -95,11 +96,9 @@ fn identify_among(
         false => sensor,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion, None)?;
-    let by = |most: usize| kinematic(measurement, &angles, &[], most, &equation, None);
-    let (mut problem, mut smooth) = by(measurement.len().div_ceil(MOST_NODES));
-    while let Some(finer) = problem.finer(&smooth, &smooth) {
-        (problem, smooth) = by(finer);
-    }
+    let of = |most| kinematic(measurement, &angles, &[], most, &equation, None);
+    let finer = |(problem, smooth): &(Problem<'_>, Smoothed)| problem.finer(smooth, smooth);
+    let (mut problem, mut smooth) = by_means(measurement.len(), of, finer).found;
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }
@@ -108,7 +107,7 @@ fn identify_among(
     if equation.loads().are_dry() {
         let nodes = moving(&smooth, &problem.grid.times);
         smooth.estimates = smooth.estimates[nodes.clone()].to_vec();
-        at_rest = problem.samples().times.len() - problem.keep(nodes);
+        at_rest = problem.single().times.len() - problem.keep(nodes);
     }
     let first = smooth.path();
     let smooth = problem.kinematic(first, smooth.noise.sigma);
