@@ -119,7 +119,7 @@ impl Problem<'_> {
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
         let path = self.path_of(prior, from, self.sampled());
         let scales = Scales {
-            motion: from.scales.motion,
+            acceleration: from.scales.acceleration,
             ..self.scales(prior, &path, from.scales.slope, from.noise.sigma)
         };
         About {

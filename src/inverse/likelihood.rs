@@ -171,19 +171,12 @@ impl Linear {
         let profiled = (evidence.squares / free.max(1.0)).sqrt();
         noise.sigma = self.scales.known.unwrap_or(profiled).max(self.scales.floor);
         let spread = self.spread();
-        let Scales {
-            lever,
-            motion: [alpha, jerk],
-            ..
-        } = self.scales;
         // The spreads of θ and ω are the same for all priors.
         let mut start = (spread[0] * spread[1]).ln();
-        let mut prior = alpha / lever;
-        for spread in &spread[2..self.prior.diffuse()] {
-            if *spread > 0.0 {
-                start += (spread / prior).ln();
-            }
-            prior *= jerk / alpha;
+        let sizes = self.scales.of_unknown(&noise);
+        let spreads = spread[2..self.prior.diffuse()].iter().zip(sizes);
+        for (spread, size) in spreads.filter(|(spread, _)| **spread > 0.0) {
+            start += spread.ln() - size.ln();
         }
         let likelihood = start * begun as f64
             - free * noise.sigma.ln()

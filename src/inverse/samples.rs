@@ -218,10 +218,8 @@ impl Problem<'_> {
         let scales = self.scales(KINEMATIC, &path, self.slope(&first), sigma);
         let linear = self.linear(KINEMATIC, scales, &path, sigma);
         let mut found = self.iterated(&linear.with(linear.anywhere(None)), path);
-        found.scales.motion = [2, 3].map(|k| {
-            let parts = found.estimates.iter().map(|e| e.state[k]);
-            root_mean_square(parts).max(f64::MIN_POSITIVE)
-        });
+        let accelerations = found.estimates.iter().map(|e| e.alpha);
+        found.scales.acceleration = root_mean_square(accelerations).max(f64::MIN_POSITIVE);
         self.completed(found, first, false)
     }
 }

@@ -1,7 +1,8 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use super::prior::State;
+use super::prior::{ORDERS, State};
 use super::spectrum::Spectrum;
+use crate::numeric::ROUNDING_DEVIATION;
 
 /// Typical magnitudes along a record.
 #[derive(Clone, Copy, Debug)]
@@ -16,8 +17,8 @@ pub(super) struct Scales {
     pub slope: f64,
     /// Root mean square of ∂θ̈/∂u.
     pub lever: f64,
-    /// Root mean squares of θ̈, rad/s², and its rate, rad/s³: spread of the prior before the first sample.
-    pub motion: [f64; 2],
+    /// Root mean square of θ̈, rad/s²: spread of the prior before the first sample.
+    pub acceleration: f64,
     /// Root mean square of the speed, rad/s.
     pub speed: f64,
     /// Standard deviations of ω, rad/s, and of ω|ω|, rad²/s², along the record.
@@ -89,6 +90,15 @@ impl Scales {
             };
             spread
         })
+    }
+
+    /// Returns the sizes of u, as all of the acceleration needs it, and of its derivatives: they change u by what it is along the
+    /// record, there or in the time constant of its noise.
+    pub fn of_unknown(&self, noise: &Noise) -> [f64; ORDERS] {
+        let all = self.torque * noise.sigma;
+        let rate = noise.corner.max(1.0 / (ROUNDING_DEVIATION * self.duration));
+        let derivative = |order: i32| (all * rate.powi(order)).max(f64::MIN_POSITIVE);
+        [self.acceleration / self.lever, derivative(1), derivative(2)]
     }
 
     /// Returns the least and largest corner frequency, rad/s.

@@ -48,7 +48,7 @@ impl Problem<'_> {
             slope,
             lever: (lever / count).sqrt(),
             // The start of the first prior is compared with others only once the motion is known.
-            motion: [1.0; 2],
+            acceleration: 1.0,
             speed: path.speed(),
             powers: std::array::from_fn(|k| {
                 let states = path.states.iter().step_by(stride);

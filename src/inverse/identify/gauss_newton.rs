@@ -55,7 +55,7 @@ impl<'a> Search<'a> {
         let path = Path::whole(states.collect());
         let scales = Scales {
             identified: Some(count),
-            motion: smooth.scales.motion,
+            acceleration: smooth.scales.acceleration,
             ..problem.scales(TORQUE, &path, smooth.scales.slope, smooth.noise.sigma)
         };
         let trials = Trials {
