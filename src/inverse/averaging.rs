@@ -13,7 +13,7 @@ use super::weighed::{Weighed, counting, on_both_sides};
 use crate::numeric::parallel;
 
 /// ln of the odds to the most probable model below which another one does not count.
-const LEAST_LOG_ODDS: f64 = -6.0;
+pub(super) const LEAST_LOG_ODDS: f64 = -6.0;
 
 /// What a prior with one intensity makes of the motion.
 struct Model {
@@ -109,11 +109,12 @@ impl Smoothed {
         counting(on_both_sides(first, FIRST_STEP, least, at), least)
     }
 
-    /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others might add.
+    /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others with one might add.
     fn contenders(&self) -> impl Iterator<Item = &Candidate> {
         self.compared.iter().filter(|other| {
-            let is_other = other.prior != self.prior && other.prior.cycle == 0;
-            is_other && self.log_odds(other) > LEAST_LOG_ODDS
+            let is_other = other.prior != self.prior;
+            let repeats = self.prior.cycle > 0 && other.prior.cycle > 0;
+            is_other && !repeats && self.log_odds(other) > LEAST_LOG_ODDS
         })
     }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use super::averaging::LEAST_LOG_ODDS;
 use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
@@ -173,8 +174,7 @@ impl Problem<'_> {
         Tried { candidates, abouts }
     }
 
-    /// Priors with a part that repeats every turn, where that makes the samples likelier than its two parameters cost
-    /// beside the likeliest prior without.
+    /// Priors with a part that repeats every turn, where that may count beside the same prior without.
     fn repeating(
         &self,
         rotation: Rotation,
@@ -186,7 +186,7 @@ impl Problem<'_> {
         let Some(torque) = of(TORQUE).filter(|_| rotation.turns >= 2.0) else {
             return Vec::new();
         };
-        // A part that follows the speed is there at once where the samples show it without what repeats.
+        // A part that follows the speed is tried at once where the samples show it without what repeats.
         let is_shown = |following: &&Candidate| {
             following.noise.likelihood > torque.noise.likelihood + SIGNIFICANT_RISE
         };
@@ -224,11 +224,19 @@ impl Problem<'_> {
             cycle: 1,
             harmonics: FIRST_HARMONICS,
             high: high.unwrap_or_default(),
-            ..plain.prior
+            ..TORQUE
         };
-        let cost = self.cost(2.0);
-        let least = plain.noise.likelihood + cost;
-        let mut found = Vec::from_iter(with(first, plain.noise, least));
+        let beside = |plain: &Candidate| {
+            let powers = plain.prior.powers;
+            let least = plain.noise.likelihood + LEAST_LOG_ODDS;
+            with(Prior { powers, ..first }, plain.noise, least)
+        };
+        let mut found = Vec::from_iter(beside(torque));
+        if plain.prior.powers > 0 {
+            found.extend(beside(plain));
+            found.sort_by(|a, b| a.noise.likelihood.total_cmp(&b.noise.likelihood));
+        }
+        let may_follow = found.last().is_some_and(|one| one.prior.powers == 0);
         // Forward selection: what is added stays where it makes the samples likelier.
         let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
             let likelier =
@@ -237,16 +245,13 @@ impl Problem<'_> {
             found.extend(next);
             next.is_some()
         };
-        if first.powers == 0 {
+        if may_follow {
             extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
         }
         if rotation.turns >= 4.0 {
             extend(ENOUGH_RISE, Prior::over_two_turns);
         }
         while extend(SIGNIFICANT_RISE, Prior::with_twice_the_harmonics) {}
-        let without = tried.iter().map(|one| one.noise.likelihood);
-        let least = without.fold(f64::NEG_INFINITY, f64::max) + cost;
-        found.retain(|one| one.noise.likelihood > least);
         found
     }
 }

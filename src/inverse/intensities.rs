@@ -104,8 +104,9 @@ fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
 }
 
 impl Problem<'_> {
-    /// Finds the stretches in which the process noise under a prior has another intensity.
-    fn intensities_of(&self, found: &Smoothed) -> Intensities {
+    /// Finds the stretches in which the process noise under a prior has another intensity: with the first of them the samples are
+    /// likelier than a least value.
+    fn intensities_of(&self, found: &Smoothed, least: f64) -> Intensities {
         let mut intensities = Intensities::default();
         let Smoothed { prior, scales, .. } = *found;
         let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
@@ -117,13 +118,14 @@ impl Problem<'_> {
             };
             let model = linear.deviations(stretch, &noise);
             // Far from the usual intensity the likelihood rises by more than the scores promise there.
-            let least = 0.5 * self.cost(PARAMETERS);
+            let promised = 0.5 * self.cost(PARAMETERS);
             let best = with_dimension!(model.dimension(), N => {
                 let Scores { list, parted, .. } = scores::<N>(&model, noise.sigma);
                 let trial = Trial { linear: &linear, stretch, noise, parted };
-                trial.likeliest(furthest(&list, least))
+                trial.likeliest(furthest(&list, promised))
             });
-            let rises = |guess: &Guess| guess.likelihood - noise.likelihood > self.cost(PARAMETERS);
+            let least = noise.likelihood.max(least) + self.cost(PARAMETERS);
+            let rises = |guess: &Guess| guess.likelihood > least;
             let Some(best) = best.filter(rises) else {
                 break;
             };
@@ -147,16 +149,18 @@ impl Problem<'_> {
         if self.judges_again(&best) {
             best = self.likeliest_of_all(kinematic, suspected);
         }
-        // Periodic priors, computed samples, noise below that of instruments and long records represented by stretches have no
-        // intensities: a pulse is no change of intensity, and what interpolates computed samples smoothly errs least.
-        while best.prior.cycle == 0
-            && best.noise.sigma > self.record.instrument_noise()
+        // Computed samples, noise below that of instruments and long records represented by stretches have no intensities: what
+        // interpolates computed samples smoothly errs least.
+        while best.noise.sigma > self.record.instrument_noise()
             && self.sampled() == self.all()
             && !self.is_computed()
         {
             let sites = self.sites();
+            let Some(plain) = self.without_what_repeats(&best, kinematic) else {
+                break;
+            };
             let before = std::mem::take(&mut self.intensities);
-            self.intensities = self.intensities_of(&best);
+            self.intensities = self.intensities_of(&plain, best.noise.likelihood);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
                 let next = self.likeliest_of_all(kinematic, suspected);

@@ -178,9 +178,15 @@ impl Linear {
         for (spread, size) in spreads.filter(|(spread, _)| **spread > 0.0) {
             start += spread.ln() - size.ln();
         }
+        // Size and order of a spectrum (Schwarz, Ann. Statist. 6 (1978) 461).
+        let cost = match noise.spectrum {
+            Some(_) => (self.scales.samples * evidence.samples as f64).ln(),
+            None => 0.0,
+        };
         let likelihood = start * begun as f64
             - free * noise.sigma.ln()
-            - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma));
+            - 0.5 * (evidence.log_variances + evidence.squares / (noise.sigma * noise.sigma))
+            - cost;
         noise.likelihood = match likelihood.is_finite() {
             true => likelihood,
             false => f64::NEG_INFINITY,

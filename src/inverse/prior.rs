@@ -141,6 +141,9 @@ impl Prior {
                 (Unknown::Force, 2) => "force as an integrated Wiener process",
                 (Unknown::Force, _) => "force as a twice integrated Wiener process",
             },
+            (0, 1) if self.order > 1 => {
+                "torque that follows the speed, and an integrated Wiener process"
+            }
             (0, 1) => "torque that follows the speed, and a Wiener process",
             (0, _) => "torque that follows the speed and its square, and a Wiener process",
             (1, 0) => "torque that repeats every turn, and a Wiener process",
@@ -175,7 +178,7 @@ pub(super) const QUADRATIC: Prior = Prior {
 };
 
 /// All priors without a part that repeats, in lists of one unknown.
-pub(super) const LADDERS: [&[Prior]; 4] = [
+pub(super) const LADDERS: [&[Prior]; 5] = [
     &[
         Prior::new(Unknown::Force, 1),
         Prior::new(Unknown::Force, 2),
@@ -187,5 +190,9 @@ pub(super) const LADDERS: [&[Prior]; 4] = [
         Prior::new(Unknown::Torque, 3),
     ],
     &[FOLLOWING, QUADRATIC],
+    &[Prior {
+        order: 2,
+        ..FOLLOWING
+    }],
     WITHOUT_MECHANICS,
 ];

@@ -52,7 +52,7 @@ pub(super) struct Noise {
     pub correlated: Option<f64>,
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
-    /// ln of the marginal likelihood.
+    /// ln of the marginal likelihood, less what the two parameters of a spectrum cost.
     pub likelihood: f64,
 }
 

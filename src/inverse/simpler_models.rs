@@ -8,6 +8,11 @@ use super::scales::Noise;
 use super::smoother::{Correction, PATH_AT_REST, Smoothed};
 
 impl Problem<'_> {
+    /// The cost of a correlation of the sample noise in ln of the likelihood.
+    pub fn cost_of_correlation(&self, noise: &Noise) -> f64 {
+        noise.correlated.map_or(0.0, |_| self.cost(2.0))
+    }
+
     /// A smoothed motion without its part that repeats, where that no longer makes the samples likelier than it costs: about the
     /// first path it may have stood for what that path leaves out. The paths of a long record are those of its stretches.
     pub fn without_repeating(&self, found: Smoothed) -> Smoothed {
@@ -25,7 +30,7 @@ impl Problem<'_> {
             ..found.noise
         };
         let candidate = linear.with(linear.with_corner(linear.begun(first)));
-        let least = found.noise.likelihood - self.cost(2.0);
+        let least = found.noise.likelihood;
         let likely = Some(candidate).filter(|one| one.noise.likelihood > least);
         let other = likely.map(|one| self.iterated(&one, path));
         let holds = |other: &Smoothed| other.converged && other.noise.likelihood > least;
@@ -65,7 +70,7 @@ impl Problem<'_> {
             linear.evaluated(noise).likelihood
         };
         let is_simple = found.is_simple();
-        let least = found.noise.likelihood - self.cost(2.0);
+        let least = found.noise.likelihood - self.cost_of_correlation(&found.noise);
         let does_without = likelihood(&path) > least;
         if does_without && is_simple {
             return None;

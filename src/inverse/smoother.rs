@@ -115,11 +115,7 @@ impl Problem<'_> {
         if let Some(other) = self.without_process_noise(&found) {
             // The priors are compared again about that motion.
             let again = self.likeliest_about(&other, suspected);
-            let cost = if again.is_simple() {
-                0.0
-            } else {
-                self.cost(2.0)
-            };
+            let cost = self.cost_of_correlation(&again.noise);
             found = match again.noise.likelihood > other.noise.likelihood + cost {
                 true => again,
                 false => Smoothed {
@@ -160,6 +156,16 @@ impl Problem<'_> {
         let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
         let other = other.flatten().filter(|other| gain(other) > cost);
         other.unwrap_or(found)
+    }
+
+    /// A motion, or with the likeliest prior among its own without a part that repeats: a pulse is no change of intensity, but jumps
+    /// may look like harmonics.
+    pub fn without_what_repeats(&self, of: &Smoothed, kinematic: &Smoothed) -> Option<Smoothed> {
+        if of.prior.cycle == 0 {
+            return Some(of.clone());
+        }
+        let plain = of.compared.iter().filter(|one| one.prior.cycle == 0);
+        self.first_converged(&Vec::from_iter(plain.copied()), kinematic)
     }
 
     /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
