@@ -177,6 +177,7 @@ mod tests {
             prior: Prior::new(Unknown::Torque, 1),
             noise,
             speed_noise: 0.0,
+            law_noise: 0.0,
             correlated: None,
             spread: [1e3, 1e4, 1e5, 0.0, 0.0],
         }

@@ -213,6 +213,7 @@ mod tests {
             prior: TORQUE,
             noise: 3.0,
             speed_noise: 0.0,
+            law_noise: 0.0,
             correlated: None,
             spread: [10.0; 5],
         }

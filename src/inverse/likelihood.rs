@@ -59,6 +59,10 @@ impl Linear {
                 0 => 0.0,
                 _ => self.scales.density(noise.speed_corner, 1) / self.scales.powers[0].powi(2),
             },
+            law_noise: match (self.prior.powers, self.prior.order) {
+                (1.., 1) => self.scales.density(noise.corner, 1) / self.scales.powers[0].powi(2),
+                _ => 0.0,
+            },
             correlated: noise.correlated,
             spread: self.spread(),
         }

@@ -64,6 +64,8 @@ pub(super) struct Deviations<'a> {
     pub noise: f64,
     /// Spectral density of the white noise that g₁ integrates, over σ².
     pub speed_noise: f64,
+    /// The same where the process noise is stronger than usual, for each part of the usual intensity.
+    pub law_noise: f64,
     /// Decay rate of the correlation of the sample noise, 1/s; none for white noise.
     pub correlated: Option<f64>,
     /// Standard deviations of the state before the first sample, in σ.
@@ -163,10 +165,12 @@ impl Deviations<'_> {
                 add(noise, [0, 1, 2, 3, 4], &response, density);
             }
         }
-        if self.speed_noise > 0.0 {
+        let intensity = self.stretch.intensities[node];
+        let of_speed = time * self.speed_noise + h * (intensity - 1.0).max(0.0) * self.law_noise;
+        if of_speed > 0.0 {
             let states = [0, 1, 2, self.prior.diffuse()];
             let response = [b * tilt * h3, b * tilt * h2, tilt * h, 1.0];
-            add(noise, states, &response, time * self.speed_noise);
+            add(noise, states, &response, of_speed);
         }
         covariance
     }
