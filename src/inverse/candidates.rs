@@ -224,19 +224,24 @@ impl Problem<'_> {
             cycle: 1,
             harmonics: FIRST_HARMONICS,
             high: high.unwrap_or_default(),
-            ..TORQUE
+            ..plain.prior
         };
-        let beside = |plain: &Candidate| {
-            let powers = plain.prior.powers;
-            let least = plain.noise.likelihood + LEAST_LOG_ODDS;
-            with(Prior { powers, ..first }, plain.noise, least)
-        };
-        let mut found = Vec::from_iter(beside(torque));
-        if plain.prior.powers > 0 {
-            found.extend(beside(plain));
+        let mut found = Vec::from_iter(with(
+            first,
+            plain.noise,
+            plain.noise.likelihood + LEAST_LOG_ODDS,
+        ));
+        // What repeats may stand for a part that follows the speed.
+        if first.powers > 0 {
+            let before = Noise {
+                speed_corner: 0.0,
+                ..found.last().unwrap_or(plain).noise
+            };
+            let least = before.likelihood + LEAST_LOG_ODDS;
+            found.extend(with(Prior { powers: 0, ..first }, before, least));
             found.sort_by(|a, b| a.noise.likelihood.total_cmp(&b.noise.likelihood));
         }
-        let may_follow = found.last().is_some_and(|one| one.prior.powers == 0);
+        let may_follow = first.powers == 0;
         // Forward selection: what is added stays where it makes the samples likelier.
         let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
             let likelier =

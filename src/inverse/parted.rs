@@ -160,7 +160,7 @@ mod tests {
                     prior,
                     noise: 0.3,
                     speed_noise: 0.0,
-            law_noise: 0.0,
+                    law_noise: 0.0,
                     correlated,
                     spread: [1e3, 1e6, 2e7, 2e6, 0.0].map(|spread| width * spread),
                 };
