@@ -4,8 +4,10 @@
 use std::ops::Range;
 
 use super::problem::Problem;
+use super::quantised::Codes;
 use super::residual_tests::NORMAL;
 use super::smoother::Smoothed;
+use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::median::median;
 
 /// Residual, in standard deviations, above which a sample is examined: one in 10⁸ of noise.
@@ -28,10 +30,19 @@ pub(super) struct Judgement {
     pub few: bool,
 }
 
-/// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
-pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
+/// Errors of the predictions of samples, each by all others.
+struct Errors {
+    /// Over their standard deviations; 0 for what is not judged, or within a step of its code.
+    standardised: Vec<f64>,
+    /// Their standard deviation, by the median.
+    scale: f64,
+}
+
+/// Returns the errors of samples, quantised in `step`, rad, from a smoothed motion; none if none is judged.
+fn errors(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Errors> {
     let record = problem.single();
     let sigma = smoothed.noise.sigma;
+    let full = record.full_weights();
     let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
             let estimate = problem.at(smoothed, record.times[i]);
@@ -41,7 +52,7 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
             let leverage = record.weights[i] * variance;
             // The path between samples follows one of large leverage, right or wrong; at an end the prior predicts it.
             let is_end = i == 0 || i + 1 == record.times.len();
-            if leverage > TIED && !is_end {
+            if leverage > TIED && !is_end || full[i] == 0.0 {
                 return 0.0;
             }
             // Residual from the prediction by all other samples.
@@ -49,13 +60,27 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
             residual / (sigma * left * (1.0 + variance / left).sqrt())
         })
         .collect();
-    let told = standardised.iter().filter(|r| **r != 0.0);
-    let scale = NORMAL * median(told.map(|r| r.abs()))?;
+    let counting = standardised.iter().zip(&record.weights);
+    let told = counting.filter(|(r, weight)| **r != 0.0 && **weight > 0.0);
+    let scale = NORMAL * median(told.map(|(r, _)| r.abs()))?;
     let scale = scale.max(record.floor / sigma);
     // An angle within a step of its code is not off.
     for r in &mut standardised {
         *r -= r.clamp(-step / sigma, step / sigma);
     }
+    Some(Errors {
+        standardised,
+        scale,
+    })
+}
+
+/// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
+pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
+    let record = problem.single();
+    let Errors {
+        standardised,
+        scale,
+    } = errors(problem, smoothed, step)?;
     // Samples of a sensor that holds are one.
     let is_held = |i: &usize| record.intervals.is_empty() && record.repeats(*i);
     let single = (0..standardised.len()).filter(|i| !is_held(i));
@@ -90,6 +115,8 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
             weights[run].fill(0.0);
         }
     }
+    let pairs = weights.iter_mut().zip(record.full_weights());
+    pairs.for_each(|(weight, full)| *weight *= full);
     Some(Judgement { weights, few })
 }
 
@@ -101,12 +128,38 @@ fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
 }
 
 impl Problem<'_> {
+    /// Finds out whether the sensor holds its values: one that repeats the value before it is then off by more than steps of these
+    /// from the motion through the others, which are within a step of it. Such samples do not count.
+    pub fn finds_held(&mut self, first: &Smoothed) -> bool {
+        let record = self.single();
+        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
+        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
+        let repeats: Vec<usize> = (1..record.values.len())
+            .filter(|i| record.repeats(*i))
+            .collect();
+        if repeats.is_empty() || !record.intervals.is_empty() {
+            return false;
+        }
+        self.set_held(true, first);
+        let through = self.kinematic(first.path(), first.noise.sigma);
+        self.single_mut().holds = false;
+        let holds = errors(self, &through, step).is_some_and(|errors| {
+            let is_far = |i: &usize| errors.standardised[*i].abs() > FAR * errors.scale;
+            repeats.iter().any(is_far)
+        });
+        self.set_held(holds, first);
+        holds
+    }
+
+    /// Leaves out values that repeat the one before, or counts them.
+    fn set_held(&mut self, holds: bool, about: &Smoothed) {
+        self.single_mut().holds = holds;
+        self.weigh(self.single().full_weights(), about);
+    }
+
     /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights.
     pub fn weigh(&mut self, weights: Vec<f64>, about: &Smoothed) -> bool {
-        let weighed = match &mut self.condensed {
-            None => &mut self.record,
-            Some(condensed) => &mut condensed.record,
-        };
+        let weighed = self.single_mut();
         let is_alike = alike(&weighed.weights, &weights);
         weighed.weights = weights;
         if let Some(condensed) = &self.condensed {

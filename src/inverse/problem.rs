@@ -81,6 +81,14 @@ impl<'a> Problem<'a> {
             .map_or(&self.record, |condensed| &condensed.record)
     }
 
+    /// The samples that may have means in their place.
+    pub fn single_mut(&mut self) -> &mut Record<'a> {
+        match &mut self.condensed {
+            None => &mut self.record,
+            Some(condensed) => &mut condensed.record,
+        }
+    }
+
     /// True if the samples were computed.
     pub fn is_computed(&self) -> bool {
         self.computed && self.record.codes.is_none()

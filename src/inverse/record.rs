@@ -28,6 +28,8 @@ pub(super) struct Record<'a> {
     pub tones: Vec<Tone>,
     /// Weight of each sample: precision over that of a full one; 0 for none.
     pub weights: Vec<f64>,
+    /// Whether the sensor holds values: those that repeat the one before do not count.
+    pub holds: bool,
     /// Quantisation of the samples, if wider than the noise.
     pub codes: Option<Codes>,
     /// Intervals in the place of quantised samples, represented by normal distributions at `values`.
@@ -137,6 +139,12 @@ impl Record<'_> {
     /// True for a sample that repeats the value before it, as a sensor does that holds or is at the end of its range.
     pub fn repeats(&self, sample: usize) -> bool {
         sample > 0 && self.values[sample] == self.values[sample - 1]
+    }
+
+    /// Returns the weights of samples that are not far off: 1, or 0 for those that the sensor held.
+    pub fn full_weights(&self) -> Vec<f64> {
+        let weight = |i| f64::from(u8::from(!(self.holds && self.repeats(i))));
+        (0..self.values.len()).map(weight).collect()
     }
 
     /// True if the crank angle itself was measured, and nothing else.

@@ -47,6 +47,7 @@ pub(super) fn record<'a>(
         spreads: Vec::new(),
         values,
         tones: tones.to_vec(),
+        holds: false,
         codes: None,
         intervals: Vec::new(),
         shown: Vec::new(),
@@ -187,9 +188,10 @@ fn without_outliers<'a>(
     let (mut problem, first) = problem(record, &theta, most, equation, stop);
     let sigma = angles.sigma.max(problem.record.floor);
     let mut kinematic = problem.kinematic(first, sigma);
-    if problem.condensed.is_some() {
+    let holds = problem.finds_held(&kinematic);
+    if holds || problem.condensed.is_some() {
         // The first path follows the noise.
-        problem.weigh(vec![1.0; problem.single().times.len()], &kinematic);
+        problem.weigh(problem.single().full_weights(), &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     let mut few = true;
@@ -205,7 +207,7 @@ fn without_outliers<'a>(
         }
     }
     if !few {
-        problem.weigh(vec![1.0; problem.single().times.len()], &kinematic);
+        problem.weigh(problem.single().full_weights(), &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
     (problem, kinematic)
