@@ -131,7 +131,7 @@ impl Problem<'_> {
 
     /// The cost of parameters in ln of the likelihood (Schwarz, Ann. Statist. 6 (1978) 461).
     pub fn cost(&self, parameters: f64) -> f64 {
-        0.5 * parameters * (self.single().times.len() as f64).ln()
+        0.5 * parameters * self.single().counted().ln()
     }
 
     /// Priors about a path.

@@ -159,7 +159,17 @@ impl Record<'_> {
 
     /// True if the samples were computed: their noise, that of their codes included, is below that of any instrument.
     pub fn is_computed(&self) -> bool {
-        let noise = residual_tests::noise(&self.times, &self.values).max(self.floor);
+        // A value again tells nothing of the noise.
+        let repeats = (0..self.values.len()).any(|i| self.repeats(i));
+        let told = |values: &[f64]| -> Vec<f64> {
+            let told = (0..values.len()).filter(|i| !self.repeats(*i));
+            told.map(|i| values[i]).collect()
+        };
+        let noise = match repeats {
+            true => residual_tests::noise(&told(&self.times), &told(&self.values)),
+            false => residual_tests::noise(&self.times, &self.values),
+        };
+        let noise = noise.max(self.floor);
         let widths = self.intervals.iter().map(|interval| interval.width);
         let of_codes = ROUNDING_DEVIATION * widths.fold(0.0, f64::max);
         self.codes.is_none() && noise.max(of_codes) < self.instrument_noise()

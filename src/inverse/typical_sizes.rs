@@ -21,10 +21,10 @@ impl Problem<'_> {
         root_mean_square(slopes.filter(|slope| slope.is_finite())) / by_time
     }
 
-    /// Returns the mean time between samples, s.
+    /// Returns the mean time between samples that count, s.
     fn spacing(&self) -> f64 {
         let times = &self.grid.times;
-        (times[times.len() - 1] - times[0]) / (self.record.times.len() as f64 - 1.0)
+        (times[times.len() - 1] - times[0]) / (self.record.counted() - 1.0)
     }
 
     /// Returns the typical magnitudes along a path with a prior, for samples of a slope and a standard deviation σ.
@@ -43,7 +43,7 @@ impl Problem<'_> {
         }
         Scales {
             spacing: self.spacing(),
-            samples: self.single().times.len() as f64 / self.record.times.len() as f64,
+            samples: self.single().counted() / self.record.counted(),
             duration,
             slope,
             lever: (lever / count).sqrt(),

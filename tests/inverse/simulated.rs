@@ -921,6 +921,52 @@ fn dense_samples_tell_more() {
     assert!(ratio < 0.5, "{ratio}\n{report}");
 }
 
+/// Dense samples that are nearly exact tell a motor to six digits.
+#[test]
+fn dense_samples_of_a_motor_are_read_as_exactly() {
+    let motor = Motion {
+        name: "motor",
+        start: [0.5, 0.0],
+        end: 2.0,
+        rows: 10_000,
+        torque: |_, _, omega| 4.0 - 0.04 * omega,
+    };
+    let [off, covered] = over_seeds(&motor, 1e-6, 4);
+    eprintln!("motor {off} {covered}");
+    assert!(covered > 0.85 && off < 1e-7, "{off}, {covered}");
+}
+
+/// A sensor that is logged three times as often as it measures shows each value three times. The file tells as much as its first
+/// rows of each value do.
+#[test]
+fn values_that_a_sensor_holds_count_once() {
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let mut logs = Vec::new();
+    for motion in [&MOTIONS[0], &MOTIONS[1], &MOTIONS[2], &MOTIONS[4]] {
+        let truth = motion.run();
+        let mut record = measure(&truth, Sensor::Angle(1e-4), &mut random);
+        let fresh: Vec<usize> = (0..motion.rows).step_by(3).collect();
+        let at = |values: &[f64]| fresh.iter().map(|row| values[*row]).collect();
+        let once = Record {
+            rows: fresh.clone(),
+            t: at(&record.t),
+            values: at(&record.values),
+            sound: vec![true; fresh.len()],
+            measured: Measured::Theta,
+        };
+        for row in 0..motion.rows {
+            record.values[row] = record.values[row - row % 3];
+        }
+        let [held, once] =
+            [&record, &once].map(|record| judge(&truth, record, &found(motion, record, 1.0)));
+        eprintln!("{} held {held:?} once {once:?}", motion.name);
+        assert!(held[1] > 0.85, "{}: {held:?}", motion.name);
+        logs.push((held[0] / once[0]).ln());
+    }
+    let ratio = (logs.iter().sum::<f64>() / logs.len() as f64).exp();
+    assert!(ratio < 1.2, "{ratio}");
+}
+
 /// Noise of 0.02 rad hides a ripple of 12 periods in a turn. The result says that it hides how the torque varies or, where a torque
 /// is found that repeats every turn, what varies faster than the harmonics that the samples tell.
 #[test]
@@ -1190,6 +1236,86 @@ fn a_fan_takes_torque_by_the_square_of_the_speed() {
         let prior = &found.summary.fit.prior;
         assert!(off < 2e-4, "seed {seed}: {off} of {prior}");
         assert!(covered > 0.85, "seed {seed}: {covered}");
+    }
+}
+
+/// Returns the geometric mean of the errors of the torque over its root mean square, and the mean share of rows that the band
+/// covers, of records of the angle with other noise.
+fn over_seeds(motion: &Motion, noise: f64, seeds: u64) -> [f64; 2] {
+    let truth = motion.run();
+    let squares = truth.torque.iter().map(|torque| torque * torque);
+    let size = (squares.sum::<f64>() / truth.torque.len() as f64).sqrt();
+    let (mut log, mut covered) = (0.0, 0.0);
+    for seed in 1..=seeds {
+        let [off, share] = torque_errors(&truth, &of_angles(motion, &truth, noise, seed));
+        log += (off / size).ln() / seeds as f64;
+        covered += share / seeds as f64;
+    }
+    [log.exp(), covered]
+}
+
+/// A torque that rises along a record makes the crank faster: one that follows the speed looks much the same where noise hides how
+/// the speed varies within a turn. The band has both.
+#[test]
+fn a_torque_that_rises_need_not_follow_the_speed() {
+    let rising = Motion {
+        name: "rising",
+        start: [0.5, 10.0],
+        end: 4.0,
+        rows: 430,
+        torque: |t, _, _| 0.02 + 0.003 * t,
+    };
+    let [off, covered] = over_seeds(&rising, 2.5e-3, 12);
+    eprintln!("rising {off} {covered}");
+    assert!(covered > 0.9 && off < 0.1, "{off}, {covered}");
+}
+
+/// A pump takes torque in one half of each turn: the mechanism makes the speed vary with it, but the torque does not follow that.
+#[test]
+fn a_pump_repeats_and_does_not_follow_the_speed() {
+    let pump = Motion {
+        name: "pump",
+        start: [0.5, 60.0],
+        end: 1.5,
+        rows: 600,
+        torque: |_, theta, _| 0.7 - 60.0 * position(theta)[1].max(0.0),
+    };
+    let [off, covered] = over_seeds(&pump, 1e-3, 6);
+    eprintln!("pump {off} {covered}");
+    assert!(covered > 0.85 && off < 0.3, "{off}, {covered}");
+}
+
+/// A controller moves a crank from speed to speed, with a torque in proportion to what is missing.
+#[test]
+fn a_controller_follows_the_speed_and_varies_smoothly() {
+    let controlled = Motion {
+        name: "controlled",
+        start: [0.5, 50.0],
+        end: 2.0,
+        rows: 1000,
+        torque: |t, _, omega| 0.15 * (50.0 + 15.0 * (8.0 * (t - 1.0)).tanh() - omega),
+    };
+    let [off, covered] = over_seeds(&controlled, 1e-5, 6);
+    eprintln!("controlled {off} {covered}");
+    assert!(covered > 0.85 && off < 2e-3, "{off}, {covered}");
+}
+
+/// A clutch couples a motor to a crank that coasts: before and after, the torque follows the speed by other laws.
+#[test]
+fn a_clutch_changes_the_law_of_the_torque() {
+    let clutch = Motion {
+        name: "clutch",
+        start: [0.5, 50.0],
+        end: 2.0,
+        rows: 1000,
+        torque: |t, _, omega| match t < 0.8 {
+            true => -0.004 * omega,
+            false => 0.15 * (70.0 - omega) * ((t - 0.8) / 0.03).min(1.0),
+        },
+    };
+    for noise in [1e-5, 1e-4, 1e-3] {
+        let [off, covered] = over_seeds(&clutch, noise, 6);
+        eprintln!("clutch {off} {covered}");
     }
 }
 
