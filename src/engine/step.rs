@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Motion, NODES};
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::SUM_ROUNDING;
-use crate::numeric::interpolate::Quintic;
+use crate::numeric::hermite::Quintic;
 use crate::numeric::root;
 
 /// State at one end of a step.

@@ -7,7 +7,7 @@ use super::measurement_model::Turning;
 use super::prior::{Prior, State};
 use super::repeating::Repeating;
 use super::scales::root_mean_square;
-use crate::numeric::interpolate::between;
+use crate::numeric::hermite::between;
 
 /// Nodes of the path with their samples.
 #[derive(Clone, Debug, Default)]

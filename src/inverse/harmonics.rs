@@ -4,7 +4,7 @@ use super::linearised::Linearised;
 use super::prior::{Prior, State};
 use super::repeating::{dot, waves};
 use crate::numeric::gauss::LOBATTO;
-use crate::numeric::interpolate::cubic;
+use crate::numeric::hermite::cubic;
 
 /// Responses of θ, ω and u at the end of a step h to torques at its inner nodes and its end, by Lobatto's rule for θ̈.
 pub(super) fn responses(h: f64, lever: f64) -> [AtNodes<f64>; 3] {

@@ -4,7 +4,7 @@ use super::linearised::{Motion, Node, Rates};
 use super::prior::{State, Unknown};
 use super::repeating::Repeating;
 use crate::numeric::gauss::LOBATTO;
-use crate::numeric::interpolate::Quintic;
+use crate::numeric::hermite::Quintic;
 
 impl Motion<'_> {
     /// Returns a state whose entries from the first on, each the derivative of the one before, are advanced by a time h, s.

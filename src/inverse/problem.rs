@@ -18,7 +18,7 @@ use super::smoother::Smoothed;
 use super::span::Intensities;
 use super::state_space::Stretch;
 use crate::mechanism::Equation;
-use crate::numeric::interpolate::between;
+use crate::numeric::hermite::between;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 

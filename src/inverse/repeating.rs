@@ -5,7 +5,7 @@ use std::iter;
 
 use super::matrix::Matrix;
 use super::prior::Prior;
-use crate::numeric::interpolate::Quintic;
+use crate::numeric::hermite::Quintic;
 
 /// A torque that repeats, N m.
 #[derive(Clone, Debug)]

@@ -205,3 +205,46 @@ fn add<const N: usize, const R: usize>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inverse::prior::FOLLOWING;
+
+    /// In a step of 0.2 s with 5 times the usual intensity g₁ has 4 times its noise of 0.3 for the usual one, and is without noise
+    /// elsewhere; u has what g₁ adds to it at the rate of the speed.
+    #[test]
+    fn a_law_changes_where_the_noise_is_stronger() {
+        let step = Linearised {
+            h: 0.2,
+            lever: 1.0,
+            tilt: [3.0, 0.0],
+            ..Linearised::default()
+        };
+        let stretch = Stretch {
+            steps: vec![step; 3].into(),
+            intensities: vec![1.0, 5.0, 0.1],
+            ..Stretch::default()
+        };
+        let model = Deviations {
+            stretch: &stretch,
+            prior: FOLLOWING,
+            noise: 2.0,
+            speed_noise: 0.0,
+            law_noise: 0.3,
+            correlated: None,
+            spread: [10.0; 5],
+        };
+        let noise = [0, 1, 2].map(|node| model.process_noise::<4>(node));
+        let of_law = 4.0 * 0.3 * 0.2;
+        for (found, expected) in [
+            (noise[1][3][3], of_law),
+            (noise[1][2][2], 5.0 * 2.0 * 0.2 + of_law * 0.6 * 0.6 / 3.0),
+            (noise[0][3][3], 0.0),
+            (noise[0][2][2], 2.0 * 0.2),
+            (noise[2][3][3], 0.0),
+        ] {
+            assert!((found - expected).abs() < 1e-12, "{found}: {expected}");
+        }
+    }
+}

@@ -11,6 +11,7 @@ pub mod exact;
 pub mod exponential;
 pub mod fourier;
 pub mod gauss;
+pub mod hermite;
 pub mod interpolate;
 #[cfg(feature = "cli")]
 pub mod latin_hypercube;

@@ -1,6 +1,6 @@
 //! First zero of a smooth function of a step, enclosed by Bernstein coefficients.
 
-use crate::numeric::interpolate::Quintic;
+use crate::numeric::hermite::Quintic;
 use crate::numeric::root;
 
 /// Value of a function at a fraction u of a step, with its derivatives over u.

@@ -7,7 +7,7 @@ use super::journal_record::Tally;
 use super::motion::touch;
 use crate::engine::PIECES;
 use crate::engine::contact::{AcceptedStep, Phase, Sample};
-use crate::numeric::interpolate::Quintic;
+use crate::numeric::hermite::Quintic;
 use crate::numeric::{gauss, maximum, root};
 
 impl<const N: usize> ContactFollower<'_, N> {
