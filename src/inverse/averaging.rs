@@ -9,11 +9,8 @@ use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
 use super::smoother::Smoothed;
-use super::weighed::{Weighed, counting, on_both_sides};
+use super::weighed::{LEAST_LOG_ODDS, Weighed, counting, on_both_sides};
 use crate::numeric::parallel;
-
-/// ln of the odds to the most probable model below which another one does not count.
-pub(super) const LEAST_LOG_ODDS: f64 = -6.0;
 
 /// What a prior with one intensity makes of the motion.
 struct Model {

@@ -3,7 +3,6 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::averaging::LEAST_LOG_ODDS;
 use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
@@ -14,6 +13,7 @@ use super::rotation::Rotation;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
+use super::weighed::LEAST_LOG_ODDS;
 use crate::numeric::parallel;
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.

@@ -9,6 +9,9 @@ pub(super) struct Weighed<T> {
     pub log: f64,
 }
 
+/// ln of the odds to the most probable model below which another one does not count.
+pub(super) const LEAST_LOG_ODDS: f64 = -6.0;
+
 /// Returns the largest ln of a probability.
 pub(super) fn most<T>(list: &[Weighed<T>]) -> f64 {
     let logs = list.iter().map(|one| one.log);
