@@ -161,11 +161,15 @@ impl Problem<'_> {
             && !self.is_computed()
         {
             let sites = self.sites();
-            let Some(plain) = self.without_what_repeats(&best, kinematic) else {
+            let Some(plain) = self.likeliest_plain(&best, kinematic) else {
                 break;
             };
+            let least = match best.prior.cycle {
+                0 => f64::NEG_INFINITY,
+                _ => best.noise.likelihood,
+            };
             let before = std::mem::take(&mut self.intensities);
-            self.intensities = self.intensities_of(&plain, best.noise.likelihood);
+            self.intensities = self.intensities_of(&plain, least);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
                 let next = self.likeliest_of_all(kinematic, suspected);

@@ -160,7 +160,7 @@ impl Problem<'_> {
 
     /// A motion, or with the likeliest prior among its own without a part that repeats: a pulse is no change of intensity, but jumps
     /// may look like harmonics.
-    pub fn without_what_repeats(&self, of: &Smoothed, kinematic: &Smoothed) -> Option<Smoothed> {
+    pub fn likeliest_plain(&self, of: &Smoothed, kinematic: &Smoothed) -> Option<Smoothed> {
         if of.prior.cycle == 0 {
             return Some(of.clone());
         }

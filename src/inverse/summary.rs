@@ -151,7 +151,7 @@ pub struct SensorSummary {
 pub struct CandidateSummary {
     /// Random term of the prior, in words.
     pub prior: &'static str,
-    /// ln of the marginal likelihood.
+    /// ln of the marginal likelihood, less what the two parameters of a spectrum of harmonics cost.
     pub log_likelihood: f64,
 }
 
