@@ -174,7 +174,7 @@ impl Problem<'_> {
         Tried { candidates, abouts }
     }
 
-    /// Priors with a part that repeats every turn, where that may count beside the same prior without.
+    /// Priors with a part that repeats every turn, or in each swing, where that may count beside the same prior without.
     fn repeating(
         &self,
         rotation: Rotation,
@@ -183,7 +183,7 @@ impl Problem<'_> {
         is_correlated: bool,
     ) -> Vec<Candidate> {
         let of = |prior: Prior| tried.iter().find(|one| one.prior == prior);
-        let Some(torque) = of(TORQUE).filter(|_| rotation.turns >= 2.0) else {
+        let Some(torque) = of(TORQUE).filter(|_| rotation.passes >= 2.0) else {
             return Vec::new();
         };
         // A part that follows the speed is tried at once where the samples show it without what repeats.

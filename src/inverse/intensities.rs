@@ -105,14 +105,14 @@ fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
 }
 
 impl Problem<'_> {
-    /// Finds the stretches in which the process noise under a prior has another intensity. With one in each turn as good as the
-    /// last the samples would be likelier than a least value: what is in each turn repeats.
+    /// Finds the stretches in which the process noise under a prior has another intensity. With one in each passage of the crank as
+    /// good as the last the samples would be likelier than a least value: what is in each passage repeats.
     fn intensities_of(&self, found: &Smoothed, least: f64) -> Intensities {
         let mut intensities = Intensities::default();
         let Smoothed { prior, scales, .. } = *found;
         let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
         let mut noise = found.noise;
-        let turns = Rotation::of(found.angles()).turns;
+        let passes = Rotation::of(found.angles()).passes;
         while intensities.0.len() < self.record.times.len() / 10 {
             noise = linear.renewed(noise);
             let Some(stretch) = linear.stretches.first() else {
@@ -126,7 +126,7 @@ impl Problem<'_> {
                 let trial = Trial { linear: &linear, stretch, noise, parted };
                 trial.likeliest(furthest(&list, promised))
             });
-            let left = turns - intensities.0.len() as f64;
+            let left = passes - intensities.0.len() as f64;
             let rises = |guess: &Guess| {
                 let rise = guess.likelihood - noise.likelihood - self.cost(PARAMETERS);
                 rise > 0.0 && noise.likelihood + rise * left.max(1.0) > least

@@ -128,8 +128,8 @@ fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
 }
 
 impl Problem<'_> {
-    /// Finds out whether the sensor holds its values: one that repeats the value before it is then off by more than steps of these
-    /// from the motion through the others, which are within a step of it. Such samples do not count.
+    /// Finds out whether the sensor holds its values. One that repeats the value before it is then off from the motion through the
+    /// others by more than two steps of the values, for both may be off by one. Such samples do not count.
     pub fn finds_held(&mut self, first: &Smoothed) -> bool {
         let record = self.single();
         let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);

@@ -85,7 +85,10 @@ pub(super) fn of_sensor(
             Measured::Theta => format!(
                 "the torque that repeats rests on the samples alone, up to harmonic {told} of a turn: an error of the sensor that repeats, like that of an encoder off its centre, is taken for it ({of_milliradian:.1e} N m for each mrad once in a turn) and not in the band; what varies faster is hidden by noise, and in the band as far as these harmonics suggest it"
             ),
-            _ => format!(
+            Measured::X | Measured::Gamma => format!(
+                "the torque that repeats rests on the samples and on the lengths of the scene, up to harmonic {told} of a turn: an error of the sensor or of the lengths is taken for it ({of_milliradian:.1e} N m for each thousandth of the crank once in a turn) and not in the band, unless it is stated; what varies faster is hidden by noise, and in the band as far as these harmonics suggest it"
+            ),
+            Measured::Omega => format!(
                 "the torque that repeats is known up to harmonic {told} of a turn: what varies faster is hidden by noise, and in the band as far as these harmonics suggest it"
             ),
         }
