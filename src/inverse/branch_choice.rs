@@ -61,13 +61,24 @@ pub(super) fn crank_angles<'a>(
         .saturating_sub(count / 2)
         .min(measurement.len() - count);
     let window = begin..begin + count;
+    let seen = |angles: &CrankAngles<'a>| {
+        let mut record = record(measurement, angles, &[]);
+        record.keep(window.clone());
+        let theta = &angles.theta[window.clone()];
+        let (problem, first) = problem(record, theta, 1, equation, stop);
+        let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
+        (problem, kinematic)
+    };
+    // Likelihoods are of the same samples.
+    let (mut problem, kinematic) = seen(&motions[0].angles);
+    let holds = problem.finds_held(&kinematic);
     let pairs = parallel::map(motions.into_iter(), |one| {
         let read = |angles: CrankAngles<'a>| {
-            let mut record = record(measurement, &angles, &[]);
-            record.keep(window.clone());
-            let theta = &angles.theta[window.clone()];
-            let (problem, first) = problem(record, theta, 1, equation, stop);
-            let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
+            let (mut problem, mut kinematic) = seen(&angles);
+            if holds {
+                problem.set_held(true, &kinematic);
+                kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
+            }
             Reading::new(&problem, &kinematic, motion, angles, &window)
         };
         let taken = read(one.angles);

@@ -7,12 +7,15 @@
 
 use std::f64::consts::TAU;
 
-use super::hypotheses::{DROPPED_LOG_RATIO, FAR, Setting, Tracker};
+use super::hypotheses::{Setting, Tracker};
+use super::hypothesis::{DROPPED_LOG_RATIO, FAR};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::Imaged;
+use super::quantised::Codes;
+use super::row::InverseRow;
 use crate::error::Error;
-use crate::numeric::parallel;
-use crate::scene::Measurement;
+use crate::numeric::{ROUNDING_DEVIATION, parallel};
+use crate::scene::{Measured, Measurement};
 
 /// Crank angles assigned to samples.
 #[derive(Clone, Debug)]
@@ -35,15 +38,20 @@ pub(super) fn motions<'a>(
     sensors: &[Sensor<'a>],
     measurement: &Measurement,
 ) -> Result<Vec<Imaged<'a>>, Error> {
-    let early = measurement.len().min(EARLY);
+    let (values, resolution) = (measurement.values(), measurement.resolution());
+    // Values that repeat tell little of noise and agility.
+    let mut told = (1..values.len()).filter(|i| values[*i] != values[*i - 1]);
+    let early = told.nth(EARLY).unwrap_or(values.len());
+    let steps = Codes::of(values, resolution);
+    let least = steps.map_or(resolution, |steps| ROUNDING_DEVIATION * steps.step);
     let likeliest = |sensor| {
         let tracker = Tracker {
             sensor,
             times: measurement.elapsed(),
-            values: measurement.values(),
+            values,
             speed: typical_speed(sensor, measurement),
         };
-        let settings = tracker.settings(measurement.resolution());
+        let settings = tracker.settings(least);
         let best_of = |settings: &mut dyn Iterator<Item = &Setting>, samples: usize| {
             let scored = parallel::map(settings, |one| (tracker.score(one, samples), *one));
             scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
@@ -87,16 +95,20 @@ pub(super) fn motions<'a>(
             }
         }
     }
-    if motions.is_empty() {
-        return Err(Error::refused(
-            format!(
-                "no motion of the mechanism explains the samples of {}",
-                sensors[0].measured.name()
-            ),
-            "check the lengths of the scene, the unit and zero of the column, and that each turn has more than two samples",
-        ));
+    match motions.is_empty() {
+        true => Err(unexplained(&sensors[0])),
+        false => Ok(motions),
     }
-    Ok(motions)
+}
+
+fn unexplained(sensor: &Sensor<'_>) -> Error {
+    Error::refused(
+        format!(
+            "no motion of the mechanism explains the samples of {}",
+            sensor.measured.name()
+        ),
+        "check the lengths of the scene, the unit and zero of the column, and that each turn has more than two samples",
+    )
 }
 
 /// True if a crank turns less than half a turn from sample to sample in the mean: a faster motion has the samples of a
@@ -104,6 +116,18 @@ pub(super) fn motions<'a>(
 fn is_resolved(theta: &[f64]) -> bool {
     let way: f64 = theta.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
     way < 0.5 * TAU * (theta.len() - 1) as f64
+}
+
+/// Checks that samples of x or gamma resolve the motion that was found by them.
+///
+/// # Errors
+/// [`Error::Refused`] if they do not.
+pub(super) fn resolves(sensor: &Sensor<'_>, rows: &[InverseRow]) -> Result<(), Error> {
+    let theta: Vec<f64> = rows.iter().map(|row| row.theta).collect();
+    match matches!(sensor.measured, Measured::X | Measured::Gamma) && !is_resolved(&theta) {
+        true => Err(unexplained(sensor)),
+        false => Ok(()),
+    }
 }
 
 /// Difference of crank angle at which two motions are distinct, rad.

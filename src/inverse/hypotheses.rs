@@ -1,10 +1,11 @@
 //! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each
 //! followed by a Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{LN_2, TAU};
 
-use super::kalman::{Gaussian, Sample, Step};
-use super::links::{Link, Rival, Track, way};
+use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
+use super::kalman::{Gaussian, Step};
+use super::links::{Link, Track, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 
@@ -17,15 +18,6 @@ pub(super) struct Setting {
     pub jerk: f64,
 }
 
-/// Hypothesis: a path up to the current sample.
-#[derive(Clone, Copy, Debug)]
-struct Hypothesis {
-    state: Gaussian<3>,
-    score: f64,
-    /// Index of the last link in the list of all links.
-    last: usize,
-}
-
 /// Tracker of hypotheses through samples.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tracker<'a, 's> {
@@ -35,13 +27,6 @@ pub(super) struct Tracker<'a, 's> {
     /// Typical speed of the crank, rad/s.
     pub speed: f64,
 }
-
-/// Standard deviations beyond which a sample shows another motion.
-pub(super) const FAR: f64 = 5.0;
-
-/// Maximum number of hypotheses, mirror images among them, and ln of the likelihood ratio to the best beyond which one is dropped.
-const MOST_HYPOTHESES: usize = 12;
-pub(super) const DROPPED_LOG_RATIO: f64 = 50.0;
 
 impl Tracker<'_, '_> {
     /// Returns the settings that are tried: noise levels, at least the resolution (rad or m), by agilities.
@@ -128,18 +113,22 @@ impl Tracker<'_, '_> {
         for i in 0..samples {
             next.clear();
             let sighted = self.sighted(i, setting.sigma);
+            let is_same = |i: usize| i > 0 && self.values[i] == self.values[i - 1];
+            let repeats = is_same(i);
+            let begins = repeats && !is_same(i - 1);
             if i == 0 {
                 next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
             } else {
                 let step = step(self.times[i] - self.times[i - 1], setting.jerk);
                 for before in &now {
-                    let predicted = Hypothesis {
-                        state: before.state.predicted(&step),
-                        ..*before
-                    };
-                    for sight in &sighted {
-                        extend(&predicted, sight, links, &mut next);
+                    let predicted = before.predicted(&step);
+                    let goes_on = repeats && before.held;
+                    // The sensor may hold the value while the crank goes on, as likely as not.
+                    if begins || goes_on {
+                        predicted.held(if begins { LN_2 } else { 0.0 }, links, &mut next);
                     }
+                    let seen = sighted.iter().filter(|_| !goes_on);
+                    seen.for_each(|sight| predicted.extend(sight, repeats, links, &mut next));
                 }
             }
             prune(&mut next, links);
@@ -182,18 +171,10 @@ impl Tracker<'_, '_> {
                 covariance: diagonal([sight.variance, speed * speed, speed.powi(4)]),
             },
             score: sight.score,
+            held: false,
             last: links.len() - 1,
         }
     }
-}
-
-/// Crank angle, rad, that a sample may stand for.
-#[derive(Clone, Copy, Debug)]
-struct Sight {
-    theta: f64,
-    variance: f64,
-    /// ln of the density of the measured value, per angle.
-    score: f64,
 }
 
 /// Returns the transition over a time `dt`, s, in which the angular acceleration is a Wiener process.
@@ -209,79 +190,4 @@ fn step(dt: f64, jerk: f64) -> Step<3> {
         offset: [0.0; 3],
         noise,
     }
-}
-
-/// Extends a hypothesis by a sample, in each turn of the crank that is possible.
-fn extend(
-    predicted: &Hypothesis,
-    sight: &Sight,
-    links: &mut Vec<Link>,
-    list: &mut Vec<Hypothesis>,
-) {
-    let nearest = ((predicted.state.mean[0] - sight.theta) / TAU).round();
-    let spread = predicted.state.covariance[0][0] + sight.variance;
-    let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
-    for turn in -reach..=reach {
-        let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
-        let mut found = *predicted;
-        let seen = found.state.update(&Sample {
-            value: theta,
-            is_second: false,
-            slope: 1.0,
-            is_correlated: false,
-            variance: sight.variance,
-        });
-        // Outliers are scored by the tails of Student's distribution with four degrees of freedom.
-        let spread = seen.variance;
-        let off = seen.error * seen.error / spread;
-        let tails = if off < 4.0 {
-            0.5 * off
-        } else {
-            2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln()
-        };
-        found.score += sight.score - 0.5 * spread.ln() - tails;
-        if off > FAR * FAR {
-            // An outlier moves the path no further than a sample at this distance.
-            let (before, there) = (predicted.state, found.state.mean);
-            let part = FAR / off.sqrt();
-            let between = |k: usize| before.mean[k] + part * (there[k] - before.mean[k]);
-            found.state = Gaussian {
-                mean: std::array::from_fn(between),
-                ..before
-            };
-        }
-        links.push(Link {
-            theta: found.state.mean[0],
-            before: Some(predicted.last),
-            rival: None,
-        });
-        found.last = links.len() - 1;
-        list.push(found);
-    }
-}
-
-/// Keeps the likeliest hypotheses, and only the likeliest of those that agree, with its rival.
-fn prune(list: &mut Vec<Hypothesis>, links: &mut [Link]) {
-    list.sort_by(|a, b| b.score.total_cmp(&a.score));
-    let mut kept: usize = 0;
-    for k in 0..list.len() {
-        let now = list[k];
-        let agrees = |other: &&Hypothesis| {
-            let off = |i: usize| other.state.mean[i] - now.state.mean[i];
-            (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
-        };
-        if let Some(other) = list[..kept].iter().find(agrees) {
-            links[other.last].rival.get_or_insert(Rival {
-                last: now.last,
-                loss: other.score - now.score,
-            });
-            continue;
-        }
-        let keep = now.score >= list[0].score - DROPPED_LOG_RATIO && kept < MOST_HYPOTHESES;
-        if keep && now.score.is_finite() {
-            list[kept] = now;
-            kept += 1;
-        }
-    }
-    list.truncate(kept);
 }

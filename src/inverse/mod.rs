@@ -46,6 +46,7 @@ mod grid;
 mod harmonics;
 mod high_harmonics;
 mod hypotheses;
+mod hypothesis;
 pub mod identify;
 mod intensities;
 mod interval;
@@ -232,6 +233,7 @@ fn recovered(
     );
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
+    branch_tracking::resolves(&angles.sensor, &found.rows)?;
     let locked = refusals::finite(&backwards, measurement, &found.rows)?;
     let (measured, rows) = (measurement.measured(), &found.rows);
     let warnings = [

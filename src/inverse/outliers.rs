@@ -1,8 +1,8 @@
 //! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
-use std::ops::Range;
-
+use super::estimate::Estimate;
+use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::residual_tests::NORMAL;
@@ -38,11 +38,17 @@ struct Errors {
     scale: f64,
 }
 
-/// Returns the errors of samples, quantised in `step`, rad, from a smoothed motion; none if none is judged.
-fn errors(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Errors> {
+/// Returns the errors of samples from a smoothed motion, less what is `allowed` of a sample and its motion, rad or m; none if
+/// none is judged.
+fn errors(
+    problem: &Problem<'_>,
+    smoothed: &Smoothed,
+    allowed: impl Fn(usize, &Estimate) -> f64,
+) -> Option<Errors> {
     let record = problem.single();
     let sigma = smoothed.noise.sigma;
     let full = record.full_weights();
+    let mut within = vec![0.0; record.times.len()];
     let mut standardised: Vec<f64> = (0..record.times.len())
         .map(|i| {
             let estimate = problem.at(smoothed, record.times[i]);
@@ -55,6 +61,7 @@ fn errors(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Error
             if leverage > TIED && !is_end || full[i] == 0.0 {
                 return 0.0;
             }
+            within[i] = allowed(i, &estimate) / sigma;
             // Residual from the prediction by all other samples.
             let left = 1.0 - leverage;
             residual / (sigma * left * (1.0 + variance / left).sqrt())
@@ -64,9 +71,8 @@ fn errors(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Error
     let told = counting.filter(|(r, weight)| **r != 0.0 && **weight > 0.0);
     let scale = NORMAL * median(told.map(|(r, _)| r.abs()))?;
     let scale = scale.max(record.floor / sigma);
-    // An angle within a step of its code is not off.
-    for r in &mut standardised {
-        *r -= r.clamp(-step / sigma, step / sigma);
+    for (r, within) in standardised.iter_mut().zip(within) {
+        *r -= r.clamp(-within, within);
     }
     Some(Errors {
         standardised,
@@ -80,11 +86,14 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
     let Errors {
         standardised,
         scale,
-    } = errors(problem, smoothed, step)?;
-    // Samples of a sensor that holds are one.
-    let is_held = |i: &usize| record.intervals.is_empty() && record.repeats(*i);
-    let single = (0..standardised.len()).filter(|i| !is_held(i));
-    let mut sizes: Vec<f64> = single.map(|i| standardised[i].abs()).collect();
+        // An angle within a step of its code is not off.
+    } = errors(problem, smoothed, |_, _| step)?;
+    let full = record.full_weights();
+    let told = standardised
+        .iter()
+        .zip(&full)
+        .filter(|(_, full)| **full > 0.0);
+    let mut sizes: Vec<f64> = told.map(|(r, _)| r.abs()).collect();
     let most = (MOST_OUTLIERS * sizes.len() as f64) as usize;
     let (_, next, _) = sizes.select_nth_unstable_by(most, |a, b| b.total_cmp(a));
     let few = *next <= FAR * scale;
@@ -98,7 +107,7 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
             few,
         });
     }
-    let part = count / standardised.len() as f64;
+    let part = count / sizes.len() as f64;
     let wide = far().map(|r| r * r).sum::<f64>() / count / (scale * scale);
     let weight = |r: &f64| {
         if !few && r.abs() <= limit {
@@ -110,49 +119,52 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
         if weight < LEAST_WEIGHT { 0.0 } else { weight }
     };
     let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
-    for run in runs(weights.len(), is_held) {
-        if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
-            weights[run].fill(0.0);
-        }
-    }
-    let pairs = weights.iter_mut().zip(record.full_weights());
+    let pairs = weights.iter_mut().zip(full);
     pairs.for_each(|(weight, full)| *weight *= full);
     Some(Judgement { weights, few })
 }
 
-/// Returns the runs of a number of samples, each with those after its first one that are held.
-fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
-    let mut first: Vec<usize> = (0..count).filter(|i| !is_held(i)).collect();
-    first.push(count);
-    first.windows(2).map(|w| w[0]..w[1]).collect()
-}
-
 impl Problem<'_> {
-    /// Finds out whether the sensor holds its values. One that repeats the value before it is then off from the motion through the
-    /// others by more than two steps of the values, for both may be off by one. Such samples do not count.
+    /// Finds out whether the sensor holds its values, or repeats them at rest. Where it holds them, the second or the last of
+    /// equal values is off from the motion through the others: by more than two steps of the values, for both may be off by
+    /// one, and by more than the motion leaves rest in the time to the value beside them. Repeated values then do not count.
     pub fn finds_held(&mut self, first: &Smoothed) -> bool {
         let record = self.single();
-        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
-        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
-        let repeats: Vec<usize> = (1..record.values.len())
-            .filter(|i| record.repeats(*i))
-            .collect();
-        if repeats.is_empty() || !record.intervals.is_empty() {
+        let count = record.values.len();
+        let told = (0..count).filter(|i| !record.repeats(*i)).count();
+        // Fewer samples than states leave no errors.
+        if told == count || told <= KINEMATIC.states() || !record.intervals.is_empty() {
             return false;
         }
         self.set_held(true, first);
         let through = self.kinematic(first.path(), first.noise.sigma);
         self.single_mut().holds = false;
-        let holds = errors(self, &through, step).is_some_and(|errors| {
-            let is_far = |i: &usize| errors.standardised[*i].abs() > FAR * errors.scale;
-            repeats.iter().any(is_far)
-        });
+        let record = self.single();
+        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
+        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
+        let last = count - 1;
+        let is_second = |i: usize| i > 1 && !record.repeats(i - 1);
+        let is_last = |i: usize| i < last && !record.repeats(i + 1);
+        let mut ends = (1..=last).filter(|i| record.repeats(*i) && (is_second(*i) || is_last(*i)));
+        let from_rest = |i: usize, estimate: &Estimate| {
+            let [before, own, after] =
+                [i.saturating_sub(1), i, last.min(i + 1)].map(|i| record.times[i]);
+            let beside = f64::max(own - before, after - own);
+            let sensor = &record.sensor;
+            let time = match sensor.is_of_speed() {
+                true => beside,
+                false => 0.5 * beside * beside,
+            };
+            step + (sensor.shown(estimate.turning()).slope * estimate.alpha).abs() * time
+        };
+        let holds = errors(self, &through, from_rest)
+            .is_some_and(|errors| ends.any(|i| errors.standardised[i].abs() > FAR * errors.scale));
         self.set_held(holds, first);
         holds
     }
 
     /// Leaves out values that repeat the one before, or counts them.
-    fn set_held(&mut self, holds: bool, about: &Smoothed) {
+    pub fn set_held(&mut self, holds: bool, about: &Smoothed) {
         self.single_mut().holds = holds;
         self.weigh(self.single().full_weights(), about);
     }

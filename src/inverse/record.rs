@@ -159,15 +159,13 @@ impl Record<'_> {
 
     /// True if the samples were computed: their noise, that of their codes included, is below that of any instrument.
     pub fn is_computed(&self) -> bool {
-        // A value again tells nothing of the noise.
-        let repeats = (0..self.values.len()).any(|i| self.repeats(i));
-        let told = |values: &[f64]| -> Vec<f64> {
-            let told = (0..values.len()).filter(|i| !self.repeats(*i));
-            told.map(|i| values[i]).collect()
-        };
-        let noise = match repeats {
-            true => residual_tests::noise(&told(&self.times), &told(&self.values)),
-            false => residual_tests::noise(&self.times, &self.values),
+        // A value again tells nothing of the noise if the sensor holds it.
+        let told = || (0..self.values.len()).filter(|i| !self.repeats(*i));
+        let of = |list: &[f64]| -> Vec<f64> { told().map(|i| list[i]).collect() };
+        let noise = match told().count() {
+            1 => 0.0,
+            all if all == self.values.len() => residual_tests::noise(&self.times, &self.values),
+            _ => residual_tests::noise(&of(&self.times), &of(&self.values)),
         };
         let noise = noise.max(self.floor);
         let widths = self.intervals.iter().map(|interval| interval.width);

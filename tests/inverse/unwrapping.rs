@@ -29,6 +29,12 @@ fn turning(turns: f64, in_a_turn: f64) -> (Vec<f64>, Vec<f64>) {
     (times, angles)
 }
 
+/// Slider position of the flywheel's mechanism, m.
+fn x(theta: &f64) -> f64 {
+    let rod = (0.15f64.powi(2) - (0.05 * theta.sin()).powi(2)).sqrt();
+    0.05 * theta.cos() + rod
+}
+
 fn found(times: Vec<f64>, angles: Vec<f64>) -> Inverse {
     let motion = Measurement::new(Measured::Theta, times, angles).expect("samples");
     inverse(&flywheel(), &motion, &InverseOptions::default()).expect("an inversion")
@@ -126,19 +132,61 @@ fn counters_that_wrap_or_are_reset_are_continued() {
     }
 }
 
-/// For 40 rows the sensor shows its last value, and a sensor of x is at the end of its range.
+/// For less than half a turn, and for nearly a whole one, the sensor shows its last value.
 #[test]
 fn a_sensor_that_holds_is_not_followed() {
-    let (times, mut angles) = turning(9.0, 100.0);
-    let last = angles[399];
-    angles[400..440].fill(last);
-    let found = found(times, angles);
-    turns_evenly(&found, 0.3);
-    let said = found.summary.warnings.join("\n");
-    assert!(
-        said.contains("at sample 401 and before the value is the same"),
-        "{said}"
-    );
+    for rows in [40, 95] {
+        let (times, mut angles) = turning(9.0, 100.0);
+        let last = angles[399];
+        angles[400..400 + rows].fill(last);
+        let found = found(times, angles);
+        turns_evenly(&found, 0.3);
+        let said = found.summary.warnings.join("\n");
+        assert!(
+            said.contains("at sample 401 and before the value is the same"),
+            "{said}"
+        );
+    }
+}
+
+/// A slider position that is logged three or ten times as often as it is measured, and one that stays for 1.4 turns.
+#[test]
+fn a_position_that_a_sensor_holds_is_not_followed() {
+    let mut scene = flywheel();
+    scene.motion.angle = 0.3;
+    scene.motion.speed = SPEED;
+    for held in ["each three times", "each ten times", "for 140 rows"] {
+        let (times, angles) = turning(9.0, 100.0);
+        let mut values: Vec<f64> = angles.iter().map(x).collect();
+        for row in 0..values.len() {
+            values[row] = match held {
+                "each three times" => values[row - row % 3],
+                "each ten times" => values[row - row % 10],
+                _ if (400..540).contains(&row) => values[399],
+                _ => values[row],
+            };
+        }
+        let motion = Measurement::new(Measured::X, times, values).expect("samples");
+        let found = inverse(&scene, &motion, &InverseOptions::default()).expect(held);
+        turns_evenly(&found, 0.3);
+    }
+}
+
+/// A crank at rest for nine tenths of the record repeats its positions without a sensor that holds them: all count, and they
+/// tell where the torque begins.
+#[test]
+fn positions_at_rest_are_not_held() {
+    let (rows, begin) = (300, 0.9);
+    let times: Vec<f64> = (0..rows).map(|k| f64::from(k) / 300.0).collect();
+    let angle = |t: &f64| 0.5 + 3.0 * (t - begin).max(0.0).powi(2);
+    let values = times.iter().map(|t| x(&angle(t))).collect();
+    let motion = Measurement::new(Measured::X, times, values).expect("samples");
+    let found = inverse(&flywheel(), &motion, &InverseOptions::default()).expect("a motion");
+    assert_eq!(found.summary.fit.outliers, 0);
+    for row in found.rows.iter().filter(|row| row.t < begin - 0.01) {
+        let torque = row.crank_torque.expect("a torque");
+        assert!(torque.abs() < 1e-3, "{}: {torque}", row.t);
+    }
 }
 
 /// The index mark of the crank angle is 30 degrees off beside a slider position that is right.
@@ -146,11 +194,8 @@ fn a_sensor_that_holds_is_not_followed() {
 fn sensors_that_contradict_each_other_are_named() {
     let (times, angles) = turning(6.0, 60.0);
     let mut random = Random(104_729);
-    let x = |theta: &f64| {
-        let rod = (0.15f64.powi(2) - (0.05 * theta.sin()).powi(2)).sqrt();
-        0.05 * theta.cos() + rod + 1e-5 * random.normal()
-    };
-    let positions: Vec<f64> = angles.iter().map(x).collect();
+    let shown = |theta: &f64| x(theta) + 1e-5 * random.normal();
+    let positions: Vec<f64> = angles.iter().map(shown).collect();
     for (off, is_named) in [(PI / 6.0, true), (0.0, false)] {
         let shown = angles.iter().map(|angle| angle + off).collect();
         let motion = Measurement::new(Measured::Theta, times.clone(), shown)

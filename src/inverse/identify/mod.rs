@@ -24,7 +24,7 @@ use self::gauss_newton::Search;
 use self::optimum::Found;
 use super::alignment;
 use super::branch_choice::crank_angles;
-use super::hypotheses::FAR;
+use super::hypothesis::FAR;
 use super::mean_length::by_means;
 use super::measurement_model::{Scale, Sensor};
 use super::problem::Problem;

@@ -160,11 +160,23 @@ impl Steps<'_> {
         a == b
     }
 
+    /// True if a step makes up for values that the sensor held: it is nearer to the usual change since the first of them than to
+    /// whole turns.
+    fn was_held(&self, i: usize) -> bool {
+        let held = (1..i).rev().take_while(|k| self.change(*k) == 0.0);
+        let duration: f64 = held.map(|k| self.duration(k)).sum();
+        let [_, after] = self.beside(i);
+        let usual = self.usual(i, after) * (1.0 + duration / self.duration(i));
+        let off = |change: f64| (self.change(i) - change).abs();
+        duration > 0.0 && off(usual) < off((self.change(i) / TAU).round() * TAU)
+    }
+
     /// Continues an angle whose turns jump, for example where their counter was reset, by whole turns; other jumps are left.
     fn across_jumps(&self) -> Option<Continued> {
         let speed = |i: usize| (self.change(i) / self.duration(i)).abs();
         let usual = median((1..self.count()).map(speed))?;
-        let jumps = |i: &usize| self.change(*i).abs() > PI && speed(*i) > JUMP * usual;
+        let is_fast = |i: usize| self.change(i).abs() > PI && speed(i) > JUMP * usual;
+        let jumps = |i: &usize| is_fast(*i) && !self.was_held(*i);
         let all: Vec<usize> = (1..self.count()).filter(jumps).collect();
         let first = *all.first()?;
         // What whole turns leave of each jump is a usual step.
