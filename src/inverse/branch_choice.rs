@@ -5,14 +5,11 @@
 //! which takes the other strokes and is equally smooth. Only a plausible force, or the scene, tells the two apart.
 
 use std::f64::consts::TAU;
-use std::ops::Range;
 
-use super::branch_tracking::{self, CrankAngles, DISTINCT_ROTATION, EARLY, LARGEST_VALUE_ERROR};
+use super::branch_tracking::{self, CrankAngles};
 use super::measurement_model::{Scale, Sensor};
-use super::mirror_image::fork;
-use super::problem::Problem;
-use super::samples::{problem, record};
-use super::smoother::Smoothed;
+use super::mirror_image::{DISTINCT_ROTATION, Imaged, departure, fork};
+use super::window::{Judged, Windows};
 use super::{alignment, limit, unwrap};
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -51,47 +48,33 @@ pub(super) fn crank_angles<'a>(
     branch_tracking::reachable(sensor, measurement)?;
     let sensors = alignment::sensors(*sensor, measurement);
     let motions = branch_tracking::motions(&sensors, measurement)?;
-    let all = motions.iter().flat_map(|one| [&one.angles, &one.image]);
-    let fork = all
-        .filter_map(|other| fork(&motions[0].angles, other))
-        .max()
-        .unwrap_or(0);
-    let count = EARLY.min(measurement.len());
-    let begin = fork
-        .saturating_sub(count / 2)
-        .min(measurement.len() - count);
-    let window = begin..begin + count;
-    let seen = |angles: &CrankAngles<'a>| {
-        let mut record = record(measurement, angles, &[]);
-        record.keep(window.clone());
-        let theta = &angles.theta[window.clone()];
-        let (problem, first) = problem(record, theta, 1, equation, stop);
-        let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
-        (problem, kinematic)
+    let windows = Windows {
+        measurement,
+        equation,
+        motion,
+        stop,
     };
-    // Likelihoods are of the same samples.
-    let (mut problem, kinematic) = seen(&motions[0].angles);
-    let holds = problem.finds_held(&kinematic);
-    let pairs = parallel::map(motions.into_iter(), |one| {
-        let read = |angles: CrankAngles<'a>| {
-            let (mut problem, mut kinematic) = seen(&angles);
-            if holds {
-                problem.set_held(true, &kinematic);
-                kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
-            }
-            Reading::new(&problem, &kinematic, motion, angles, &window)
+    // A motion and its image are compared about the samples where they part and move, and so is each with the tracker's
+    // likeliest: about the later part, for the other may be its image before.
+    let first = &motions[0];
+    let pairs = parallel::map(motions.iter(), |one| {
+        let moves = departure(&one.angles).max(fork(&one.angles, &one.image));
+        let own = windows.about(moves);
+        let forks = [&one.angles, &one.image].map(|angles| fork(&first.angles, angles));
+        let common = windows.about(forks[0].max(forks[1]));
+        let is_first = std::ptr::eq(one, first);
+        let compared = match is_first {
+            true => Vec::new(),
+            false => windows.judged(&[first, one], &common),
         };
-        let taken = read(one.angles);
-        let other = match one.leaves {
-            None => read(one.image),
-            // The likelihood of an incomplete image is unknown: the motion's own stands for it.
-            Some(_) => Reading {
-                likelihood: taken.likelihood,
-                sense: -taken.sense,
-                angles: one.image,
-            },
+        let better = compared.iter().map(|[a, b]| a.likelihood.max(b.likelihood));
+        let likelihood = better.reduce(|first, one| one - first).unwrap_or(0.0);
+        let judged = match compared[..] {
+            [_, judged] if own == common => judged,
+            _ => windows.judged(&[one], &own)[0],
         };
-        Pair::new(taken, other, one.leaves, motion, sensor.measured.name())
+        let name = sensor.measured.name();
+        Pair::new(one.clone(), judged, likelihood, motion, name)
     });
     best(pairs, measurement, motion)
 }
@@ -102,6 +85,8 @@ fn best<'a>(
     measurement: &Measurement,
     motion: &Motion,
 ) -> Result<CrankAngles<'a>, Error> {
+    let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
+    let by_tracker = pairs.first().map(|first| turned(&first.taken.angles.theta));
     pairs.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
     let best = pairs.swap_remove(0);
     let angles = best.taken.angles;
@@ -117,12 +102,13 @@ fn best<'a>(
     }
     let mut warnings = angles.warnings;
     warnings.extend(best.doubt);
-    let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
     let taken = turned(&angles.theta);
-    let other = pairs
+    let likely = pairs
         .iter()
-        .filter(|other| best.likelihood - other.likelihood < CERTAIN_LOG_ODDS)
+        .filter(|other| best.likelihood - other.likelihood < CERTAIN_LOG_ODDS);
+    let other = likely
         .map(|other| turned(&other.taken.angles.theta))
+        .chain(by_tracker)
         .find(|turned| (turned - taken).abs() > DISTINCT_ROTATION);
     if let Some(other) = other {
         warnings.push(format!(
@@ -131,7 +117,7 @@ fn best<'a>(
             other / TAU
         ));
     }
-    if best.taken.sense * motion.speed < 0.0 {
+    if best.taken.judged.sense * motion.speed < 0.0 {
         warnings.push("the crank turns against the sense of the scene's [motion] speed".to_owned());
     }
     let scale = angles.sensor.scale;
@@ -149,60 +135,21 @@ fn best<'a>(
 #[derive(Debug)]
 struct Reading<'a> {
     angles: CrankAngles<'a>,
-    /// ln of the marginal likelihood of a window of samples by the likeliest prior, less the cost of zero and gain.
-    likelihood: f64,
-    /// Sense of rotation (±1) where the speed first exceeds half of the scene's; if it never does, over the first
-    /// quarter of a turn.
-    sense: f64,
+    judged: Judged,
 }
 
-impl<'a> Reading<'a> {
-    fn new(
-        problem: &Problem<'_>,
-        kinematic: &Smoothed,
-        motion: &Motion,
-        angles: CrankAngles<'a>,
-        window: &Range<usize>,
-    ) -> Reading<'a> {
-        // A zero and a gain that are found from the samples cost ln of their width before over that after (MacKay, Neural
-        // Computation 4 (1992) 415).
-        let Scale { shift, stretch } = angles.sensor.scale;
-        let found = f64::from(u8::from(shift != 0.0) + u8::from(stretch != 1.0));
-        let width = LARGEST_VALUE_ERROR * angles.sensor.size();
-        let cost = found * (width / angles.sigma).max(1.0).ln();
-        let likelihood = problem.evidence(kinematic) - cost;
-        let begin = angles.theta[0];
-        let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;
-        let way = angles.theta.iter().find(far).or(angles.theta.last());
-        let speeds = kinematic.estimates.iter().map(|estimate| estimate.state[1]);
-        let stated = speeds
-            .take_while(|_| window.start == 0)
-            .find(|speed| speed.abs() > 0.5 * motion.speed.abs());
-        Reading {
-            likelihood,
-            sense: stated
-                .or(way.map(|way| way - begin))
-                .map_or(0.0, f64::signum),
-            angles,
-        }
-    }
-
+impl Reading<'_> {
     /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys), beside that of a sample.
     fn of_angle(&self, motion: &Motion) -> f64 {
-        let CrankAngles {
-            sensor,
-            sigma,
-            theta,
-            ..
-        } = &self.angles;
-        let off = theta[0] - motion.angle;
+        let CrankAngles { sensor, sigma, .. } = &self.angles;
+        let off = self.judged.begin - motion.angle;
         let off = (off - (off / TAU).round() * TAU).abs();
         -(off + sigma / sensor.size()).ln()
     }
 
     /// Returns ln of the probability of the sense of the scene's speed.
     fn of_speed(&self, motion: &Motion) -> f64 {
-        if self.sense * motion.speed < 0.0 {
+        if self.judged.sense * motion.speed < 0.0 {
             -MOST_LOG_ODDS
         } else {
             0.0
@@ -217,19 +164,24 @@ struct Pair<'a> {
     /// Sample at which the taken motion leaves the branch of the scene.
     leaves: Option<usize>,
     doubt: Option<String>,
-    /// ln of the larger likelihood of the two motions.
+    /// ln of the larger likelihood of the two motions, over that of the first pair.
     likelihood: f64,
 }
 
 impl<'a> Pair<'a> {
     fn new(
-        reading: Reading<'a>,
-        image: Reading<'a>,
-        leaves: Option<usize>,
+        Imaged {
+            angles,
+            image,
+            leaves,
+        }: Imaged<'a>,
+        judged: [Judged; 2],
+        likelihood: f64,
         motion: &Motion,
         name: &str,
     ) -> Pair<'a> {
-        let likelihood = reading.likelihood.max(image.likelihood);
+        let [reading, image] = [(angles, judged[0]), (image, judged[1])]
+            .map(|(angles, judged)| Reading { angles, judged });
         // The image of the first sample is on the other branch.
         if leaves == Some(0) {
             return Pair {
@@ -249,7 +201,8 @@ impl<'a> Pair<'a> {
                 "the sense of the scene's speed",
             ),
             (
-                (reading.likelihood - image.likelihood).clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS),
+                (reading.judged.likelihood - image.judged.likelihood)
+                    .clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS),
                 "the likelihood of its forces",
             ),
         ];

@@ -6,6 +6,7 @@
 //! to make the best hypothesis likeliest.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::hypotheses::{Setting, Tracker};
 use super::hypothesis::{DROPPED_LOG_RATIO, FAR};
@@ -52,14 +53,22 @@ pub(super) fn motions<'a>(
             speed: typical_speed(sensor, measurement),
         };
         let settings = tracker.settings(least);
-        let best_of = |settings: &mut dyn Iterator<Item = &Setting>, samples: usize| {
-            let scored = parallel::map(settings, |one| (tracker.score(one, samples), *one));
+        let best_of = |settings: &mut dyn Iterator<Item = &Setting>, parts: &[Range<usize>]| {
+            let score = |one: &Setting| -> f64 {
+                let parts = parts.iter().map(|part| tracker.part(part.clone()));
+                parts.map(|part| part.score(one)).sum()
+            };
+            let scored = parallel::map(settings, |one| (score(one), *one));
             scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
         };
-        let (_, Setting { sigma, .. }) = best_of(&mut settings.iter(), early)?;
+        let whole = 0..values.len();
+        let (_, Setting { sigma, .. }) = match early == values.len() {
+            true => best_of(&mut settings.iter(), std::slice::from_ref(&whole)),
+            false => best_of(&mut settings.iter(), &stretches(values.len(), early)),
+        }?;
         // A crank may become quicker.
         let agile = &mut settings.iter().filter(|one| one.sigma == sigma);
-        best_of(agile, measurement.len()).map(|(score, setting)| (score, tracker, setting))
+        best_of(agile, &[whole]).map(|(score, setting)| (score, tracker, setting))
     };
     let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
     likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -73,11 +82,15 @@ pub(super) fn motions<'a>(
         if !is_tenable && *score <= likeliest[0].0 - DROPPED_LOG_RATIO {
             continue;
         }
-        let before = motions.len();
-        for theta in tracker.tracks(setting) {
-            if motions.len() - before == MOTIONS {
-                break;
+        let (links, tracks) = tracker.tracks(setting);
+        // Ways that are not far apart are many, about outliers.
+        let mut left = [1, MOTIONS];
+        for track in tracks {
+            let left = &mut left[usize::from(track.is_far)];
+            if *left == 0 {
+                continue;
             }
+            let theta = track.angles(&links);
             let alike = |other: &Imaged<'_>| {
                 let is_one = |path: &CrankAngles<'_>| {
                     path.sensor.scale == tracker.sensor.scale
@@ -86,6 +99,7 @@ pub(super) fn motions<'a>(
                 is_one(&other.angles) || is_one(&other.image)
             };
             if is_resolved(&theta) && !motions.iter().any(alike) {
+                *left -= 1;
                 motions.push(Imaged::new(CrankAngles {
                     sensor: *tracker.sensor,
                     theta,
@@ -99,6 +113,12 @@ pub(super) fn motions<'a>(
         true => Err(unexplained(&sensors[0])),
         false => Ok(motions),
     }
+}
+
+/// Returns stretches at the begin, in the middle and at the end of samples, with so many in all.
+fn stretches(count: usize, of_all: usize) -> [Range<usize>; 3] {
+    let length = of_all / 3;
+    [0, (count - length) / 2, count - length].map(|begin| begin..begin + length)
 }
 
 fn unexplained(sensor: &Sensor<'_>) -> Error {
@@ -129,9 +149,6 @@ pub(super) fn resolves(sensor: &Sensor<'_>, rows: &[InverseRow]) -> Result<(), E
         false => Ok(()),
     }
 }
-
-/// Difference of crank angle at which two motions are distinct, rad.
-pub(super) const DISTINCT_ROTATION: f64 = 0.5;
 
 /// Maximum number of motions by one sensor that are compared by their likelihoods through the equation.
 const MOTIONS: usize = 4;

@@ -2,12 +2,14 @@
 //! followed by a Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
 
 use std::f64::consts::{LN_2, TAU};
+use std::ops::Range;
 
 use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
 use super::kalman::{Gaussian, Step};
 use super::links::{Link, Track, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
+use super::mirror_image::DISTINCT_ROTATION;
 
 /// Noise parameters of a tracker: sample noise and agility of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -44,47 +46,60 @@ impl Tracker<'_, '_> {
         list
     }
 
-    /// Returns the crank angles, rad, of all hypotheses left at the end and of those that differ from one of them only before
-    /// they came to the same state, the likeliest first.
-    pub fn tracks(&self, setting: &Setting) -> impl Iterator<Item = Vec<f64>> {
+    /// Returns the links of all hypotheses, and the tracks of those left at the end and of those that differ from one of them only
+    /// before they came to the same state, the likeliest first.
+    pub fn tracks(&self, setting: &Setting) -> (Vec<Link>, Vec<Track>) {
         let mut links = Vec::with_capacity(2 * self.values.len());
-        let ends = self.run(setting, self.values.len(), &mut links);
+        let ends = self.run(setting, &mut links);
         let mut found = Vec::new();
         for Hypothesis { score, last, .. } in ends {
             let whole = Track {
                 score,
+                is_far: true,
                 last,
                 after: 0,
                 before: last,
             };
             found.push(whole);
             for (after, link) in way(&links, last).enumerate() {
-                let rival = links[link].rival.filter(|rival| {
+                let near = links[link]
+                    .rival
+                    .filter(|rival| rival.loss < DROPPED_LOG_RATIO);
+                let rival = near.and_then(|rival| {
                     let ways = [link, rival.last].map(|last| way(&links, last));
-                    rival.loss < DROPPED_LOG_RATIO && self.part(setting.sigma, &links, ways)
+                    let apart = self.apart(setting.sigma, &links, ways)?;
+                    Some(Track {
+                        score: score - rival.loss,
+                        is_far: apart > DISTINCT_ROTATION,
+                        after,
+                        before: rival.last,
+                        ..whole
+                    })
                 });
-                found.extend(rival.map(|rival| Track {
-                    score: score - rival.loss,
-                    after,
-                    before: rival.last,
-                    ..whole
-                }));
+                found.extend(rival);
             }
         }
         found.sort_by(|a, b| b.score.total_cmp(&a.score));
-        found.into_iter().map(move |track| {
-            let after = way(&links, track.last).take(track.after);
-            let mut list: Vec<usize> = after.chain(way(&links, track.before)).collect();
-            list.reverse();
-            list.into_iter().map(|link| links[link].theta).collect()
-        })
+        (links, found)
     }
 
-    /// True if two ways to one state show different motions before it.
-    fn part(&self, sigma: f64, links: &[Link], [a, b]: [impl Iterator<Item = usize>; 2]) -> bool {
+    /// Returns how far two ways to one state are apart before it, rad, if they show different motions.
+    fn apart(
+        &self,
+        sigma: f64,
+        links: &[Link],
+        [a, b]: [impl Iterator<Item = usize>; 2],
+    ) -> Option<f64> {
         let apart = a.zip(b).take_while(|(a, b)| a != b);
-        let mut angles = apart.map(|(a, b)| [a, b].map(|link| links[link].theta));
-        angles.any(|angles| self.differ(sigma, angles))
+        let angles = apart.map(|(a, b)| [a, b].map(|link| links[link].theta));
+        let mut most = None;
+        for [a, b] in angles.filter(|angles| self.differ(sigma, *angles)) {
+            most = Some(f64::max((a - b).abs(), most.unwrap_or(0.0)));
+            if most > Some(DISTINCT_ROTATION) {
+                break;
+            }
+        }
+        most
     }
 
     /// True if a sample with this noise, rad or m, tells two crank angles apart, rad.
@@ -101,16 +116,25 @@ impl Tracker<'_, '_> {
         !pairs.any(|(a, b)| self.differ(sigma, [*a, b + turns]))
     }
 
-    /// Returns ln of the likelihood of the likeliest hypothesis after a number of samples.
-    pub fn score(&self, setting: &Setting, samples: usize) -> f64 {
-        let ends = self.run(setting, samples, &mut Vec::with_capacity(2 * samples));
+    /// Returns the tracker of a part of the samples.
+    pub fn part(&self, samples: Range<usize>) -> Self {
+        Tracker {
+            times: &self.times[samples.clone()],
+            values: &self.values[samples],
+            ..*self
+        }
+    }
+
+    /// Returns ln of the likelihood of the likeliest hypothesis.
+    pub fn score(&self, setting: &Setting) -> f64 {
+        let ends = self.run(setting, &mut Vec::with_capacity(2 * self.values.len()));
         ends.first().map_or(f64::NEG_INFINITY, |end| end.score)
     }
 
-    fn run(&self, setting: &Setting, samples: usize, links: &mut Vec<Link>) -> Vec<Hypothesis> {
+    fn run(&self, setting: &Setting, links: &mut Vec<Link>) -> Vec<Hypothesis> {
         let mut now: Vec<Hypothesis> = Vec::new();
         let mut next: Vec<Hypothesis> = Vec::new();
-        for i in 0..samples {
+        for i in 0..self.values.len() {
             next.clear();
             let sighted = self.sighted(i, setting.sigma);
             let is_same = |i: usize| i > 0 && self.values[i] == self.values[i - 1];

@@ -21,6 +21,8 @@ pub(super) struct Rival {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Track {
     pub score: f64,
+    /// Whether the rival way is far from the way that was taken, or there is none.
+    pub is_far: bool,
     /// Index of the last link.
     pub last: usize,
     /// Number of links of the way that was taken.
@@ -32,4 +34,14 @@ pub(super) struct Track {
 /// Returns the indices of the links of a way, the last first.
 pub(super) fn way(links: &[Link], last: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(last), |link| links[*link].before)
+}
+
+impl Track {
+    /// Returns the crank angles of all samples, rad.
+    pub fn angles(&self, links: &[Link]) -> Vec<f64> {
+        let after = way(links, self.last).take(self.after);
+        let mut list: Vec<usize> = after.chain(way(links, self.before)).collect();
+        list.reverse();
+        list.into_iter().map(|link| links[link].theta).collect()
+    }
 }

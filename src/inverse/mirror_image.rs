@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::branch_tracking::{CrankAngles, DISTINCT_ROTATION};
+use super::branch_tracking::CrankAngles;
+
+/// Difference of crank angle at which two motions are distinct, rad.
+pub(super) const DISTINCT_ROTATION: f64 = 0.5;
 
 /// Motion with its mirror image.
 #[derive(Clone, Debug)]
@@ -17,13 +20,8 @@ impl<'a> Imaged<'a> {
     /// Adds the mirror image of a motion.
     pub fn new(motion: CrankAngles<'a>) -> Imaged<'a> {
         let linkage = motion.sensor.linkage;
-        let mut theta: Vec<f64> = Vec::with_capacity(motion.theta.len());
-        for angle in &motion.theta {
-            let x = linkage.pose(*angle).x;
-            let there = 2.0 * (-linkage.e).atan2(x) - angle;
-            let last = theta.last().map_or(0.0, |last| *last);
-            theta.push(there + ((last - there) / TAU).round() * TAU);
-        }
+        let image = |theta: &f64| 2.0 * (-linkage.e).atan2(linkage.pose(*theta).x) - theta;
+        let theta: Vec<f64> = motion.theta.iter().map(image).collect();
         // Half of the digits are lost at a limit.
         let is_there = |k: usize| {
             let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
@@ -46,4 +44,11 @@ pub(super) fn fork(a: &CrankAngles<'_>, b: &CrankAngles<'_>) -> Option<usize> {
     let off = |k: usize| a.theta[k] - b.theta[k];
     let turns = (off(0) / TAU).round() * TAU;
     (0..a.theta.len()).find(|k| (off(*k) - turns).abs() > DISTINCT_ROTATION)
+}
+
+/// Returns the first sample at which a motion is more than `DISTINCT_ROTATION` from where it begins.
+pub(super) fn departure(motion: &CrankAngles<'_>) -> Option<usize> {
+    let begin = motion.theta[0];
+    let far = |theta: &f64| (theta - begin).abs() > DISTINCT_ROTATION;
+    motion.theta.iter().position(far)
 }

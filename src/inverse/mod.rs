@@ -108,6 +108,7 @@ mod typical_sizes;
 mod unwrap;
 mod warnings;
 mod weighed;
+mod window;
 
 pub use as_printed::AsPrinted;
 pub use bands::{BandRule, DeadCentreBand};

@@ -194,26 +194,33 @@ fn without_outliers<'a>(
         problem.weigh(problem.single().full_weights(), &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
-    let mut few = true;
-    for _ in 0..OUTLIER_ROUNDS {
-        let Some(judged) = outliers::judge(&problem, &kinematic, step) else {
-            break;
-        };
-        few = judged.few;
-        let changes = problem.weigh(judged.weights, &kinematic);
-        kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
-        if !changes {
-            break;
-        }
-    }
-    if !few {
-        problem.weigh(problem.single().full_weights(), &kinematic);
-        kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
-    }
+    let kinematic = problem.without_outliers(kinematic, step);
     (problem, kinematic)
 }
 
 impl Problem<'_> {
+    /// Weighs samples, quantised in `step` (0: none), against outliers, by a motion that was smoothed without mechanics; returns that
+    /// of the weighted samples.
+    pub fn without_outliers(&mut self, mut kinematic: Smoothed, step: f64) -> Smoothed {
+        let mut few = true;
+        for _ in 0..OUTLIER_ROUNDS {
+            let Some(judged) = outliers::judge(self, &kinematic, step) else {
+                break;
+            };
+            few = judged.few;
+            let changes = self.weigh(judged.weights, &kinematic);
+            kinematic = self.kinematic(kinematic.path(), kinematic.noise.sigma);
+            if !changes {
+                break;
+            }
+        }
+        if !few {
+            self.weigh(self.single().full_weights(), &kinematic);
+            kinematic = self.kinematic(kinematic.path(), kinematic.noise.sigma);
+        }
+        kinematic
+    }
+
     /// Smooths the motion without mechanics, from a first path and the sample noise σ, rad or m.
     pub fn kinematic(&self, first: Path, sigma: f64) -> Smoothed {
         let path = first.along(self.sampled());

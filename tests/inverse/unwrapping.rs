@@ -172,6 +172,40 @@ fn a_position_that_a_sensor_holds_is_not_followed() {
     }
 }
 
+/// A crank that becomes quicker, with gaps of up to 0.7 turns: the motion that begins at the angle of the scene has all turns,
+/// also where it is found as the mirror image of another one.
+#[test]
+fn positions_keep_their_turns_over_gaps() {
+    let mut scene = flywheel();
+    (scene.motion.angle, scene.motion.speed) = (5.0554, 5.0);
+    let angle = |t: &f64| 5.0554 + 5.0 * t + 30.0 * t * t;
+    let gaps = [441..471, 1349..1379];
+    let times = (0..1500).filter(|k| !gaps.iter().any(|gap| gap.contains(k)));
+    let times: Vec<f64> = times.map(|k| k as f64 / 750.0).collect();
+    for (measured, seed) in [Measured::X, Measured::Gamma].into_iter().zip([7, 11]) {
+        let mut random = Random(seed);
+        let shown = |t: &f64| {
+            let x = x(&angle(t));
+            match measured {
+                Measured::X => x + 2e-5 * random.normal(),
+                // Law of cosines.
+                _ => {
+                    ((0.05f64.powi(2) + 0.15f64.powi(2) - x * x) / 0.015).acos()
+                        + 4e-4 * random.normal()
+                }
+            }
+        };
+        let values = times.iter().map(shown).collect();
+        let motion = Measurement::new(measured, times.clone(), values).expect("samples");
+        let found = inverse(&scene, &motion, &InverseOptions::default()).expect("a motion");
+        let begin = ((found.rows[0].theta - angle(&0.0)) / TAU).round() * TAU;
+        for row in &found.rows {
+            let off = row.theta - angle(&row.t) - begin;
+            assert!(off.abs() < 0.05, "{measured:?}, {}: {off}", row.t);
+        }
+    }
+}
+
 /// A crank at rest for nine tenths of the record repeats its positions without a sensor that holds them: all count, and they
 /// tell where the torque begins.
 #[test]
