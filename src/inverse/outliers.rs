@@ -1,11 +1,13 @@
 //! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
+use std::ops::Range;
+
 use super::estimate::Estimate;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
-use super::residual_tests::NORMAL;
+use super::residual_tests::{NORMAL, deviate};
 use super::smoother::Smoothed;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::median::median;
@@ -119,15 +121,30 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
         if weight < LEAST_WEIGHT { 0.0 } else { weight }
     };
     let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
+    // Samples of a sensor that holds are one.
+    let is_held = |i: &usize| record.intervals.is_empty() && record.repeats(*i);
+    for run in runs(weights.len(), is_held) {
+        if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
+            weights[run].fill(0.0);
+        }
+    }
     let pairs = weights.iter_mut().zip(full);
     pairs.for_each(|(weight, full)| *weight *= full);
     Some(Judgement { weights, few })
 }
 
+/// Returns the runs of a number of samples, each with those after its first one that are held.
+fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
+    let mut first: Vec<usize> = (0..count).filter(|i| !is_held(i)).collect();
+    first.push(count);
+    first.windows(2).map(|w| w[0]..w[1]).collect()
+}
+
 impl Problem<'_> {
-    /// Finds out whether the sensor holds its values, or repeats them at rest. Where it holds them, the second or the last of
-    /// equal values is off from the motion through the others: by more than two steps of the values, for both may be off by
-    /// one, and by more than the motion leaves rest in the time to the value beside them. Repeated values then do not count.
+    /// Finds out whether the sensor holds its values, or repeats them at rest. Where it holds them, the second and the last of
+    /// equal values are off from the motion through the others: by more than two steps of the values, for both may be off by one,
+    /// and by more than the motion leaves rest in the time to the value beside them. A speed repeats at no rest: each of its equal
+    /// values is judged. Repeated values then do not count.
     pub fn finds_held(&mut self, first: &Smoothed) -> bool {
         let record = self.single();
         let count = record.values.len();
@@ -145,20 +162,25 @@ impl Problem<'_> {
         let last = count - 1;
         let is_second = |i: usize| i > 1 && !record.repeats(i - 1);
         let is_last = |i: usize| i < last && !record.repeats(i + 1);
-        let mut ends = (1..=last).filter(|i| record.repeats(*i) && (is_second(*i) || is_last(*i)));
+        let is_speed = record.sensor.is_of_speed();
+        let is_judged =
+            |i: &usize| record.repeats(*i) && (is_speed || is_second(*i) || is_last(*i));
+        let judged: Vec<usize> = (1..=last).filter(is_judged).collect();
         let from_rest = |i: usize, estimate: &Estimate| {
             let [before, own, after] =
                 [i.saturating_sub(1), i, last.min(i + 1)].map(|i| record.times[i]);
             let beside = f64::max(own - before, after - own);
-            let sensor = &record.sensor;
-            let time = match sensor.is_of_speed() {
-                true => beside,
-                false => 0.5 * beside * beside,
-            };
-            step + (sensor.shown(estimate.turning()).slope * estimate.alpha).abs() * time
+            let slope = record.sensor.shown(estimate.turning()).slope;
+            let left = 0.5 * (slope * estimate.alpha).abs() * beside * beside;
+            step + if is_speed { 0.0 } else { left }
         };
-        let holds = errors(self, &through, from_rest)
-            .is_some_and(|errors| ends.any(|i| errors.standardised[i].abs() > FAR * errors.scale));
+        let holds = errors(self, &through, from_rest).is_some_and(|errors| {
+            let sizes = judged
+                .iter()
+                .map(|i| errors.standardised[*i] / errors.scale);
+            let squares: f64 = sizes.map(|size| size * size).sum();
+            deviate(squares, judged.len()) > FAR
+        });
         self.set_held(holds, first);
         holds
     }

@@ -9,8 +9,7 @@ pub(super) struct Whiteness {
     pub lag_one: f64,
     /// Runs of one sign, in standard deviations from the number expected of noise (Wald and Wolfowitz).
     pub runs: f64,
-    /// Ljung-Box statistic (Biometrika 65 (1978) 297) of the first autocorrelations, as a standard normal deviate of χ²
-    /// (Wilson and Hilferty).
+    /// Ljung-Box statistic (Biometrika 65 (1978) 297) of the first autocorrelations, as a standard normal deviate of χ².
     pub ljung_box: f64,
 }
 
@@ -39,11 +38,10 @@ impl Whiteness {
             .sum::<f64>()
             * n
             * (n + 2.0);
-        let part = 2.0 / (9.0 * lags as f64);
         Whiteness {
             lag_one: correlation(1),
             runs: Runs::of(&list).deviation(),
-            ljung_box: ((statistic / lags as f64).cbrt() - (1.0 - part)) / part.sqrt(),
+            ljung_box: deviate(statistic, lags),
         }
     }
 
@@ -51,6 +49,13 @@ impl Whiteness {
     pub fn is_violated(&self) -> bool {
         self.ljung_box > DEVIATIONS
     }
+}
+
+/// Returns a sum of so many squares of standard normal numbers, χ², as a standard normal deviate (Wilson and Hilferty, Proceedings
+/// of the National Academy of Sciences 17 (1931) 684).
+pub(super) fn deviate(squares: f64, count: usize) -> f64 {
+    let part = 2.0 / (9.0 * count as f64);
+    ((squares / count as f64).cbrt() - (1.0 - part)) / part.sqrt()
 }
 
 /// Number of runs of one sign (Wald and Wolfowitz).
