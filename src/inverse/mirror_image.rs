@@ -21,7 +21,10 @@ impl<'a> Imaged<'a> {
     pub fn new(motion: CrankAngles<'a>) -> Imaged<'a> {
         let linkage = motion.sensor.linkage;
         let image = |theta: &f64| 2.0 * (-linkage.e).atan2(linkage.pose(*theta).x) - theta;
-        let theta: Vec<f64> = motion.theta.iter().map(image).collect();
+        // The image begins within half a turn of angle 0, as the motions do.
+        let turns = (motion.theta.first().map_or(0.0, image) / TAU).round() * TAU;
+        let angles = motion.theta.iter().map(|theta| image(theta) - turns);
+        let theta: Vec<f64> = angles.collect();
         // Half of the digits are lost at a limit.
         let is_there = |k: usize| {
             let [pose, image] = [motion.theta[k], theta[k]].map(|theta| linkage.pose(theta).x);
