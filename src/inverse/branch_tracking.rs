@@ -13,6 +13,7 @@ use super::hypothesis::{DROPPED_LOG_RATIO, FAR};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::Imaged;
 use super::quantised::Codes;
+use super::residual_tests::repeats;
 use super::row::InverseRow;
 use crate::error::Error;
 use crate::numeric::{ROUNDING_DEVIATION, parallel};
@@ -41,7 +42,7 @@ pub(super) fn motions<'a>(
 ) -> Result<Vec<Imaged<'a>>, Error> {
     let (values, resolution) = (measurement.values(), measurement.resolution());
     // Values that repeat tell little of noise and agility.
-    let mut told = (1..values.len()).filter(|i| values[*i] != values[*i - 1]);
+    let mut told = (1..values.len()).filter(|i| !repeats(values, *i));
     let early = told.nth(EARLY).unwrap_or(values.len());
     let steps = Codes::of(values, resolution);
     let least = steps.map_or(resolution, |steps| ROUNDING_DEVIATION * steps.step);

@@ -198,7 +198,7 @@ impl Problem<'_> {
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             if self.is_stopped()
-                || 2 * prior.coefficients() > self.record.times.len()
+                || 2.0 * prior.coefficients() as f64 > self.record.counted()
                 || prior.waves() * rotation.step > PI
             {
                 return None;

@@ -94,6 +94,7 @@ impl<'a> Condensed<'a> {
             times: means.into(),
             values: Vec::new(),
             weights: Vec::new(),
+            repeated: vec![false; blocks.len()],
             tones: own.tones.clone(),
             intervals: Vec::new(),
             shown: Vec::new(),

@@ -172,7 +172,7 @@ impl Fitted {
         let outliers: Vec<usize> = problem.single().outliers().collect();
         fitted.farthest_outlier =
             (outliers.iter().copied()).max_by(|a, b| size(a).total_cmp(&size(b)));
-        fitted.held = (outliers.iter().copied()).find(|row| samples.repeats(*row));
+        fitted.held = (outliers.iter().copied()).find(|row| samples.repeated[*row]);
         let spans = problem.intensities.0.iter();
         let mut with_equation = (smoothed.compared.iter())
             .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)

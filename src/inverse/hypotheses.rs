@@ -10,6 +10,7 @@ use super::links::{Link, Track, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 use super::mirror_image::DISTINCT_ROTATION;
+use super::residual_tests::repeats;
 
 /// Noise parameters of a tracker: sample noise and agility of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -137,22 +138,21 @@ impl Tracker<'_, '_> {
         for i in 0..self.values.len() {
             next.clear();
             let sighted = self.sighted(i, setting.sigma);
-            let is_same = |i: usize| i > 0 && self.values[i] == self.values[i - 1];
-            let repeats = is_same(i);
-            let begins = repeats && !is_same(i - 1);
+            let repeated = repeats(self.values, i);
+            let begins = repeated && !repeats(self.values, i - 1);
             if i == 0 {
                 next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
             } else {
                 let step = step(self.times[i] - self.times[i - 1], setting.jerk);
                 for before in &now {
                     let predicted = before.predicted(&step);
-                    let goes_on = repeats && before.held;
+                    let goes_on = repeated && before.held;
                     // The sensor may hold the value while the crank goes on, as likely as not.
                     if begins || goes_on {
                         predicted.held(if begins { LN_2 } else { 0.0 }, links, &mut next);
                     }
                     let seen = sighted.iter().filter(|_| !goes_on);
-                    seen.for_each(|sight| predicted.extend(sight, repeats, links, &mut next));
+                    seen.for_each(|sight| predicted.extend(sight, repeated, links, &mut next));
                 }
             }
             prune(&mut next, links);

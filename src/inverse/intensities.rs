@@ -113,7 +113,7 @@ impl Problem<'_> {
         let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
         let mut noise = found.noise;
         let passes = Rotation::of(found.angles()).passes;
-        while intensities.0.len() < self.record.times.len() / 10 {
+        while intensities.0.len() < self.record.counted() as usize / 10 {
             noise = linear.renewed(noise);
             let Some(stretch) = linear.stretches.first() else {
                 break;

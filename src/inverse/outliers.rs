@@ -7,13 +7,10 @@ use super::estimate::Estimate;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
-use super::residual_tests::{NORMAL, deviate};
+use super::residual_tests::{FAR, NORMAL, deviate};
 use super::smoother::Smoothed;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::median::median;
-
-/// Residual, in standard deviations, above which a sample is examined: one in 10⁸ of noise.
-const FAR: f64 = 5.7;
 
 /// Leverage on the path above which a sample between others is not judged.
 const TIED: f64 = 0.5;
@@ -122,7 +119,7 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Op
     };
     let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
     // Samples of a sensor that holds are one.
-    let is_held = |i: &usize| record.intervals.is_empty() && record.repeats(*i);
+    let is_held = |i: &usize| record.intervals.is_empty() && record.repeated[*i];
     for run in runs(weights.len(), is_held) {
         if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
             weights[run].fill(0.0);
@@ -141,38 +138,37 @@ fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
 }
 
 impl Problem<'_> {
-    /// Finds out whether the sensor holds its values, or repeats them at rest. Where it holds them, the second and the last of
-    /// equal values are off from the motion through the others: by more than two steps of the values, for both may be off by one,
-    /// and by more than the motion leaves rest in the time to the value beside them. A speed repeats at no rest: each of its equal
-    /// values is judged. Repeated values then do not count.
+    /// Finds out whether the sensor holds its positions, or repeats them at rest. Where it holds them, the second and the last of
+    /// equal ones are off from the motion through the others: by more than two steps of the values, for both may be off by one, and
+    /// by more than the motion leaves rest in the time to the value beside them. Repeated ones then do not count.
     pub fn finds_held(&mut self, first: &Smoothed) -> bool {
         let record = self.single();
+        if record.sensor.is_of_speed() {
+            return record.holds;
+        }
         let count = record.values.len();
-        let told = (0..count).filter(|i| !record.repeats(*i)).count();
+        let told = (0..count).filter(|i| !record.repeated[*i]).count();
         // Fewer samples than states leave no errors.
         if told == count || told <= KINEMATIC.states() || !record.intervals.is_empty() {
             return false;
         }
+        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
+        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
         self.set_held(true, first);
         let through = self.kinematic(first.path(), first.noise.sigma);
         self.single_mut().holds = false;
         let record = self.single();
-        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
-        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
         let last = count - 1;
-        let is_second = |i: usize| i > 1 && !record.repeats(i - 1);
-        let is_last = |i: usize| i < last && !record.repeats(i + 1);
-        let is_speed = record.sensor.is_of_speed();
-        let is_judged =
-            |i: &usize| record.repeats(*i) && (is_speed || is_second(*i) || is_last(*i));
+        let is_second = |i: usize| i > 1 && !record.repeated[i - 1];
+        let is_last = |i: usize| i < last && !record.repeated[i + 1];
+        let is_judged = |i: &usize| record.repeated[*i] && (is_second(*i) || is_last(*i));
         let judged: Vec<usize> = (1..=last).filter(is_judged).collect();
         let from_rest = |i: usize, estimate: &Estimate| {
             let [before, own, after] =
                 [i.saturating_sub(1), i, last.min(i + 1)].map(|i| record.times[i]);
             let beside = f64::max(own - before, after - own);
             let slope = record.sensor.shown(estimate.turning()).slope;
-            let left = 0.5 * (slope * estimate.alpha).abs() * beside * beside;
-            step + if is_speed { 0.0 } else { left }
+            step + 0.5 * (slope * estimate.alpha).abs() * beside * beside
         };
         let holds = errors(self, &through, from_rest).is_some_and(|errors| {
             let sizes = judged

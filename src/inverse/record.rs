@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::grid::Course;
 use super::measurement_model::{Scale, Sensor, Shown, Turning};
 use super::quantised::{Codes, Interval};
-use super::residual_tests;
+use super::residual_tests::{self, FAR};
 use super::state_space::Observed;
 use super::tone::Tone;
 use crate::mechanism::Linkage;
@@ -28,6 +28,8 @@ pub(super) struct Record<'a> {
     pub tones: Vec<Tone>,
     /// Weight of each sample: precision over that of a full one; 0 for none.
     pub weights: Vec<f64>,
+    /// Whether each sample, as it was measured, repeats the value before it.
+    pub repeated: Vec<bool>,
     /// Whether the sensor holds values: those that repeat the one before do not count.
     pub holds: bool,
     /// Quantisation of the samples, if wider than the noise.
@@ -65,6 +67,8 @@ impl Record<'_> {
         self.values = self.values[range.clone()].to_vec();
         self.weights = self.weights[range.clone()].to_vec();
         self.spreads = self.spreads.get(range.clone()).unwrap_or_default().to_vec();
+        self.repeated = self.repeated[range.clone()].to_vec();
+        self.repeated[0] = false;
         for sensor in &mut self.beside {
             sensor.values = sensor.values[range.clone()].to_vec().into();
         }
@@ -90,6 +94,7 @@ impl Record<'_> {
             values: self.values.iter().map(|value| value + zero).collect(),
             tones: self.tones.clone(),
             weights: self.weights.clone(),
+            repeated: self.repeated.clone(),
             spreads: self.spreads.clone(),
             codes: None,
             intervals: Vec::new(),
@@ -108,6 +113,7 @@ impl Record<'_> {
             values: intervals.iter().map(|i| i.middle).collect(),
             tones: self.tones.clone(),
             weights: vec![1.0; intervals.len()],
+            repeated: vec![false; intervals.len()],
             spreads: Vec::new(),
             intervals,
             shown: shown.map(|(t, value)| [*t, *value]).collect(),
@@ -136,15 +142,28 @@ impl Record<'_> {
         far.map(|i| self.intervals.get(i).map_or(i, |interval| interval.sample))
     }
 
-    /// True for a sample that repeats the value before it, as a sensor does that holds or is at the end of its range.
-    pub fn repeats(&self, sample: usize) -> bool {
-        sample > 0 && self.values[sample] == self.values[sample - 1]
-    }
-
     /// Returns the weights of samples that are not far off: 1, or 0 for those that the sensor held.
     pub fn full_weights(&self) -> Vec<f64> {
-        let weight = |i| f64::from(u8::from(!(self.holds && self.repeats(i))));
-        (0..self.values.len()).map(weight).collect()
+        let weight = |repeats: &bool| f64::from(u8::from(!(self.holds && *repeats)));
+        self.repeated.iter().map(weight).collect()
+    }
+
+    /// True if values repeat more often than their noise lets them, which has a density below 1/σ: by the deviance of their number as
+    /// that of rare events. A value of 0 is not counted: at rest a speed repeats it.
+    pub fn repeats_more_than_noise(&self) -> bool {
+        let again = self.repeated.iter().zip(&self.values);
+        let again = again.filter(|(repeats, value)| **repeats && **value != 0.0);
+        let again = again.count() as f64;
+        if again == 0.0 || self.is_computed() {
+            return false;
+        }
+        let step = Codes::of(&self.values, self.floor / ROUNDING_DEVIATION);
+        // Two values may both be off by a step.
+        let step = step.map_or(self.floor, |codes| 2.0 * codes.step);
+        let sigma = residual_tests::noise(&self.times, &self.values);
+        let expected = self.values.len() as f64 * step / sigma;
+        let deviance = 2.0 * (again * (again / expected).ln() - (again - expected));
+        again > expected && deviance > FAR * FAR
     }
 
     /// True if the crank angle itself was measured, and nothing else.
@@ -159,15 +178,7 @@ impl Record<'_> {
 
     /// True if the samples were computed: their noise, that of their codes included, is below that of any instrument.
     pub fn is_computed(&self) -> bool {
-        // A value again tells nothing of the noise if the sensor holds it.
-        let told = || (0..self.values.len()).filter(|i| !self.repeats(*i));
-        let of = |list: &[f64]| -> Vec<f64> { told().map(|i| list[i]).collect() };
-        let noise = match told().count() {
-            1 => 0.0,
-            all if all == self.values.len() => residual_tests::noise(&self.times, &self.values),
-            _ => residual_tests::noise(&of(&self.times), &of(&self.values)),
-        };
-        let noise = noise.max(self.floor);
+        let noise = residual_tests::noise(&self.times, &self.values).max(self.floor);
         let widths = self.intervals.iter().map(|interval| interval.width);
         let of_codes = ROUNDING_DEVIATION * widths.fold(0.0, f64::max);
         self.codes.is_none() && noise.max(of_codes) < self.instrument_noise()

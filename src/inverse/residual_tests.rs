@@ -94,13 +94,28 @@ impl Runs {
 /// Standard deviation of normal noise over the median of its absolute values.
 pub(super) const NORMAL: f64 = 1.4826;
 
+/// Residual, in standard deviations, above which a sample is examined: one in 10⁸ of noise.
+pub(super) const FAR: f64 = 5.7;
+
 /// Maximum number of differences of an order, and largest order.
 const DIFFERENCES: usize = 250;
 const DIFFERENCE_ORDERS: usize = 10;
 
+/// True for a sample that repeats the value before it, as a sensor does that holds or is at the end of its range.
+pub(super) fn repeats(values: &[f64], sample: usize) -> bool {
+    sample > 0 && values[sample] == values[sample - 1]
+}
+
 /// Returns the standard deviation of the noise of samples by variate differences (Anderson, Biometrika 18 (1926) 293): the
-/// least of all orders, by divided differences and their median size, which a few jumps of a force do not move.
+/// least of all orders, by divided differences and their median size, which a few jumps of a force do not move. Values that repeat
+/// tell nothing of it.
 pub(super) fn noise(times: &[f64], values: &[f64]) -> f64 {
+    let told: Vec<usize> = (0..values.len()).filter(|i| !repeats(values, *i)).collect();
+    if told.len() == 1 {
+        return 0.0;
+    }
+    let of = |list: &[f64]| -> Vec<f64> { told.iter().map(|i| list[*i]).collect() };
+    let (times, values) = (of(times), of(values));
     let of_order = |order: usize| {
         let difference = |first: usize| {
             let samples = first..=first + order;

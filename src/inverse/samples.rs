@@ -8,6 +8,7 @@ use super::prior::KINEMATIC;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::{Record, SensorBeside};
+use super::residual_tests::repeats;
 use super::scales::root_mean_square;
 use super::smoother::Smoothed;
 use super::span::Intensities;
@@ -32,18 +33,16 @@ pub(super) fn record<'a>(
     tones: &[Tone],
 ) -> Record<'a> {
     let sensor = angles.sensor;
-    let mut values = match sensor.measured {
+    let values = match sensor.measured {
         Measured::Theta => angles.theta.clone(),
         _ => measurement.values().to_vec(),
     };
-    for (value, t) in values.iter_mut().zip(measurement.elapsed()) {
-        *value -= tone::sum(tones, Carrier::Sensor, *t);
-    }
     let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    Record {
+    let mut record = Record {
         sensor,
         times: measurement.elapsed().into(),
         weights: vec![1.0; values.len()],
+        repeated: (0..values.len()).map(|i| repeats(&values, i)).collect(),
         spreads: Vec::new(),
         values,
         tones: tones.to_vec(),
@@ -55,7 +54,13 @@ pub(super) fn record<'a>(
         floor: (ROUNDING_DEVIATION * measurement.resolution())
             .max(ROUNDING_STEPS * f64::EPSILON * largest),
         origin: measurement.origin(),
+    };
+    record.holds = sensor.is_of_speed() && record.repeats_more_than_noise();
+    record.weights = record.full_weights();
+    for (value, t) in record.values.iter_mut().zip(measurement.elapsed()) {
+        *value -= tone::sum(tones, Carrier::Sensor, *t);
     }
+    record
 }
 
 /// Returns the sensors beside that of a record, with unknown noise.

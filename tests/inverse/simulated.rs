@@ -127,10 +127,11 @@ fn moved(t: f64) -> f64 {
     moves.iter().map(of).sum()
 }
 
-/// Times and crank angles of a motion, with the applied torque.
+/// Times, crank angles and speeds of a motion, with the applied torque.
 struct Truth {
     t: Vec<f64>,
     theta: Vec<f64>,
+    omega: Vec<f64>,
     torque: Vec<f64>,
 }
 
@@ -152,6 +153,7 @@ impl Motion {
         let mut truth = Truth {
             t: Vec::new(),
             theta: Vec::new(),
+            omega: Vec::new(),
             torque: Vec::new(),
         };
         let mut state = self.start;
@@ -159,6 +161,7 @@ impl Motion {
             let t = step * row as f64;
             truth.t.push(t);
             truth.theta.push(state[0]);
+            truth.omega.push(state[1]);
             truth.torque.push((self.torque)(t, state[0], state[1]));
             for k in 0..STEPS {
                 let t = t + h * k as f64;
@@ -190,6 +193,8 @@ enum Sensor {
     Encoder(f64),
     /// x with noise in crank lengths; the lengths of the scene are stretched.
     AngleModel(f64, f64),
+    /// ω with noise of this standard deviation, rad/s.
+    Speed(f64),
 }
 
 /// Record: column, values at times, the corresponding rows of the truth, and whether each row is sound.
@@ -218,11 +223,13 @@ fn measure(truth: &Truth, sensor: Sensor, random: &mut Random) -> Record {
             Sensor::Outliers(sigma) => theta + sigma * error + if far { 0.2 } else { 0.0 },
             Sensor::Correlated(sigma) => theta + sigma * last,
             Sensor::Encoder(steps) => (theta * steps / TAU).round() * TAU / steps,
+            Sensor::Speed(sigma) => truth.omega[*row] + sigma * error,
             Sensor::AngleModel(sigma, _) => position(theta)[0] + sigma * CRANK * error,
         });
     }
     let measured = match sensor {
         Sensor::AngleModel(..) => Measured::X,
+        Sensor::Speed(_) => Measured::Omega,
         _ => Measured::Theta,
     };
     Record {
@@ -938,34 +945,44 @@ fn dense_samples_of_a_motor_are_read_as_exactly() {
     assert!(covered > 0.85 && off < 1e-7, "{off}, {covered}");
 }
 
-/// A sensor that is logged three times as often as it measures shows each value three times. The file tells as much as its first
+/// A sensor that is logged several times as often as it measures shows each value several times. The file tells as much as its first
 /// rows of each value do.
 #[test]
 fn values_that_a_sensor_holds_count_once() {
     let mut random = Random(0x2545_f491_4f6c_dd1d);
-    let mut logs = Vec::new();
-    for motion in [&MOTIONS[0], &MOTIONS[1], &MOTIONS[2], &MOTIONS[4]] {
-        let truth = motion.run();
-        let mut record = measure(&truth, Sensor::Angle(1e-4), &mut random);
-        let fresh: Vec<usize> = (0..motion.rows).step_by(3).collect();
-        let at = |values: &[f64]| fresh.iter().map(|row| values[*row]).collect();
-        let once = Record {
-            rows: fresh.clone(),
-            t: at(&record.t),
-            values: at(&record.values),
-            sound: vec![true; fresh.len()],
-            measured: Measured::Theta,
-        };
-        for row in 0..motion.rows {
-            record.values[row] = record.values[row - row % 3];
+    let (angle, speed) = (Sensor::Angle(1e-4), Sensor::Speed(0.05));
+    let wave = Motion {
+        name: "wave",
+        start: [0.3, 20.0],
+        end: 1.5,
+        rows: 1000,
+        torque: |t, _, _| 1.0 + 3.0 * (9.0 * t).sin(),
+    };
+    for (sensor, times) in [(angle, 3), (speed, 2), (speed, 10)] {
+        let mut logs = Vec::new();
+        for motion in [&MOTIONS[0], &MOTIONS[1], &MOTIONS[2], &MOTIONS[4], &wave] {
+            let truth = motion.run();
+            let mut record = measure(&truth, sensor, &mut random);
+            let fresh: Vec<usize> = (0..motion.rows).step_by(times).collect();
+            let at = |values: &[f64]| fresh.iter().map(|row| values[*row]).collect();
+            let once = Record {
+                rows: fresh.clone(),
+                t: at(&record.t),
+                values: at(&record.values),
+                sound: vec![true; fresh.len()],
+                measured: record.measured,
+            };
+            for row in 0..motion.rows {
+                record.values[row] = record.values[row - row % times];
+            }
+            let [held, once] =
+                [&record, &once].map(|record| judge(&truth, record, &found(motion, record, 1.0)));
+            assert!(held[1] > 0.85, "{} {times}: {held:?}", motion.name);
+            logs.push((held[0] / once[0]).ln());
         }
-        let [held, once] =
-            [&record, &once].map(|record| judge(&truth, record, &found(motion, record, 1.0)));
-        assert!(held[1] > 0.85, "{}: {held:?}", motion.name);
-        logs.push((held[0] / once[0]).ln());
+        let ratio = (logs.iter().sum::<f64>() / logs.len() as f64).exp();
+        assert!(ratio < 1.2, "{times}: {ratio}");
     }
-    let ratio = (logs.iter().sum::<f64>() / logs.len() as f64).exp();
-    assert!(ratio < 1.2, "{ratio}");
 }
 
 /// Noise of 0.02 rad hides a ripple of 12 periods in a turn. The result says that it hides how the torque varies or, where a torque
@@ -1071,6 +1088,7 @@ fn an_encoder_off_its_centre_is_named_where_a_torque_repeats() {
         .map(|theta| theta + 5e-3 * (theta + 1.0).cos())
         .collect();
     let shown = Truth {
+        omega: truth.omega.clone(),
         theta: shown,
         t: truth.t.clone(),
         torque: truth.torque.clone(),
