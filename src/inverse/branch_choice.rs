@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::branch_tracking::{self, CrankAngles};
+use super::hypothesis::FAR;
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::{DISTINCT_ROTATION, Imaged, departure, fork};
 use super::window::{Judged, Windows};
@@ -60,23 +61,38 @@ pub(super) fn crank_angles<'a>(
     let pairs = parallel::map(motions.iter(), |one| {
         let moves = departure(&one.angles).max(fork(&one.angles, &one.image));
         let own = windows.about(moves);
-        let forks = [&one.angles, &one.image].map(|angles| fork(&first.angles, angles));
+        let forks = [&one.angles, &one.image].map(|other| fork(&first.angles, other));
         let common = windows.about(forks[0].max(forks[1]));
         let is_first = std::ptr::eq(one, first);
         let compared = match is_first {
             true => Vec::new(),
             false => windows.judged(&[first, one], &common),
         };
+        // Another way by the same sensor that is smoothed to the first one or to its image is none.
+        let noise = FAR * one.angles.sigma / sensor.size();
+        let is_of_first =
+            |b: &Judged| (compared[0].iter()).any(|a| apart(&a.smoothed, &b.smoothed) < noise);
+        let is_alike = one.angles.sensor.scale == first.angles.sensor.scale;
+        if !is_first && is_alike && compared[1].iter().all(is_of_first) {
+            return None;
+        }
         let better = compared.iter().map(|[a, b]| a.likelihood.max(b.likelihood));
         let likelihood = better.reduce(|first, one| one - first).unwrap_or(0.0);
-        let judged = match compared[..] {
-            [_, judged] if own == common => judged,
-            _ => windows.judged(&[one], &own)[0],
+        let judged = match &compared[..] {
+            [_, judged] if own == common => judged.clone(),
+            _ => windows.judged(&[one], &own).pop()?,
         };
         let name = sensor.measured.name();
-        Pair::new(one.clone(), judged, likelihood, motion, name)
+        Some(Pair::new(one.clone(), judged, likelihood, motion, name))
     });
-    best(pairs, measurement, motion)
+    best(pairs.into_iter().flatten().collect(), measurement, motion)
+}
+
+/// Returns how far two motions by their crank angles, rad, are apart, whatever the turn in which they begin.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let turns = ((a[0] - b[0]) / TAU).round() * TAU;
+    let off = a.iter().zip(b).map(|(a, b)| (a - b - turns).abs());
+    off.fold(0.0, f64::max)
 }
 
 /// Returns the likeliest of the motions with its warnings.
@@ -180,8 +196,9 @@ impl<'a> Pair<'a> {
         motion: &Motion,
         name: &str,
     ) -> Pair<'a> {
-        let [reading, image] = [(angles, judged[0]), (image, judged[1])]
-            .map(|(angles, judged)| Reading { angles, judged });
+        let [own, of_image] = judged;
+        let [reading, image] =
+            [(angles, own), (image, of_image)].map(|(angles, judged)| Reading { angles, judged });
         // The image of the first sample is on the other branch.
         if leaves == Some(0) {
             return Pair {

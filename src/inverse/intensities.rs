@@ -193,7 +193,7 @@ impl Problem<'_> {
         if self.record.codes.is_some() || self.sampled() != self.all() {
             return false;
         }
-        let judged = outliers::judge(self, best, 0.0);
+        let judged = outliers::judge(self, best);
         let judged = judged.filter(|judged| judged.few);
         judged.is_some_and(|judged| self.weigh(judged.weights, best))
     }

@@ -6,10 +6,8 @@ use std::ops::Range;
 use super::estimate::Estimate;
 use super::prior::KINEMATIC;
 use super::problem::Problem;
-use super::quantised::Codes;
 use super::residual_tests::{FAR, NORMAL, deviate};
 use super::smoother::Smoothed;
-use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::median::median;
 
 /// Leverage on the path above which a sample between others is not judged.
@@ -79,14 +77,14 @@ fn errors(
     })
 }
 
-/// Judges the samples, quantised in `step`, rad, by a smoothed motion; none if all weights are and stay 1.
-pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed, step: f64) -> Option<Judgement> {
+/// Judges the samples by a smoothed motion; none if all weights are and stay 1.
+pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Judgement> {
     let record = problem.single();
     let Errors {
         standardised,
         scale,
-        // An angle within a step of its code is not off.
-    } = errors(problem, smoothed, |_, _| step)?;
+        // A value within a step of its code is not off.
+    } = errors(problem, smoothed, |_, _| record.step)?;
     let full = record.full_weights();
     let told = standardised
         .iter()
@@ -152,8 +150,6 @@ impl Problem<'_> {
         if told == count || told <= KINEMATIC.states() || !record.intervals.is_empty() {
             return false;
         }
-        let step = Codes::of(&record.values, record.floor / ROUNDING_DEVIATION);
-        let step = step.map_or(0.0, |codes| 2.0 * codes.step);
         self.set_held(true, first);
         let through = self.kinematic(first.path(), first.noise.sigma);
         self.single_mut().holds = false;
@@ -168,14 +164,14 @@ impl Problem<'_> {
                 [i.saturating_sub(1), i, last.min(i + 1)].map(|i| record.times[i]);
             let beside = f64::max(own - before, after - own);
             let slope = record.sensor.shown(estimate.turning()).slope;
-            step + 0.5 * (slope * estimate.alpha).abs() * beside * beside
+            2.0 * record.step + 0.5 * (slope * estimate.alpha).abs() * beside * beside
         };
         let holds = errors(self, &through, from_rest).is_some_and(|errors| {
             let sizes = judged
                 .iter()
                 .map(|i| errors.standardised[*i] / errors.scale);
             let squares: f64 = sizes.map(|size| size * size).sum();
-            deviate(squares, judged.len()) > FAR
+            through.converged && deviate(squares, judged.len()) > FAR
         });
         self.set_held(holds, first);
         holds

@@ -30,6 +30,8 @@ pub(super) struct Record<'a> {
     pub weights: Vec<f64>,
     /// Whether each sample, as it was measured, repeats the value before it.
     pub repeated: Vec<bool>,
+    /// Step of the values, rad or m, if they are counted or rounded; else 0.
+    pub step: f64,
     /// Whether the sensor holds values: those that repeat the one before do not count.
     pub holds: bool,
     /// Quantisation of the samples, if wider than the noise.
@@ -157,9 +159,8 @@ impl Record<'_> {
         if again == 0.0 || self.is_computed() {
             return false;
         }
-        let step = Codes::of(&self.values, self.floor / ROUNDING_DEVIATION);
         // Two values may both be off by a step.
-        let step = step.map_or(self.floor, |codes| 2.0 * codes.step);
+        let step = f64::max(2.0 * self.step, self.floor);
         let sigma = residual_tests::noise(&self.times, &self.values);
         let expected = self.values.len() as f64 * step / sigma;
         let deviance = 2.0 * (again * (again / expected).ln() - (again - expected));

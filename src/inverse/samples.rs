@@ -38,8 +38,10 @@ pub(super) fn record<'a>(
         _ => measurement.values().to_vec(),
     };
     let largest = values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let codes = Codes::of(&values, measurement.resolution());
     let mut record = Record {
         sensor,
+        step: codes.map_or(0.0, |codes| codes.step),
         times: measurement.elapsed().into(),
         weights: vec![1.0; values.len()],
         repeated: (0..values.len()).map(|i| repeats(&values, i)).collect(),
@@ -143,15 +145,13 @@ pub(super) fn kinematic<'a>(
 ) -> (Problem<'a>, Smoothed) {
     let samples = || record(measurement, angles, tones);
     let Some(codes) = codes(measurement, angles) else {
-        let (mut problem, kinematic) =
-            without_outliers(samples(), angles, most, equation, 0.0, stop);
+        let (mut problem, kinematic) = without_outliers(samples(), angles, most, equation, stop);
         let kinematic = problem.by_all_sensors(kinematic);
         return (problem, kinematic);
     };
     let coded = samples().coded(codes);
     let is_whole = coded.times.len() == measurement.len();
-    let (mut problem, kinematic) =
-        without_outliers(coded, angles, most, equation, codes.step, stop);
+    let (mut problem, kinematic) = without_outliers(coded, angles, most, equation, stop);
     if kinematic.noise.sigma < codes.step {
         let first = problem.record.clone();
         let record = &mut problem.record;
@@ -173,17 +173,16 @@ pub(super) fn kinematic<'a>(
             problem.record.intervals.clear();
             (problem, kinematic)
         }
-        false => without_outliers(samples(), angles, most, equation, codes.step, stop),
+        false => without_outliers(samples(), angles, most, equation, stop),
     }
 }
 
-/// Returns the samples, quantised in `step` (0: none), with outlier weights, and the motion smoothed without mechanics.
+/// Returns the samples with outlier weights, and the motion smoothed without mechanics.
 fn without_outliers<'a>(
     record: Record<'a>,
     angles: &CrankAngles<'_>,
     most: usize,
     equation: &'a Equation,
-    step: f64,
     stop: Option<&'a Stop>,
 ) -> (Problem<'a>, Smoothed) {
     let theta = match record.is_linear() {
@@ -199,17 +198,16 @@ fn without_outliers<'a>(
         problem.weigh(problem.single().full_weights(), &kinematic);
         kinematic = problem.kinematic(kinematic.path(), kinematic.noise.sigma);
     }
-    let kinematic = problem.without_outliers(kinematic, step);
+    let kinematic = problem.without_outliers(kinematic);
     (problem, kinematic)
 }
 
 impl Problem<'_> {
-    /// Weighs samples, quantised in `step` (0: none), against outliers, by a motion that was smoothed without mechanics; returns that
-    /// of the weighted samples.
-    pub fn without_outliers(&mut self, mut kinematic: Smoothed, step: f64) -> Smoothed {
+    /// Weighs samples against outliers, by a motion that was smoothed without mechanics; returns that of the weighted samples.
+    pub fn without_outliers(&mut self, mut kinematic: Smoothed) -> Smoothed {
         let mut few = true;
         for _ in 0..OUTLIER_ROUNDS {
-            let Some(judged) = outliers::judge(self, &kinematic, step) else {
+            let Some(judged) = outliers::judge(self, &kinematic) else {
                 break;
             };
             few = judged.few;

@@ -223,6 +223,38 @@ fn positions_at_rest_are_not_held() {
     }
 }
 
+/// A crank leaves rest and turns quicker and quicker. Positions in steps of a thousandth of the crank show it neither elsewhere at
+/// rest nor on a way between the values that repeat.
+#[test]
+fn positions_in_steps_show_rest() {
+    let begin = 0.2;
+    for start in [4.0, 2.0, 5.5] {
+        let angle = |t: &f64| start + 80.0 * (t - begin).max(0.0).powi(4);
+        let times: Vec<f64> = (0..1500).map(|k| f64::from(k) / 1500.0).collect();
+        let shown = |t: &f64| (x(&angle(t)) / 5e-5).round() * 5e-5;
+        let values = times.iter().map(shown).collect();
+        let motion = Measurement::new(Measured::X, times, values).expect("samples");
+        let scene = flywheel().start(start, 1.0);
+        let found = inverse(&scene, &motion, &InverseOptions::default()).expect("a motion");
+        for row in &found.rows {
+            let off = (row.theta - angle(&row.t)).rem_euclid(TAU);
+            println!(
+                "DBG {start} {} {} {} {}",
+                row.t,
+                row.theta,
+                angle(&row.t),
+                row.omega
+            );
+            assert!(
+                off.min(TAU - off) < 0.05,
+                "{start}, {}: {}",
+                row.t,
+                row.theta
+            );
+        }
+    }
+}
+
 /// The index mark of the crank angle is 30 degrees off beside a slider position that is right.
 #[test]
 fn sensors_that_contradict_each_other_are_named() {
