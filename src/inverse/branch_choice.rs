@@ -6,8 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::branch_tracking::{self, CrankAngles};
-use super::hypothesis::FAR;
+use super::branch_tracking::{self, CERTAIN_LOG_ODDS, CrankAngles};
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::{DISTINCT_ROTATION, Imaged, departure, fork};
 use super::window::{Judged, Windows};
@@ -17,9 +16,6 @@ use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
 use crate::scene::{Measured, Measurement, Motion};
-
-/// ln of the odds above which a choice needs no warning: 1000 to 1.
-const CERTAIN_LOG_ODDS: f64 = 6.9;
 
 /// Bound of ln of the odds from the likelihoods of a motion and of its mirror image, and from the sense of a stated
 /// speed: forces that no prior describes make the false motion likelier in one record of fifty (simulated ones of eight
@@ -48,7 +44,7 @@ pub(super) fn crank_angles<'a>(
     }
     branch_tracking::reachable(sensor, measurement)?;
     let sensors = alignment::sensors(*sensor, measurement);
-    let motions = branch_tracking::motions(&sensors, measurement)?;
+    let motions = branch_tracking::motions(&sensors, measurement, equation)?;
     let windows = Windows {
         measurement,
         equation,
@@ -68,31 +64,16 @@ pub(super) fn crank_angles<'a>(
             true => Vec::new(),
             false => windows.judged(&[first, one], &common),
         };
-        // Another way by the same sensor that is smoothed to the first one or to its image is none.
-        let noise = FAR * one.angles.sigma / sensor.size();
-        let is_of_first =
-            |b: &Judged| (compared[0].iter()).any(|a| apart(&a.smoothed, &b.smoothed) < noise);
-        let is_alike = one.angles.sensor.scale == first.angles.sensor.scale;
-        if !is_first && is_alike && compared[1].iter().all(is_of_first) {
-            return None;
-        }
         let better = compared.iter().map(|[a, b]| a.likelihood.max(b.likelihood));
         let likelihood = better.reduce(|first, one| one - first).unwrap_or(0.0);
-        let judged = match &compared[..] {
-            [_, judged] if own == common => judged.clone(),
-            _ => windows.judged(&[one], &own).pop()?,
+        let judged = match compared[..] {
+            [_, judged] if own == common => judged,
+            _ => windows.judged(&[one], &own)[0],
         };
         let name = sensor.measured.name();
-        Some(Pair::new(one.clone(), judged, likelihood, motion, name))
+        Pair::new(one.clone(), judged, likelihood, motion, name)
     });
-    best(pairs.into_iter().flatten().collect(), measurement, motion)
-}
-
-/// Returns how far two motions by their crank angles, rad, are apart, whatever the turn in which they begin.
-fn apart(a: &[f64], b: &[f64]) -> f64 {
-    let turns = ((a[0] - b[0]) / TAU).round() * TAU;
-    let off = a.iter().zip(b).map(|(a, b)| (a - b - turns).abs());
-    off.fold(0.0, f64::max)
+    best(pairs, measurement, motion)
 }
 
 /// Returns the likeliest of the motions with its warnings.
@@ -196,9 +177,8 @@ impl<'a> Pair<'a> {
         motion: &Motion,
         name: &str,
     ) -> Pair<'a> {
-        let [own, of_image] = judged;
-        let [reading, image] =
-            [(angles, own), (image, of_image)].map(|(angles, judged)| Reading { angles, judged });
+        let [reading, image] = [(angles, judged[0]), (image, judged[1])]
+            .map(|(angles, judged)| Reading { angles, judged });
         // The image of the first sample is on the other branch.
         if leaves == Some(0) {
             return Pair {

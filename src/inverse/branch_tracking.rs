@@ -10,12 +10,14 @@ use std::ops::Range;
 
 use super::hypotheses::{Setting, Tracker};
 use super::hypothesis::{DROPPED_LOG_RATIO, FAR};
+use super::links::is_resolved;
 use super::measurement_model::{Scale, Sensor};
 use super::mirror_image::Imaged;
 use super::quantised::Codes;
 use super::residual_tests::repeats;
 use super::row::InverseRow;
 use crate::error::Error;
+use crate::mechanism::Equation;
 use crate::numeric::{ROUNDING_DEVIATION, parallel};
 use crate::scene::{Measured, Measurement};
 
@@ -39,6 +41,7 @@ pub(super) struct CrankAngles<'a> {
 pub(super) fn motions<'a>(
     sensors: &[Sensor<'a>],
     measurement: &Measurement,
+    equation: &Equation,
 ) -> Result<Vec<Imaged<'a>>, Error> {
     let (values, resolution) = (measurement.values(), measurement.resolution());
     // Values that repeat tell little of noise and agility.
@@ -52,6 +55,9 @@ pub(super) fn motions<'a>(
             times: measurement.elapsed(),
             values,
             speed: typical_speed(sensor, measurement),
+            equation,
+            inertia: mean_inertia(equation),
+            origin: measurement.origin(),
         };
         let settings = tracker.settings(least);
         let best_of = |settings: &mut dyn Iterator<Item = &Setting>, parts: &[Range<usize>]| {
@@ -63,12 +69,14 @@ pub(super) fn motions<'a>(
             scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let whole = 0..values.len();
-        let (_, Setting { sigma, .. }) = match early == values.len() {
+        let (_, found) = match early == values.len() {
             true => best_of(&mut settings.iter(), std::slice::from_ref(&whole)),
             false => best_of(&mut settings.iter(), &stretches(values.len(), early)),
         }?;
         // A crank may become quicker.
-        let agile = &mut settings.iter().filter(|one| one.sigma == sigma);
+        let agile = &mut settings
+            .iter()
+            .filter(|one| one.sigma == found.sigma && one.prior == found.prior);
         best_of(agile, &[whole]).map(|(score, setting)| (score, tracker, setting))
     };
     let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
@@ -86,12 +94,20 @@ pub(super) fn motions<'a>(
         let (links, tracks) = tracker.tracks(setting);
         // Ways that are not far apart are many, about outliers.
         let mut left = [1, MOTIONS];
+        let mut least = f64::NEG_INFINITY;
         for track in tracks {
+            if track.score < least {
+                break;
+            }
             let left = &mut left[usize::from(track.is_far)];
             if *left == 0 {
                 continue;
             }
             let theta = track.angles(&links);
+            if !is_resolved(&theta) {
+                continue;
+            }
+            least = least.max(track.score - CERTAIN_LOG_ODDS);
             let alike = |other: &Imaged<'_>| {
                 let is_one = |path: &CrankAngles<'_>| {
                     path.sensor.scale == tracker.sensor.scale
@@ -99,7 +115,7 @@ pub(super) fn motions<'a>(
                 };
                 is_one(&other.angles) || is_one(&other.image)
             };
-            if is_resolved(&theta) && !motions.iter().any(alike) {
+            if !motions.iter().any(alike) {
                 *left -= 1;
                 motions.push(Imaged::new(CrankAngles {
                     sensor: *tracker.sensor,
@@ -132,13 +148,6 @@ fn unexplained(sensor: &Sensor<'_>) -> Error {
     )
 }
 
-/// True if a crank turns less than half a turn from sample to sample in the mean: a faster motion has the samples of a
-/// slower one (sampling theorem).
-fn is_resolved(theta: &[f64]) -> bool {
-    let way: f64 = theta.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-    way < 0.5 * TAU * (theta.len() - 1) as f64
-}
-
 /// Checks that samples of x or gamma resolve the motion that was found by them.
 ///
 /// # Errors
@@ -150,6 +159,9 @@ pub(super) fn resolves(sensor: &Sensor<'_>, rows: &[InverseRow]) -> Result<(), E
         false => Ok(()),
     }
 }
+
+/// ln of the odds above which a choice is certain: 1000 to 1.
+pub(super) const CERTAIN_LOG_ODDS: f64 = 6.9;
 
 /// Maximum number of motions by one sensor that are compared by their likelihoods through the equation.
 const MOTIONS: usize = 4;
@@ -194,6 +206,14 @@ pub(super) fn reachable(sensor: &Sensor<'_>, measurement: &Measurement) -> Resul
         (i, what, help)
     });
     Err(measurement.problems(list.collect()).into())
+}
+
+/// Returns the mean inertia of a mechanism over the crank angles that it reaches, kg m².
+fn mean_inertia(equation: &Equation) -> f64 {
+    let angles = (0..60).map(|k| TAU / 60.0 * f64::from(k));
+    let inertias = angles.map(|theta| equation.terms(theta).inertia.m);
+    let told: Vec<f64> = inertias.filter(|m| m.is_finite()).collect();
+    told.iter().sum::<f64>() / told.len() as f64
 }
 
 /// Estimates the speed of a crank, rad/s, from the total travel of slider or rod in the samples.

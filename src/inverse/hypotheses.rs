@@ -1,24 +1,31 @@
 //! Multiple-hypothesis tracking (Reid 1979): paths through samples that may stand for several crank angles, each
-//! followed by a Kalman filter whose angular acceleration is a Wiener process; the likelier ones are kept.
+//! followed by an extended Kalman filter whose angular acceleration, or torque in the equation of motion, is a Wiener process; the
+//! likelier ones are kept.
 
 use std::f64::consts::{LN_2, TAU};
 use std::ops::Range;
 
 use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
 use super::kalman::{Gaussian, Step};
-use super::links::{Link, Track, way};
+use super::linearised::Motion;
+use super::links::{Link, Track, is_resolved, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 use super::mirror_image::DISTINCT_ROTATION;
+use super::prior::{KINEMATIC, Prior, TORQUE};
 use super::residual_tests::repeats;
+use super::transition::exponential;
+use crate::mechanism::Equation;
 
 /// Noise parameters of a tracker: sample noise and agility of the crank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting {
     /// Standard deviation of a sample, rad or m.
     pub sigma: f64,
-    /// Spectral density of the jerk of the crank angle, rad²/s⁵.
+    /// Spectral density of the jerk of the crank angle by what is unknown, rad²/s⁵.
     pub jerk: f64,
+    /// Prior of what is unknown.
+    pub prior: Prior,
 }
 
 /// Tracker of hypotheses through samples.
@@ -29,6 +36,11 @@ pub(super) struct Tracker<'a, 's> {
     pub values: &'a [f64],
     /// Typical speed of the crank, rad/s.
     pub speed: f64,
+    pub equation: &'a Equation,
+    /// Mean inertia over a turn, kg m².
+    pub inertia: f64,
+    /// Time of the scene at time 0 of the samples, s.
+    pub origin: f64,
 }
 
 impl Tracker<'_, '_> {
@@ -36,12 +48,15 @@ impl Tracker<'_, '_> {
     pub fn settings(&self, resolution: f64) -> Vec<Setting> {
         let size = self.sensor.size();
         let noises = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1].map(|part| (part * size).max(resolution));
-        let agilities = [1e-2, 1e-1, 1.0, 10.0];
+        let agilities = [1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0];
         let mut list = Vec::new();
-        for sigma in noises {
-            for agility in agilities {
-                let jerk = agility * agility * self.speed.powi(5);
-                list.push(Setting { sigma, jerk });
+        for prior in [KINEMATIC, TORQUE] {
+            for sigma in noises {
+                list.extend(agilities.map(|agility| Setting {
+                    sigma,
+                    jerk: agility * agility * self.speed.powi(5),
+                    prior,
+                }));
             }
         }
         list
@@ -126,10 +141,13 @@ impl Tracker<'_, '_> {
         }
     }
 
-    /// Returns ln of the likelihood of the likeliest hypothesis.
+    /// Returns ln of the likelihood of the likeliest hypothesis that the samples resolve.
     pub fn score(&self, setting: &Setting) -> f64 {
-        let ends = self.run(setting, &mut Vec::with_capacity(2 * self.values.len()));
-        ends.first().map_or(f64::NEG_INFINITY, |end| end.score)
+        let mut links = Vec::with_capacity(2 * self.values.len());
+        let ends = self.run(setting, &mut links);
+        let angles = |last| Vec::from_iter(way(&links, last).map(|link| links[link].theta));
+        let told = ends.iter().find(|end| is_resolved(&angles(end.last)));
+        told.map_or(f64::NEG_INFINITY, |end| end.score)
     }
 
     fn run(&self, setting: &Setting, links: &mut Vec<Link>) -> Vec<Hypothesis> {
@@ -143,9 +161,13 @@ impl Tracker<'_, '_> {
             if i == 0 {
                 next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
             } else {
-                let step = step(self.times[i] - self.times[i - 1], setting.jerk);
+                let plain = step(self.times[i] - self.times[i - 1], setting.jerk, 1.0);
                 for before in &now {
-                    let predicted = before.predicted(&step);
+                    let by_equation = match setting.prior {
+                        KINEMATIC => None,
+                        _ => self.step(i, &before.state, setting.jerk),
+                    };
+                    let predicted = before.predicted(by_equation.as_ref().unwrap_or(&plain));
                     let goes_on = repeated && before.held;
                     // The sensor may hold the value while the crank goes on, as likely as not.
                     if begins || goes_on {
@@ -159,6 +181,56 @@ impl Tracker<'_, '_> {
             std::mem::swap(&mut now, &mut next);
         }
         now
+    }
+
+    /// Returns the transition to a sample by the equation of motion, from a state of θ, rad, ω, rad/s, and the acceleration of the
+    /// mean inertia by the torque, rad/s²; none where that has no acceleration, or θ is not known well
+    /// enough for a linear one, or passes half a turn.
+    fn step(&self, sample: usize, from: &Gaussian<3>, jerk: f64) -> Option<Step<3>> {
+        let motion = Motion {
+            equation: self.equation,
+            prior: TORQUE,
+            origin: self.origin,
+            tones: &[],
+        };
+        let [t, end] = [sample - 1, sample].map(|i| self.times[i]);
+        let h = end - t;
+        let is_known = from.covariance[0][0] < DISTINCT_ROTATION * DISTINCT_ROTATION;
+        let from = &from.mean;
+        let [theta, omega, share] = *from;
+        if !is_known || (h * omega).abs() > 0.5 * TAU {
+            return None;
+        }
+        let torque = self.inertia * share;
+        let rates = motion.rates(t, &[theta, omega, torque, 0.0, 0.0]);
+        let at = |part: f64, alpha: f64| {
+            let h = part * h;
+            let [turned, faster] = [theta + h * (omega + 0.5 * h * alpha), omega + h * alpha];
+            motion.acceleration(t + h, turned, faster, torque)[0]
+        };
+        // Simpson's rule.
+        let middle = at(0.5, rates.alpha);
+        let last = at(1.0, middle);
+        let after = [
+            theta + h * (omega + h * (rates.alpha + 2.0 * middle) / 6.0),
+            omega + h * (rates.alpha + 4.0 * middle + last) / 6.0,
+            share,
+        ];
+        let lever = self.inertia * rates.by_unknown;
+        let [first, second] = exponential(h, rates.by_theta, rates.by_omega, lever);
+        let mut found = step(h, jerk, lever);
+        found.transition = [
+            [first[0], first[1], first[2]],
+            [second[0], second[1], second[2]],
+            [0.0, 0.0, 1.0],
+        ];
+        let linear = |row: &[f64; 3]| (0..3).map(|k| row[k] * from[k]).sum::<f64>();
+        found.offset = std::array::from_fn(|i| after[i] - linear(&found.transition[i]));
+        let entries = found.transition.iter().chain([&found.offset]).flatten();
+        entries
+            .chain(found.noise.iter().flatten())
+            .all(|entry| entry.is_finite())
+            .then_some(found)
     }
 
     /// Returns the crank angles that a sample may stand for.
@@ -201,13 +273,15 @@ impl Tracker<'_, '_> {
     }
 }
 
-/// Returns the transition over a time `dt`, s, in which the angular acceleration is a Wiener process.
-fn step(dt: f64, jerk: f64) -> Step<3> {
+/// Returns the transition over a time `dt`, s, in which the angular acceleration is a Wiener process times a lever.
+fn step(dt: f64, jerk: f64, lever: f64) -> Step<3> {
     let q = |n: i32, divisor: f64| jerk * dt.powi(n) / divisor;
+    let of = |n: i32, divisor: f64| lever * q(n, divisor);
+    let both = |n: i32, divisor: f64| lever * of(n, divisor);
     let noise = [
-        [q(5, 20.0), q(4, 8.0), q(3, 6.0)],
-        [q(4, 8.0), q(3, 3.0), q(2, 2.0)],
-        [q(3, 6.0), q(2, 2.0), q(1, 1.0)],
+        [both(5, 20.0), both(4, 8.0), of(3, 6.0)],
+        [both(4, 8.0), both(3, 3.0), of(2, 2.0)],
+        [of(3, 6.0), of(2, 2.0), q(1, 1.0)],
     ];
     Step {
         transition: [[1.0, dt, 0.5 * dt * dt], [0.0, 1.0, dt], [0.0, 0.0, 1.0]],

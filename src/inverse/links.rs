@@ -1,5 +1,7 @@
 //! Ways of a tracker through samples: lists of links that share their begins.
 
+use std::f64::consts::TAU;
+
 /// Crank angle of a path, rad, with the index of the preceding link.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
@@ -44,4 +46,11 @@ impl Track {
         list.reverse();
         list.into_iter().map(|link| links[link].theta).collect()
     }
+}
+
+/// True if a crank turns less than half a turn from sample to sample in the mean: a faster motion has the samples of a
+/// slower one (sampling theorem).
+pub(super) fn is_resolved(theta: &[f64]) -> bool {
+    let way: f64 = theta.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    way < 0.5 * TAU * (theta.len() - 1) as f64
 }

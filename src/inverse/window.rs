@@ -25,7 +25,7 @@ pub(super) struct Windows<'e> {
 }
 
 /// What a window of samples says of a motion.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Judged {
     /// ln of the marginal likelihood by the likeliest prior, less the cost of zero and gain.
     pub likelihood: f64,
@@ -34,8 +34,6 @@ pub(super) struct Judged {
     /// Sense of rotation (±1) where the speed first exceeds half of the scene's; if it never does, over the first
     /// quarter of a turn.
     pub sense: f64,
-    /// Crank angles of the motion as it is smoothed, rad.
-    pub smoothed: Vec<f64>,
 }
 
 impl Windows<'_> {
@@ -81,14 +79,17 @@ impl Windows<'_> {
         });
         let pairs = judged.chunks_exact(2).zip(motions);
         let pairs = pairs.map(|(pair, one)| match one.leaves {
-            None => [pair[0].clone(), pair[1].clone()],
+            None => [pair[0], pair[1]],
             Some(_) => {
-                let image = Judged {
-                    begin: one.image.theta[0],
-                    sense: -pair[0].sense,
-                    ..pair[0].clone()
-                };
-                [pair[0].clone(), image]
+                let (begin, sense) = (one.image.theta[0], -pair[0].sense);
+                [
+                    pair[0],
+                    Judged {
+                        begin,
+                        sense,
+                        ..pair[0]
+                    },
+                ]
             }
         });
         pairs.collect()
@@ -119,15 +120,12 @@ impl Windows<'_> {
         let stated = speeds
             .take_while(|_| starts)
             .find(|speed| speed.abs() > 0.5 * self.motion.speed.abs());
-        let times = problem.record.times.iter();
-        let smoothed = times.map(|t| problem.at(kinematic, *t).state[0]);
         Judged {
             likelihood: problem.evidence(kinematic) - cost,
             begin,
             sense: stated
                 .or(way.map(|way| way - begin))
                 .map_or(0.0, f64::signum),
-            smoothed: Vec::from_iter(smoothed),
         }
     }
 
