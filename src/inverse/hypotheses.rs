@@ -5,6 +5,7 @@
 use std::f64::consts::{LN_2, TAU};
 use std::ops::Range;
 
+use super::grid::NODE_ROTATION;
 use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
 use super::kalman::{Gaussian, Step};
 use super::linearised::Motion;
@@ -161,13 +162,8 @@ impl Tracker<'_, '_> {
             if i == 0 {
                 next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
             } else {
-                let plain = step(self.times[i] - self.times[i - 1], setting.jerk, 1.0);
                 for before in &now {
-                    let by_equation = match setting.prior {
-                        KINEMATIC => None,
-                        _ => self.step(i, &before.state, setting.jerk),
-                    };
-                    let predicted = before.predicted(by_equation.as_ref().unwrap_or(&plain));
+                    let predicted = self.predicted(i, before, setting);
                     let goes_on = repeated && before.held;
                     // The sensor may hold the value while the crank goes on, as likely as not.
                     if begins || goes_on {
@@ -183,24 +179,36 @@ impl Tracker<'_, '_> {
         now
     }
 
-    /// Returns the transition to a sample by the equation of motion, from a state of θ, rad, ω, rad/s, and the acceleration of the
-    /// mean inertia by the torque, rad/s²; none where that has no acceleration, or θ is not known well
-    /// enough for a linear one, or passes half a turn.
-    fn step(&self, sample: usize, from: &Gaussian<3>, jerk: f64) -> Option<Step<3>> {
+    /// Returns a hypothesis at a sample, before that is seen: by the equation of motion in steps that are short enough, or without
+    /// where θ is not known well enough for a linear one, or passes half a turn.
+    fn predicted(&self, sample: usize, before: &Hypothesis, setting: &Setting) -> Hypothesis {
+        let [t, end] = [sample - 1, sample].map(|i| self.times[i]);
+        let way = ((end - t) * before.state.mean[1]).abs();
+        let is_known = before.state.covariance[0][0] < DISTINCT_ROTATION * DISTINCT_ROTATION;
+        let follows = setting.prior != KINEMATIC && is_known && way < 0.5 * TAU;
+        let parts = match follows {
+            true => (way / NODE_ROTATION[0]).ceil().max(1.0) as usize,
+            false => 1,
+        };
+        let h = (end - t) / parts as f64;
+        (0..parts).fold(*before, |now, part| {
+            let mean = follows.then_some(&now.state.mean);
+            let by_equation =
+                mean.and_then(|mean| self.step([t + h * part as f64, h], mean, setting.jerk));
+            now.predicted(&by_equation.unwrap_or_else(|| step(h, setting.jerk, 1.0)))
+        })
+    }
+
+    /// Returns the transition from a time by another, s, by the equation of motion, from a state of θ, rad, ω, rad/s, and the
+    /// acceleration of the mean inertia by the torque, rad/s²; none where that has no acceleration.
+    fn step(&self, [t, h]: [f64; 2], from: &[f64; 3], jerk: f64) -> Option<Step<3>> {
         let motion = Motion {
             equation: self.equation,
             prior: TORQUE,
             origin: self.origin,
             tones: &[],
         };
-        let [t, end] = [sample - 1, sample].map(|i| self.times[i]);
-        let h = end - t;
-        let is_known = from.covariance[0][0] < DISTINCT_ROTATION * DISTINCT_ROTATION;
-        let from = &from.mean;
         let [theta, omega, share] = *from;
-        if !is_known || (h * omega).abs() > 0.5 * TAU {
-            return None;
-        }
         let torque = self.inertia * share;
         let rates = motion.rates(t, &[theta, omega, torque, 0.0, 0.0]);
         let at = |part: f64, alpha: f64| {
