@@ -60,24 +60,37 @@ pub(super) fn motions<'a>(
             origin: measurement.origin(),
         };
         let settings = tracker.settings(least);
-        let best_of = |settings: &mut dyn Iterator<Item = &Setting>, parts: &[Range<usize>]| {
+        let best_of = |settings: &[Setting], parts: &[Range<usize>]| {
             let score = |one: &Setting| -> f64 {
                 let parts = parts.iter().map(|part| tracker.part(part.clone()));
                 parts.map(|part| part.score(one)).sum()
             };
-            let scored = parallel::map(settings, |one| (score(one), *one));
+            let scored = parallel::map(settings.iter(), |one| (score(one), *one));
             scored.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))
         };
         let whole = 0..values.len();
-        let (_, found) = match early == values.len() {
-            true => best_of(&mut settings.iter(), std::slice::from_ref(&whole)),
-            false => best_of(&mut settings.iter(), &stretches(values.len(), early)),
-        }?;
-        // A crank may become quicker.
-        let agile = &mut settings
-            .iter()
-            .filter(|one| one.sigma == found.sigma && one.prior == found.prior);
-        best_of(agile, &[whole]).map(|(score, setting)| (score, tracker, setting))
+        let whole = std::slice::from_ref(&whole);
+        if early == values.len() {
+            return best_of(&settings, whole).map(|(score, setting)| (score, tracker, setting));
+        }
+        let (_, found) = best_of(&settings, &stretches(values.len(), early))?;
+        let is_as_quick = |one: &&Setting| {
+            (one.sigma, one.prior) == (found.sigma, found.prior) && one.jerk >= found.jerk
+        };
+        let quicker: Vec<Setting> = settings.iter().filter(is_as_quick).copied().collect();
+        // A crank may become quicker than in the stretches: two agilities at a time, as long as the last is the likeliest.
+        let mut best = None;
+        for two in quicker.chunks(2) {
+            let next = best_of(two, whole)?;
+            if best.is_some_and(|(score, _)| score >= next.0) {
+                break;
+            }
+            best = Some(next);
+            if next.1.jerk < two[two.len() - 1].jerk {
+                break;
+            }
+        }
+        best.map(|(score, setting)| (score, tracker, setting))
     };
     let mut likeliest: Vec<_> = sensors.iter().filter_map(likeliest).collect();
     likeliest.sort_by(|a, b| b.0.total_cmp(&a.0));
