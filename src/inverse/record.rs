@@ -70,7 +70,9 @@ impl Record<'_> {
         self.weights = self.weights[range.clone()].to_vec();
         self.spreads = self.spreads.get(range.clone()).unwrap_or_default().to_vec();
         self.repeated = self.repeated[range.clone()].to_vec();
-        self.repeated[0] = false;
+        if let Some(first) = self.repeated.first_mut() {
+            *first = false;
+        }
         for sensor in &mut self.beside {
             sensor.values = sensor.values[range.clone()].to_vec().into();
         }
