@@ -8,6 +8,7 @@ use super::likelihood::Linear;
 use super::maximum::FIRST_STEP;
 use super::problem::Problem;
 use super::scales::Noise;
+use super::selection::counts;
 use super::smoother::Smoothed;
 use super::weighed::{LEAST_LOG_ODDS, Weighed, counting, on_both_sides};
 use crate::numeric::parallel;
@@ -103,15 +104,19 @@ impl Smoothed {
             is_within.then(|| with(corner.exp(), way))
         };
         let first = with(self.noise.corner, 0.0);
-        counting(on_both_sides(first, FIRST_STEP, least, at), least)
+        counting(on_both_sides(first, 1.5 * FIRST_STEP, least, at), least)
     }
 
-    /// Returns the priors that count beside its own. A part that repeats has harmonics enough for what others with one might add.
+    /// Returns the priors that count beside its own, whose part that repeats has harmonics enough for what others might add. One that
+    /// repeats widens the band by all that noise may hide of it: it has to be in the least set with 95 % of the weights.
     fn contenders(&self) -> impl Iterator<Item = &Candidate> {
         self.compared.iter().filter(|other| {
-            let is_other = other.prior != self.prior;
-            let repeats = self.prior.cycle > 0 && other.prior.cycle > 0;
-            is_other && !repeats && self.log_odds(other) > LEAST_LOG_ODDS
+            let log_odds = self.log_odds(other);
+            match (self.prior.cycle, other.prior.cycle) {
+                (1.., 1..) => false,
+                (_, 1..) => counts(-log_odds),
+                _ => other.prior != self.prior && log_odds > LEAST_LOG_ODDS,
+            }
         })
     }
 

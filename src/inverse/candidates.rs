@@ -42,6 +42,14 @@ impl Candidate {
     }
 }
 
+/// Returns the likelier of two priors.
+fn likelier(a: Candidate, b: Candidate) -> Candidate {
+    match b.noise.likelihood > a.noise.likelihood {
+        true => b,
+        false => a,
+    }
+}
+
 /// Priors about a smoothed path, and the linear models by which they were compared.
 pub(super) struct Tried {
     /// The likeliest first.
@@ -50,6 +58,11 @@ pub(super) struct Tried {
 }
 
 impl Tried {
+    fn new(mut candidates: Vec<Candidate>, abouts: Vec<About>) -> Tried {
+        candidates.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
+        Tried { candidates, abouts }
+    }
+
     /// Returns ln of the likelihood of the likeliest prior.
     pub fn likelihood(&self) -> f64 {
         let best = self.candidates.first();
@@ -134,44 +147,45 @@ impl Problem<'_> {
         0.5 * parameters * self.single().counted().ln()
     }
 
-    /// Priors about a path.
-    pub fn tried(&self, kinematic: &Smoothed) -> Tried {
-        let abouts = parallel::map(LADDERS.iter(), |ladder| self.about(ladder[0], kinematic));
+    /// Priors without a part that repeats about a motion, with their likeliest noise from a corner frequency, rad/s.
+    pub fn tried(&self, motion: &Smoothed, corner: f64) -> Tried {
+        let abouts = parallel::map(LADDERS.iter(), |ladder| self.about(ladder[0], motion));
         let ladders = abouts.iter().zip(LADDERS);
         let pairs = ladders.flat_map(|(about, ladder)| ladder.iter().map(move |one| (about, one)));
         let plain = parallel::map(pairs, |(about, prior)| {
-            let first = Noise::white(kinematic.noise.corner);
+            let first = match *prior == motion.prior {
+                true => motion.noise,
+                false => Noise::white(corner),
+            };
             about.of(*prior).candidate(first, f64::NEG_INFINITY)
         });
-        let plain = plain.into_iter().flatten().collect();
-        self.with_repeating(plain, abouts, Rotation::of(kinematic.angles()), false)
+        Tried::new(plain.into_iter().flatten().collect(), abouts)
+    }
+
+    /// The priors beside those with a part that repeats.
+    pub fn with_repeating(&self, plain: Tried, motion: &Smoothed, is_correlated: bool) -> Tried {
+        // What repeats is noise that comes down: of what was computed there is none.
+        if self.is_computed() {
+            return plain;
+        }
+        let Tried {
+            mut candidates,
+            abouts,
+        } = plain;
+        let rotation = Rotation::of(motion.angles());
+        candidates.extend(self.repeating(rotation, &candidates, &abouts, is_correlated));
+        Tried::new(candidates, abouts)
     }
 
     /// The priors with the likeliest correlation of the sample noise.
-    pub fn correlated(&self, white: Tried, kinematic: &Smoothed) -> Tried {
+    pub fn correlated(&self, white: Tried, motion: &Smoothed) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
         let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
             let mut abouts = white.abouts.iter().zip(LADDERS);
             let about = abouts.find(|(_, ladder)| ladder.contains(&one.prior));
             about.map_or(*one, |(about, _)| about.of(one.prior).with_correlation(one))
         });
-        self.with_repeating(plain, white.abouts, Rotation::of(kinematic.angles()), true)
-    }
-
-    /// Priors without and with a part that repeats.
-    fn with_repeating(
-        &self,
-        mut candidates: Vec<Candidate>,
-        abouts: Vec<About>,
-        rotation: Rotation,
-        is_correlated: bool,
-    ) -> Tried {
-        // What repeats is noise that comes down: of what was computed there is none.
-        if !self.is_computed() {
-            candidates.extend(self.repeating(rotation, &candidates, &abouts, is_correlated));
-        }
-        candidates.sort_by(|a, b| b.noise.likelihood.total_cmp(&a.noise.likelihood));
-        Tried { candidates, abouts }
+        self.with_repeating(Tried::new(plain, white.abouts), motion, true)
     }
 
     /// Priors with a part that repeats every turn, or in each swing, where that may count beside the same prior without.
@@ -241,18 +255,30 @@ impl Problem<'_> {
             found.extend(with(Prior { powers: 0, ..first }, before, least));
             found.sort_by(|a, b| a.noise.likelihood.total_cmp(&b.noise.likelihood));
         }
-        let may_follow = first.powers == 0;
+        if let Some(Candidate {
+            prior,
+            noise,
+            scales,
+        }) = found.last().copied().filter(|_| first.powers == 0)
+        {
+            // Beside what repeats, what follows the speed may leave no need of process noise: the likelihood has two maxima.
+            let quiet = Noise {
+                corner: scales.corners()[0],
+                ..noise
+            };
+            let least = noise.likelihood + ENOUGH_RISE;
+            let followed = |from| with(Prior { powers: 1, ..prior }, from, least);
+            let followed = [noise, quiet].into_iter().filter_map(followed);
+            found.extend(followed.reduce(likelier));
+        }
         // Forward selection: what is added stays where it makes the samples likelier.
         let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
-            let likelier =
+            let next =
                 |Candidate { prior, noise, .. }| with(by(prior), noise, noise.likelihood + rise);
-            let next = found.last().copied().and_then(likelier);
+            let next = found.last().copied().and_then(next);
             found.extend(next);
             next.is_some()
         };
-        if may_follow {
-            extend(ENOUGH_RISE, |prior| Prior { powers: 1, ..prior });
-        }
         if rotation.turns >= 4.0 {
             extend(ENOUGH_RISE, Prior::over_two_turns);
         }

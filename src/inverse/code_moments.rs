@@ -181,7 +181,7 @@ impl Problem<'_> {
     pub fn likeliest_of_codes(&mut self, codes: Codes, kinematic: &Smoothed) -> Smoothed {
         let first = self.sites();
         let mut found = Vec::new();
-        for candidate in self.tried(kinematic).candidates {
+        for candidate in self.all_tried(kinematic).candidates {
             (self.record.values, self.record.weights) = first.clone();
             let path = self.path_of(candidate.prior, kinematic, self.all());
             let smoothed = self.iterated(&candidate, path);

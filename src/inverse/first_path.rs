@@ -46,6 +46,9 @@ impl Problem<'_> {
 
     /// Returns the states of a prior along a smoothed motion, at ranges of nodes.
     pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: Vec<Range<usize>>) -> Path {
+        if prior == from.prior {
+            return from.path().along(ranges);
+        }
         let along = |range: &Range<usize>| {
             let first = range.start;
             parallel::list(range.len(), |k| {

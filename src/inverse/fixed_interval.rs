@@ -145,7 +145,7 @@ mod tests {
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::{FOLLOWING, Prior, Unknown};
     use crate::inverse::state_space::{Observed, Stretch};
-    use crate::inverse::transition::exponential;
+    use crate::inverse::transition::transition;
 
     const STEPS: usize = 800;
 
@@ -153,7 +153,7 @@ mod tests {
     fn stretch(steps: usize) -> Stretch {
         let step = Linearised {
             h: 0.1,
-            top: exponential(0.1, 0.0, -1.0, 1.7),
+            top: transition(0.1, [0.0, -1.0, 1.7], [0.0; 3]),
             lever: 1.7,
             ..Linearised::default()
         };
@@ -274,7 +274,7 @@ mod tests {
             h: 1e-3,
             tilt: [90.0, 0.0],
             lever: 40.0,
-            top: exponential(1e-3, 200.0, -3.0, 40.0),
+            top: transition(1e-3, [200.0, -3.0, 40.0], [0.0; 3]),
             ..Linearised::default()
         };
         stretch.steps = vec![step; 400].into();

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::measurement_model::Turning;
-use super::prior::{Prior, State};
+use super::prior::State;
 use super::repeating::Repeating;
 use super::scales::root_mean_square;
 use crate::numeric::hermite::between;
@@ -70,14 +70,6 @@ impl Path {
             repeating: self.repeating.clone(),
             ranges,
         }
-    }
-
-    /// The derivatives of the torque that follows the state by θ and ω: of what repeats, and of what follows the speed.
-    pub fn slopes(&self, prior: Prior, state: &State) -> [f64; 2] {
-        let repeating = self.repeating.as_ref();
-        let at = |torque: &Repeating| torque.at(state[0], state[1]);
-        let [_, by_theta, by_omega] = repeating.map_or([0.0; 3], at);
-        [by_theta, by_omega + prior.of_speed(state, state[1])[1]]
     }
 
     /// Returns the unit of the speed in a torque that repeats, rad/s: the root mean square where none is known yet.

@@ -15,7 +15,7 @@ use super::measurement_model::Sensor;
 use super::mirror_image::DISTINCT_ROTATION;
 use super::prior::{KINEMATIC, Prior, TORQUE};
 use super::residual_tests::repeats;
-use super::transition::exponential;
+use super::transition::transition;
 use crate::mechanism::Equation;
 
 /// Noise parameters of a tracker: sample noise and agility of the crank.
@@ -225,7 +225,8 @@ impl Tracker<'_, '_> {
             share,
         ];
         let lever = self.inertia * rates.by_unknown;
-        let [first, second] = exponential(h, rates.by_theta, rates.by_omega, lever);
+        let slopes = [rates.by_theta, rates.by_omega, lever];
+        let [first, second] = transition(h, slopes, [0.0; 3]);
         let mut found = step(h, jerk, lever);
         found.transition = [
             [first[0], first[1], first[2]],

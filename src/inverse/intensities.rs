@@ -148,11 +148,14 @@ impl Problem<'_> {
     pub fn likeliest_with_intensities(
         &mut self,
         kinematic: &Smoothed,
+        first: &Smoothed,
         suspected: bool,
     ) -> Smoothed {
-        let mut best = self.likeliest_of_all(kinematic, suspected);
+        let mut best = self.likeliest_of_all(kinematic, first, suspected);
         if self.judges_again(&best) {
-            best = self.likeliest_of_all(kinematic, suspected);
+            let plain = self.likeliest_plain(&best);
+            let first = plain.as_ref().unwrap_or(first);
+            best = self.likeliest_of_all(kinematic, first, suspected);
         }
         // Computed samples, noise below that of instruments and long records represented by stretches have no intensities: what
         // interpolates computed samples smoothly errs least.
@@ -161,7 +164,7 @@ impl Problem<'_> {
             && !self.is_computed()
         {
             let sites = self.sites();
-            let Some(plain) = self.likeliest_plain(&best, kinematic) else {
+            let Some(plain) = self.likeliest_plain(&best) else {
                 break;
             };
             let least = match best.prior.cycle {
@@ -172,7 +175,7 @@ impl Problem<'_> {
             self.intensities = self.intensities_of(&plain, least);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
-                let next = self.likeliest_of_all(kinematic, suspected);
+                let next = self.likeliest_of_all(kinematic, &plain, suspected);
                 let rise =
                     next.noise.likelihood - best.noise.likelihood - more * self.cost(PARAMETERS);
                 if rise > ENOUGH_RISE {
@@ -198,10 +201,16 @@ impl Problem<'_> {
         judged.is_some_and(|judged| self.weigh(judged.weights, best))
     }
 
-    fn likeliest_of_all(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
+    /// The likeliest smoothed motion, from a first one.
+    fn likeliest_of_all(
+        &mut self,
+        kinematic: &Smoothed,
+        first: &Smoothed,
+        suspected: bool,
+    ) -> Smoothed {
         match self.record.codes {
             Some(codes) => self.likeliest_of_codes(codes, kinematic),
-            None => self.likeliest(kinematic, suspected),
+            None => self.likeliest(kinematic, first, suspected),
         }
     }
 }
@@ -213,7 +222,7 @@ mod tests {
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::TORQUE;
     use crate::inverse::state_space::{Observed, Stretch};
-    use crate::inverse::transition::exponential;
+    use crate::inverse::transition::transition;
 
     /// Returns a model of a stretch of samples.
     fn model(stretch: &Stretch) -> Deviations<'_> {
@@ -233,7 +242,7 @@ mod tests {
     fn scores_are_the_slopes_of_the_likelihood() {
         let step = Linearised {
             h: 0.3,
-            top: exponential(0.3, -2.0, 0.7, 1.7),
+            top: transition(0.3, [-2.0, 0.7, 1.7], [0.0; 3]),
             lever: 1.7,
             ..Linearised::default()
         };

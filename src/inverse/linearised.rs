@@ -6,7 +6,7 @@
 use super::prior::{Prior, State, Unknown, powers_of};
 use super::repeating::Repeating;
 use super::tone::{self, Carrier, Tone};
-use super::transition::exponential;
+use super::transition::{Slopes, transition};
 use crate::mechanism::{Equation, Terms};
 
 /// θ̈ and its partial derivatives at a state.
@@ -20,6 +20,12 @@ pub(super) struct Rates {
     pub by_omega: f64,
     /// ∂θ̈/∂u
     pub by_unknown: f64,
+}
+
+impl Rates {
+    fn slopes(self) -> Slopes {
+        [self.by_theta, self.by_omega, self.by_unknown]
+    }
 }
 
 /// Node of a nominal path.
@@ -109,9 +115,17 @@ impl Motion<'_> {
         }
     }
 
-    /// Returns θ̈ and its partial derivatives at a state whose torque follows θ and ω with these slopes.
-    pub fn rates_following(&self, [by_theta, by_omega]: [f64; 2], t: f64, state: &State) -> Rates {
+    /// Returns the derivatives of the torque that follows a state by θ and ω: of what repeats, and of what follows the speed.
+    pub fn slopes(&self, torque: Option<&Repeating>, state: &State) -> [f64; 2] {
+        let at = |torque: &Repeating| torque.at(state[0], state[1]);
+        let [_, by_theta, by_omega] = torque.map_or([0.0; 3], at);
+        [by_theta, by_omega + self.prior.of_speed(state, state[1])[1]]
+    }
+
+    /// Returns θ̈ and its partial derivatives at a state whose torque follows θ and ω.
+    pub fn rates_following(&self, torque: Option<&Repeating>, t: f64, state: &State) -> Rates {
         let rates = self.rates(t, state);
+        let [by_theta, by_omega] = self.slopes(torque, state);
         Rates {
             by_theta: rates.by_theta + rates.by_unknown * by_theta,
             by_omega: rates.by_omega + rates.by_unknown * by_omega,
@@ -123,11 +137,13 @@ impl Motion<'_> {
     /// repeats is part of u.
     pub fn linearised(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> Linearised {
         let h = b.t - a.t;
-        let mean = |f: fn(&Rates) -> f64| 0.5 * (f(&a.rates) + f(&b.rates));
-        let lever = mean(|r| r.by_unknown);
+        let inner = self.inner(a, b, torque);
+        let [first, early, late, last] = [a.rates, inner[0], inner[1], b.rates].map(Rates::slopes);
+        let mean = [0, 1, 2].map(|k| (first[k] + 5.0 * (early[k] + late[k]) + last[k]) / 12.0);
+        let change = [0, 1, 2].map(|k| last[k] - first[k]);
         let [before, after] = [a, b].map(|node| powers_of(node.state[1]));
         let tilt = std::array::from_fn(|k| (after[k] - before[k]) / h);
-        let mut top = exponential(h, mean(|r| r.by_theta), mean(|r| r.by_omega), lever);
+        let mut top = transition(h, mean, change);
         if self.prior.powers > 0 {
             for row in &mut top {
                 let ramp = row[3];
@@ -135,7 +151,7 @@ impl Motion<'_> {
                 columns.for_each(|(value, tilt)| *value = ramp * tilt);
             }
         }
-        let mut defect = self.predicted(a, b, torque);
+        let mut defect = self.predicted(a, b, torque, inner.map(|rates| rates.alpha));
         for (value, end) in defect.iter_mut().zip(b.state) {
             *value -= end;
         }
@@ -143,7 +159,7 @@ impl Motion<'_> {
             h,
             top,
             defect,
-            lever,
+            lever: mean[2],
             tilt,
         }
     }

@@ -91,7 +91,7 @@ mod tests {
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::{FOLLOWING, TORQUE};
     use crate::inverse::state_space::{Observed, Stretch, with_dimension};
-    use crate::inverse::transition::exponential;
+    use crate::inverse::transition::transition;
 
     /// Compares with a run of the filter along the whole stretch, by a model whose stretch is replaced.
     fn agrees<const N: usize>(model: Deviations<'_>, within: f64) {
@@ -99,7 +99,7 @@ mod tests {
             h: 0.02,
             tilt: [90.0, 0.0],
             lever: 40.0,
-            top: exponential(0.02, 20.0, -3.0, 40.0),
+            top: transition(0.02, [20.0, -3.0, 40.0], [0.0; 3]),
             ..Linearised::default()
         };
         let sample = |k: usize| Observed {

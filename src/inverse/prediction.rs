@@ -27,30 +27,53 @@ impl Motion<'_> {
         after - before
     }
 
-    /// Returns the state that follows from node a at node b, by Lobatto's rule along the quintic between them: θ and ω to h⁷.
-    /// The noise of u is no part of it.
-    pub fn predicted(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> State {
+    /// Returns the state that follows from a node at a place of its step, if the noise of u is left out.
+    fn followed(
+        &self,
+        a: &Node<'_>,
+        torque: Option<&Repeating>,
+        h: f64,
+        [theta, omega]: [f64; 2],
+    ) -> State {
+        let mut state = self.later(2, h, a.state);
+        let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
+        state[2] += self.faster(a.state, omega) + repeated;
+        [state[0], state[1]] = [theta, omega];
+        state
+    }
+
+    /// Returns the rates at the inner nodes of Lobatto's rule along the quintic between two nodes.
+    pub fn inner(&self, a: &Node<'_>, b: &Node<'_>, torque: Option<&Repeating>) -> [Rates; 2] {
+        if self.prior.unknown == Unknown::Acceleration {
+            return [a.rates; 2];
+        }
+        let (h, way) = (b.t - a.t, way(a, b));
+        LOBATTO.map(|part| {
+            let [way, rate, _] = way.at(part);
+            let state = self.followed(a, torque, part * h, [a.state[0] + way, rate / h]);
+            self.rates_following(torque, a.t + part * h, &state)
+        })
+    }
+
+    /// Returns the state that follows from node a at node b, by Lobatto's rule from the inner θ̈: θ and ω to h⁷. The noise of u is
+    /// no part of it.
+    pub fn predicted(
+        &self,
+        a: &Node<'_>,
+        b: &Node<'_>,
+        torque: Option<&Repeating>,
+        [early, late]: [f64; 2],
+    ) -> State {
         let h = b.t - a.t;
         if self.prior.unknown == Unknown::Acceleration {
             return self.later(0, h, a.state);
         }
-        let mut after = self.later(2, h, a.state);
-        after[2] += self.faster(a.state, b.state[1]) + b.repeated - a.repeated;
-        let way = way(a, b);
-        let within = |part: f64| {
-            let [way, rate, _] = way.at(part);
-            let (theta, omega) = (a.state[0] + way, rate / h);
-            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
-            let unknown =
-                self.later(2, part * h, a.state)[2] + self.faster(a.state, omega) + repeated;
-            self.acceleration(a.t + part * h, theta, omega, unknown)[0]
-        };
+        let mut after = self.followed(a, torque, h, [b.state[0], b.state[1]]);
         let first = a.rates.alpha;
-        let [early, late] = LOBATTO.map(within);
         let last = b.rates.alpha - b.rates.by_unknown * (b.state[2] - after[2]);
         let moment = LOBATTO[1] * early + LOBATTO[0] * late;
-        after[0] += h * a.state[1] + h * h * (first + 5.0 * moment) / 12.0;
-        after[1] += h * (first + 5.0 * (early + late) + last) / 12.0;
+        after[0] = a.state[0] + h * a.state[1] + h * h * (first + 5.0 * moment) / 12.0;
+        after[1] = a.state[1] + h * (first + 5.0 * (early + late) + last) / 12.0;
         after
     }
 
@@ -61,21 +84,20 @@ impl Motion<'_> {
             return [0.0; 2];
         }
         let (h, t) = (0.5 * (b.t - a.t), 0.5 * (a.t + b.t));
-        let state = |theta: f64, omega: f64| {
-            let mut state = self.later(2, h, a.state);
-            let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
-            state[2] += self.faster(a.state, omega) + repeated;
-            [theta, omega, state[2], state[3], state[4]]
+        let state = |place: [f64; 2]| self.followed(a, torque, h, place);
+        let predicted = |a: &Node<'_>, b: &Node<'_>| {
+            let inner = self.inner(a, b, torque);
+            self.predicted(a, b, torque, inner.map(|rates| rates.alpha))
         };
         let [turned, rate, _] = way(a, b).at(0.5);
         // The middle by fixed-point iteration from the quintic.
-        let mut middle = state(a.state[0] + turned, 0.5 * rate / h);
+        let mut middle = state([a.state[0] + turned, 0.5 * rate / h]);
         for _ in 0..3 {
-            let [theta, omega, ..] = self.predicted(a, &self.node(t, &middle, torque), torque);
-            middle = state(theta, omega);
+            let [theta, omega, ..] = predicted(a, &self.node(t, &middle, torque));
+            middle = state([theta, omega]);
         }
-        let halves = self.predicted(&self.node(t, &middle, torque), b, torque);
-        let whole = self.predicted(a, b, torque);
+        let halves = predicted(&self.node(t, &middle, torque), b);
+        let whole = predicted(a, b);
         [0, 1].map(|k| halves[k] - whole[k])
     }
 

@@ -148,7 +148,7 @@ impl<'a> Problem<'a> {
             Node {
                 t,
                 state,
-                rates: motion.rates_following(path.slopes(prior, state), t, state),
+                rates: motion.rates_following(torque, t, state),
                 repeated: torque.map_or(0.0, |torque| torque.at(state[0], state[1])[0]),
             }
         });
@@ -232,17 +232,17 @@ impl<'a> Problem<'a> {
         let states = path.part(&(from..from + deviations.len()));
         let variance = noise.sigma * noise.sigma;
         let dimension = prior.states();
-        let known = path.repeating.as_ref().filter(|_| prior.cycle == 0);
+        let torque = path.repeating.as_ref();
+        let known = torque.filter(|_| prior.cycle == 0);
         let beside = known.map_or([[0.0; 3]; 3], |known| known.covariance);
         parallel::list(deviations.len(), |at| {
             let (deviation, mut state) = (&deviations[at], states[at]);
             // The model has the deviation of u less what follows θ and ω.
-            let slopes = path.slopes(prior, &state);
+            let slopes = motion.slopes(torque, &state);
             state[2] += (0..2).map(|k| slopes[k] * deviation.mean[k]).sum::<f64>();
             let pairs = state.iter_mut().zip(&deviation.mean).take(dimension);
             pairs.for_each(|(value, change)| *value += change);
-            let slopes = path.slopes(prior, &state);
-            let rates = motion.rates_following(slopes, self.grid.times[from + at], &state);
+            let rates = motion.rates_following(torque, self.grid.times[from + at], &state);
             let gradient = [rates.by_theta, rates.by_omega, rates.by_unknown];
             let p: Matrix<3> = std::array::from_fn(|i| {
                 std::array::from_fn(|k| variance * deviation.covariance[i][k] + beside[i][k])

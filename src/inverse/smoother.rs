@@ -1,5 +1,4 @@
-//! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother), the
-//! prior chosen by marginal likelihood.
+//! The smoothed motion: Gauss-Newton iterations of the linear smoother about the last path (iterated extended smoother).
 
 use super::candidates::Candidate;
 use super::estimate::Estimate;
@@ -9,7 +8,6 @@ use super::maximum::ENOUGH_RISE;
 use super::prior::{KINEMATIC, Prior};
 use super::problem::Problem;
 use super::repeating::Repeating;
-use super::residual_tests::Whiteness;
 use super::scales::{Noise, Scales};
 
 /// A smoothed motion with its prior and noise.
@@ -34,6 +32,21 @@ impl Smoothed {
             prior: self.prior,
             noise: self.noise,
             scales: self.scales,
+        }
+    }
+
+    /// The same prior, without mechanics, along the motion of another one at the same nodes.
+    pub fn along(&self, other: &Smoothed) -> Smoothed {
+        let motion = other.estimates.iter().map(|estimate| {
+            let [theta, omega, alpha] = estimate.motion();
+            Estimate {
+                state: [theta, omega, alpha, 0.0, 0.0],
+                ..*estimate
+            }
+        });
+        Smoothed {
+            estimates: motion.collect(),
+            ..self.clone()
         }
     }
 
@@ -109,21 +122,14 @@ impl Problem<'_> {
         linear.with_all_spectra(&noise)
     }
 
-    /// The smoothed motion with the likeliest prior.
-    pub fn likeliest(&mut self, kinematic: &Smoothed, suspected: bool) -> Smoothed {
-        let mut found = self.likeliest_about(kinematic, suspected);
-        if let Some(other) = self.without_process_noise(&found) {
-            // The priors are compared again about that motion.
-            let again = self.likeliest_about(&other, suspected);
-            let cost = self.cost_of_correlation(&again.noise);
-            found = match again.noise.likelihood > other.noise.likelihood + cost {
-                true => again,
-                false => Smoothed {
-                    compared: again.compared,
-                    ..other
-                },
-            };
-        }
+    /// The smoothed motion with the likeliest prior, from a first one.
+    pub fn likeliest(
+        &mut self,
+        kinematic: &Smoothed,
+        first: &Smoothed,
+        suspected: bool,
+    ) -> Smoothed {
+        let found = self.likeliest_from(first, suspected);
         let path = self.path_of(found.prior, kinematic, self.all());
         match self.finer(&found, kinematic) {
             // Means of fewer samples come first.
@@ -132,74 +138,10 @@ impl Problem<'_> {
         }
     }
 
-    /// The smoothed motion with the likeliest prior about a first one. Noise of the samples is correlated where that is
-    /// suspected or the prediction errors say so, and the likelihood agrees.
-    fn likeliest_about(&self, first: &Smoothed, suspected: bool) -> Smoothed {
-        let white = self.tried(first);
-        let Some(found) = self.first_converged(&white.candidates, first) else {
-            return Smoothed {
-                compared: white.candidates,
-                ..first.clone()
-            };
-        };
-        let found = self.without_repeating(found);
-        let innovations = found.estimates.iter().map(|e| e.innovation);
-        let is_noise = self.record.codes.is_none() && !self.is_computed();
-        if !is_noise || !suspected && !Whiteness::of(innovations).is_violated() {
-            return found;
-        }
-        let cost = self.cost(2.0);
-        let least = white.likelihood() + cost;
-        let correlated = self.correlated(white, first);
-        let is_likelier = correlated.likelihood() > least;
-        let other = is_likelier.then(|| self.first_converged(&correlated.candidates, first));
-        let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
-        let other = other.flatten().filter(|other| gain(other) > cost);
-        other.unwrap_or(found)
-    }
-
-    /// A motion, or with the likeliest prior among its own without a part that repeats: a pulse is no change of intensity, but jumps
-    /// may look like harmonics.
-    pub fn likeliest_plain(&self, of: &Smoothed, kinematic: &Smoothed) -> Option<Smoothed> {
-        if of.prior.cycle == 0 {
-            return Some(of.clone());
-        }
-        let plain = of.compared.iter().filter(|one| one.prior.cycle == 0);
-        self.first_converged(&Vec::from_iter(plain.copied()), kinematic)
-    }
-
-    /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
-    pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        self.tried(kinematic).likelihood()
-    }
-
-    /// The likeliest smoothed motion of those whose iterations come to rest. About the path that they come to, a prior may be less
-    /// likely than about the first one.
-    fn first_converged(&self, tried: &[Candidate], kinematic: &Smoothed) -> Option<Smoothed> {
-        let mut best: Option<Smoothed> = None;
-        for candidate in tried {
-            let before = best
-                .as_ref()
-                .map_or(f64::NEG_INFINITY, |b| b.noise.likelihood);
-            if before >= candidate.noise.likelihood {
-                break;
-            }
-            let path = self.path_of(candidate.prior, kinematic, self.sampled());
-            let found = self.iterated(candidate, path);
-            if found.converged && found.noise.likelihood > before {
-                best = Some(found);
-            }
-        }
-        best.map(|best| Smoothed {
-            compared: tried.to_vec(),
-            ..best
-        })
-    }
-
     /// The smoothed motion with a prior, about paths that approach it.
     pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
         let Candidate {
-            mut prior,
+            prior,
             mut noise,
             scales,
         } = *candidate;
@@ -210,11 +152,6 @@ impl Problem<'_> {
         let mut is_at_rest = false;
         let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
-            // Twice the harmonics by which the prior was chosen: what they might add belongs to the band.
-            if is_at_rest && result.prior == candidate.prior {
-                // High ones stay in their place even where they are among those now.
-                prior.harmonics *= 2;
-            }
             let linear = self.linear(prior, scales, &path, noise.sigma);
             // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
             if iteration == 1 || is_at_rest || iteration == 0 && prior.powers > 0 {
@@ -229,10 +166,12 @@ impl Problem<'_> {
                 }
                 // Where the path came to rest by chance, far from the samples, it has no likelihood.
                 result.converged &= known.likelihood.is_finite();
-                let is_wider = prior != result.prior;
-                if is_at_rest && !is_wider && noise.likelihood < known.likelihood + ENOUGH_RISE {
+                if is_at_rest && noise.likelihood < known.likelihood + ENOUGH_RISE {
                     result.noise = known;
-                    break;
+                    return match result.converged && prior.cycle > 0 {
+                        true => self.with_twice_the_harmonics(result, path),
+                        false => result,
+                    };
                 }
                 correction = Correction::default();
             }
@@ -242,7 +181,6 @@ impl Problem<'_> {
             // What came to rest with a former noise stands until this one's does.
             if is_at_rest || !result.converged {
                 result = Smoothed {
-                    prior,
                     noise,
                     estimates,
                     repeating: path.repeating.clone(),
@@ -255,6 +193,34 @@ impl Problem<'_> {
             }
         }
         result
+    }
+
+    /// A smoothed motion with twice the harmonics by which its prior was chosen: what they might add belongs to the band, and the
+    /// process noise, beside which it is little, is left as it is.
+    fn with_twice_the_harmonics(&self, found: Smoothed, mut path: Path) -> Smoothed {
+        let mut wider = found.candidate();
+        // High ones stay in their place even where they are among those now.
+        wider.prior.harmonics *= 2;
+        let mut correction = Correction::default();
+        for _ in 0..ITERATIONS {
+            let linear = self.linear(wider.prior, wider.scales, &path, wider.noise.sigma);
+            wider.noise = linear.begun(wider.noise);
+            let estimates = self.smoothed_along(&mut path, &linear, &wider.noise);
+            let change = correction.taken(&mut path, &estimates);
+            if change < PATH_AT_REST && wider.noise.likelihood.is_finite() {
+                return Smoothed {
+                    prior: wider.prior,
+                    noise: wider.noise,
+                    estimates,
+                    repeating: path.repeating,
+                    ..found
+                };
+            }
+            if !change.is_finite() {
+                break;
+            }
+        }
+        found
     }
 }
 

@@ -7,6 +7,7 @@ use super::branch_tracking::CrankAngles;
 use super::maximum::SIGNIFICANT_RISE;
 use super::mean_length::{ByMeans, by_means};
 use super::samples;
+use super::smoother::Smoothed;
 use super::tone::{Carrier, Tone};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
@@ -29,7 +30,7 @@ impl<'a> Given<'a, '_> {
     pub fn likeliest(&self) -> BesideTones<'a> {
         let finer =
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
-        let of = |most| self.beside(&[], most);
+        let of = |most| self.beside(&[], most, None);
         let ByMeans {
             found: mut best,
             most,
@@ -40,7 +41,11 @@ impl<'a> Given<'a, '_> {
             let mut more = best.problem.another_tone(&best.smoothed);
             // An encoder errs by no more than a count.
             more.retain(|tone| tone.carrier == Carrier::Torque || !self.measurement.is_counted());
-            let with = |tone| self.refined(known.iter().copied().chain([tone]).collect(), most);
+            let near = &best.smoothed;
+            let with = |tone| {
+                let tones = known.iter().copied().chain([tone]).collect();
+                self.refined(tones, most, near)
+            };
             let mut tried = parallel::map(more.into_iter(), with);
             tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
             let mut tried = tried.into_iter();
@@ -65,14 +70,14 @@ impl<'a> Given<'a, '_> {
 
     /// The likeliest motion beside tones of which the last is estimated anew about it, as long as that moves it and makes the motion
     /// likelier.
-    fn refined(&self, mut tones: Vec<Tone>, most: usize) -> BesideTones<'a> {
-        let mut found = self.beside(&tones, most);
+    fn refined(&self, mut tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
+        let mut found = self.beside(&tones, most, Some(near));
         while let Some(tone) = found.problem.last_tone(&found.smoothed) {
             if tones.pop().is_none_or(|known| tone.agrees(&known)) {
                 break;
             }
             tones.push(tone);
-            let next = self.beside(&tones, most);
+            let next = self.beside(&tones, most, Some(&found.smoothed));
             let is_likelier = next.likelihood() > found.likelihood() + SIGNIFICANT_RISE;
             if !is_likelier {
                 break;
@@ -82,8 +87,8 @@ impl<'a> Given<'a, '_> {
         found
     }
 
-    /// The likeliest motion beside tones, by means of up to so many samples.
-    fn beside(&self, tones: &[Tone], most: usize) -> BesideTones<'a> {
+    /// The likeliest motion beside tones, by means of up to so many samples; it is near one beside others.
+    fn beside(&self, tones: &[Tone], most: usize, near: Option<&Smoothed>) -> BesideTones<'a> {
         let Given {
             measurement,
             angles,
@@ -93,7 +98,10 @@ impl<'a> Given<'a, '_> {
         } = *self;
         let (mut problem, kinematic) =
             samples::kinematic(measurement, angles, tones, most, equation, stop);
-        let smoothed = problem.likeliest_with_intensities(&kinematic, suspected);
+        let near = near.filter(|near| near.estimates.len() == problem.grid.len());
+        let near = near.map(|near| kinematic.along(near));
+        let first = near.as_ref().unwrap_or(&kinematic);
+        let smoothed = problem.likeliest_with_intensities(&kinematic, first, suspected);
         BesideTones {
             problem,
             kinematic,

@@ -40,7 +40,7 @@ impl Problem<'_> {
             let changes = parallel::map(0..3, |k| beside.smoothed(&noise, |t| tone.slopes(t)[k]));
             for (node, estimate) in smoothed.estimates.iter_mut().enumerate() {
                 let (t, state) = (self.grid.times[node], &path.states[node]);
-                let rates = motion.rates_following(path.slopes(linear.prior, state), t, state);
+                let rates = motion.rates_following(path.repeating.as_ref(), t, state);
                 let by_state = Vector3::new(rates.by_theta, rates.by_omega, rates.by_unknown);
                 let change = Matrix3::from_columns(&[0, 1, 2].map(|k| changes[k][node]));
                 // u has the torque of the tone in it.
