@@ -16,7 +16,7 @@ use super::harmonics::responses;
 use super::kalman::{Filtered, Gaussian, Innovation, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
-use super::regression::{ROWS_AT_ONCE, Regression};
+use super::regression::{BLOCK, ROWS_AT_ONCE, Regression};
 use super::repeating::dot;
 use super::state_space::{Deviations, Stretch};
 
@@ -170,7 +170,7 @@ impl Derivatives {
             .chunks(ROWS_AT_ONCE * size)
             .zip(path.chunks_mut(ROWS_AT_ONCE))
         {
-            let spread = factor * DMatrixView::from_slice(columns, count, columns.len() / count);
+            let spread = spread(factor, columns);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
             for (k, state) in states.iter_mut().enumerate() {
                 let spread = spread.columns(N * k, N);
@@ -183,6 +183,20 @@ impl Derivatives {
             }
         }
     }
+}
+
+/// Returns the product of a lower triangular factor and columns, block by block of rows.
+fn spread(factor: &DMatrix<f64>, columns: &[f64]) -> DMatrix<f64> {
+    let count = factor.nrows();
+    let columns = DMatrixView::from_slice(columns, count, columns.len() / count);
+    let mut spread = DMatrix::zeros(count, columns.ncols());
+    for first in (0..count).step_by(BLOCK) {
+        let end = count.min(first + BLOCK);
+        let factor = factor.view((first, 0), (end - first, end));
+        let mut rows = spread.rows_mut(first, end - first);
+        rows.gemm(1.0, &factor, &columns.rows(0, end), 0.0);
+    }
+    spread
 }
 
 impl<const N: usize> Companion<N> for Regressed<'_, N> {

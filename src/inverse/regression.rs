@@ -9,8 +9,8 @@ use crate::numeric::cholesky::{cholesky, inverse_of_lower};
 /// Rows that are multiplied by a matrix at once.
 pub(super) const ROWS_AT_ONCE: usize = 128;
 
-/// Columns of the information that are filled at once.
-const BLOCK: usize = 64;
+/// Rows or columns of a triangle that are multiplied at once.
+pub(super) const BLOCK: usize = 64;
 
 /// Evidence of the samples without the periodic part, to which that part adds.
 #[derive(Clone, Copy, Debug)]
