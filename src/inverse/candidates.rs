@@ -110,6 +110,15 @@ impl Linear {
         (first.likelihood >= least).then(|| self.with(self.with_corner(first)))
     }
 
+    /// A noise with hardly any noise of the process.
+    fn quiet(&self, noise: Noise) -> Noise {
+        Noise {
+            corner: self.scales.corners()[0],
+            speed_corner: 0.0,
+            ..noise
+        }
+    }
+
     /// The prior with a noise.
     pub fn with(&self, noise: Noise) -> Candidate {
         Candidate {
@@ -157,13 +166,19 @@ impl Problem<'_> {
                 true => motion.noise,
                 false => Noise::white(corner),
             };
-            about.of(*prior).candidate(first, f64::NEG_INFINITY)
+            let linear = about.of(*prior);
+            // A torque that follows the speed may need no process noise: the likelihood has two maxima.
+            let quiet = (prior.powers > 0).then(|| linear.quiet(first));
+            let starts = std::iter::once(first).chain(quiet);
+            starts
+                .filter_map(|first| linear.candidate(first, f64::NEG_INFINITY))
+                .reduce(likelier)
         });
         Tried::new(plain.into_iter().flatten().collect(), abouts)
     }
 
     /// The priors beside those with a part that repeats.
-    pub fn with_repeating(&self, plain: Tried, motion: &Smoothed, is_correlated: bool) -> Tried {
+    pub fn with_repeating(&self, plain: Tried, rotation: Rotation, is_correlated: bool) -> Tried {
         // What repeats is noise that comes down: of what was computed there is none.
         if self.is_computed() {
             return plain;
@@ -172,20 +187,19 @@ impl Problem<'_> {
             mut candidates,
             abouts,
         } = plain;
-        let rotation = Rotation::of(motion.angles());
         candidates.extend(self.repeating(rotation, &candidates, &abouts, is_correlated));
         Tried::new(candidates, abouts)
     }
 
     /// The priors with the likeliest correlation of the sample noise.
-    pub fn correlated(&self, white: Tried, motion: &Smoothed) -> Tried {
+    pub fn correlated(&self, white: Tried, rotation: Rotation) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
         let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
             let mut abouts = white.abouts.iter().zip(LADDERS);
             let about = abouts.find(|(_, ladder)| ladder.contains(&one.prior));
             about.map_or(*one, |(about, _)| about.of(one.prior).with_correlation(one))
         });
-        self.with_repeating(Tried::new(plain, white.abouts), motion, true)
+        self.with_repeating(Tried::new(plain, white.abouts), rotation, true)
     }
 
     /// Priors with a part that repeats every turn, or in each swing, where that may count beside the same prior without.
@@ -261,15 +275,10 @@ impl Problem<'_> {
             scales,
         }) = found.last().copied().filter(|_| first.powers == 0)
         {
-            // Beside what repeats, what follows the speed may leave no need of process noise: the likelihood has two maxima.
-            let quiet = Noise {
-                corner: scales.corners()[0],
-                ..noise
-            };
             let least = noise.likelihood + ENOUGH_RISE;
             let followed = |from| with(Prior { powers: 1, ..prior }, from, least);
-            let followed = [noise, quiet].into_iter().filter_map(followed);
-            found.extend(followed.reduce(likelier));
+            let starts = [noise, Linear::of(prior, scales).quiet(noise)].into_iter();
+            found.extend(starts.filter_map(followed).reduce(likelier));
         }
         // Forward selection: what is added stays where it makes the samples likelier.
         let mut extend = |rise: f64, by: fn(Prior) -> Prior| {

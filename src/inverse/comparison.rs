@@ -1,21 +1,24 @@
 //! Comparison of priors by marginal likelihood. The model is not linear: about a path that misses part of the motion, as one without
 //! mechanics does where samples are few, other priors are likely than about the motion that is found.
 
+use std::borrow::Cow;
+
 use super::candidates::{Candidate, Tried};
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
 use super::problem::Problem;
 use super::residual_tests::Whiteness;
+use super::rotation::Rotation;
 use super::smoother::Smoothed;
 
 /// Priors that were compared about a motion.
-struct Compared {
-    about: Smoothed,
+struct Compared<'a> {
+    about: Cow<'a, Smoothed>,
     tried: Tried,
     /// The motion with the likeliest of them.
     best: Option<Smoothed>,
 }
 
-impl Compared {
+impl Compared<'_> {
     /// Returns the motion whose likelihood rises as its path moves: priors are compared about that one again.
     fn moved(&self, before: f64) -> Option<&Smoothed> {
         let least = self.tried.likelihood().max(before) + SIGNIFICANT_RISE;
@@ -37,11 +40,12 @@ impl Problem<'_> {
     /// The smoothed motion with the likeliest prior, from a first one. Noise of the samples is correlated where that is
     /// suspected or the prediction errors say so, and the likelihood agrees.
     pub fn likeliest_from(&self, first: &Smoothed, suspected: bool) -> Smoothed {
-        let Compared { about, tried, best } = self.compared(first);
+        let rotation = Rotation::of(first.angles());
+        let Compared { about, tried, best } = self.compared(first, rotation);
         let Some(found) = best else {
             return Smoothed {
                 compared: tried.candidates,
-                ..about
+                ..about.into_owned()
             };
         };
         let innovations = found.estimates.iter().map(|e| e.innovation);
@@ -51,7 +55,7 @@ impl Problem<'_> {
         }
         let cost = self.cost(2.0);
         let least = tried.likelihood() + cost;
-        let correlated = self.correlated(tried, &about);
+        let correlated = self.correlated(tried, rotation);
         let is_likelier = correlated.likelihood() > least;
         let other = is_likelier.then(|| self.first_converged(&correlated.candidates, &about, None));
         let gain = |other: &Smoothed| other.noise.likelihood - found.noise.likelihood;
@@ -61,21 +65,21 @@ impl Problem<'_> {
 
     /// Compares all priors. A part that repeats may stand for what a path misses: it comes after the others, and they are compared
     /// with it about its own path.
-    fn compared(&self, first: &Smoothed) -> Compared {
-        let mut plain = self.plain(first.clone(), first.noise.corner);
+    fn compared<'a>(&self, first: &'a Smoothed, rotation: Rotation) -> Compared<'a> {
+        let mut plain = self.plain(Cow::Borrowed(first), first.noise.corner);
         let mut before = f64::NEG_INFINITY;
         loop {
             let Compared { about, tried, best } = plain;
             let corner = best.as_ref().unwrap_or(&about).noise.corner;
-            let tried = self.with_repeating(tried, &about, false);
+            let tried = self.with_repeating(tried, rotation, false);
             let best = self.first_converged(&tried.candidates, &about, best);
             let all = Compared { about, tried, best };
             let moved = all.moved(before).filter(|best| best.prior.cycle > 0);
-            let Some(moved) = moved.filter(|_| self.is_whole()) else {
+            let Some(moved) = moved else {
                 return all;
             };
             before = moved.noise.likelihood;
-            plain = self.plain(moved.clone(), corner);
+            plain = self.plain(Cow::Owned(moved.clone()), corner);
             if plain.likelihood() < before {
                 return all;
             }
@@ -84,23 +88,18 @@ impl Problem<'_> {
 
     /// Compares priors without a part that repeats about a motion, from a first corner frequency of their noise, rad/s, then about
     /// the motion with the likeliest of them.
-    fn plain(&self, mut about: Smoothed, mut corner: f64) -> Compared {
+    fn plain<'a>(&self, mut about: Cow<'a, Smoothed>, mut corner: f64) -> Compared<'a> {
         let mut before = f64::NEG_INFINITY;
         loop {
             let tried = self.tried(&about, corner);
             let best = self.first_converged(&tried.candidates, &about, None);
             let all = Compared { about, tried, best };
-            let Some(moved) = all.moved(before).filter(|_| self.is_whole()) else {
+            let Some(moved) = all.moved(before) else {
                 return all;
             };
             (before, corner) = (moved.noise.likelihood, moved.noise.corner);
-            about = moved.clone();
+            about = Cow::Owned(moved.clone());
         }
-    }
-
-    /// True if hyper-parameters are estimated by all nodes: the paths of a longer record are those of its stretches.
-    fn is_whole(&self) -> bool {
-        self.sampled() == self.all()
     }
 
     /// A motion, or with the likeliest prior among its own without a part that repeats: a pulse is no change of intensity, but jumps
@@ -121,7 +120,7 @@ impl Problem<'_> {
     /// Compares all priors about a motion.
     pub fn all_tried(&self, motion: &Smoothed) -> Tried {
         let plain = self.tried(motion, motion.noise.corner);
-        self.with_repeating(plain, motion, false)
+        self.with_repeating(plain, Rotation::of(motion.angles()), false)
     }
 
     /// The likeliest smoothed motion of those whose iterations come to rest, and of one that is known. About the path that they come

@@ -44,24 +44,21 @@ impl Problem<'_> {
         [theta, omega, unknown, 0.0, 0.0]
     }
 
-    /// Returns the states of a prior along a smoothed motion, at ranges of nodes.
+    /// Returns the states of a prior along a motion that was smoothed at all nodes or at these, at ranges of nodes.
     pub fn path_of(&self, prior: Prior, from: &Smoothed, ranges: Vec<Range<usize>>) -> Path {
-        if prior == from.prior {
-            return from.path().along(ranges);
-        }
-        let along = |range: &Range<usize>| {
-            let first = range.start;
-            parallel::list(range.len(), |k| {
-                self.state_of(
-                    prior,
-                    &from.estimates[first + k],
-                    self.grid.times[first + k],
-                )
-            })
-        };
+        let nodes: Vec<usize> = ranges.iter().flat_map(Clone::clone).collect();
+        let is_whole = from.estimates.len() == self.grid.len();
+        let states = parallel::list(nodes.len(), |k| {
+            let estimate = &from.estimates[if is_whole { nodes[k] } else { k }];
+            match prior == from.prior {
+                true => estimate.state,
+                false => self.state_of(prior, estimate, self.grid.times[nodes[k]]),
+            }
+        });
+        let repeating = from.repeating.clone();
         Path {
-            states: ranges.iter().flat_map(along).collect(),
-            repeating: None,
+            states,
+            repeating: repeating.filter(|_| prior == from.prior),
             ranges,
         }
     }

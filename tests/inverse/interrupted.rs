@@ -63,7 +63,7 @@ fn it_may_be_asked_to_end_at_any_time() {
     for record in records() {
         let begun = Instant::now();
         assert!(recovered(&record, Some(Stop::default())).is_ok());
-        let whole = begun.elapsed();
+        let mut whole = begun.elapsed();
         let mut heeded = 0;
         for part in 0..12 {
             let stop = Stop::default();
@@ -76,10 +76,14 @@ fn it_may_be_asked_to_end_at_any_time() {
                 thread::sleep(wait);
                 asks.request();
             });
-            // The delay depends on the machine; a request made before the start takes effect at once.
+            // The delay depends on the machine and on what else it does; a request made before the start takes effect at once.
+            let begun = Instant::now();
             match recovered(&record, Some(stop)) {
                 Err(Error::Interrupted) => heeded += 1,
-                Ok(_) => assert!(part > 0),
+                Ok(_) => {
+                    assert!(part > 0);
+                    whole = whole.min(begun.elapsed());
+                }
                 Err(error) => panic!("{error}"),
             }
             asked.join().expect("no panic");
