@@ -37,9 +37,9 @@ pub trait Motion {
         None
     }
 
-    /// Returns the quantities that depend on time alone, computed once per instant of a [`Batch`].
-    fn of_time(&self, _t: f64) -> [f64; 2] {
-        [0.0; 2]
+    /// Returns the quantities that depend on time (s) alone, computed once for the instants of a [`Batch`].
+    fn of_times(&self, _t: &[f64; NODES]) -> [[f64; 2]; NODES] {
+        [[0.0; 2]; NODES]
     }
 
     /// Computes accelerations and powers of a batch.
@@ -63,7 +63,7 @@ pub const NODES: usize = 12;
 pub struct Batch {
     /// Times, s.
     pub t: [f64; NODES],
-    /// Values of [`Motion::of_time`] at these times.
+    /// Values of [`Motion::of_times`] at these times.
     pub of_time: [[f64; 2]; NODES],
     /// Whole turns to be added to the angles.
     pub turns: f64,
@@ -162,8 +162,8 @@ impl Motion for Counted<'_> {
         self.motion.corner_on_way(from, to)
     }
 
-    fn of_time(&self, t: f64) -> [f64; 2] {
-        self.motion.of_time(t)
+    fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
+        self.motion.of_times(t)
     }
 
     fn fill(&self, batch: &mut Batch) {

@@ -72,7 +72,7 @@ impl AtRest<'_> {
         let state = self
             .equation
             .curve()
-            .enclosed_state(&piece, loads.meet_slider());
+            .enclosed_state(&piece, loads.slider_use());
         let terms = &self.terms;
         let effects = UnitLoadEffects {
             torque: terms.pose.dtheta,

@@ -15,7 +15,7 @@ use crate::scene::Instant;
 pub struct Instants<'a, const N: usize> {
     /// Times, s.
     pub t: &'a [f64; N],
-    /// Loads of time alone at these times: [`super::Loads::of_time`].
+    /// Loads of time alone at these times: [`super::Loads::of_times`].
     pub of_time: &'a [LoadValue; N],
     /// Whole turns to add to the crank angles.
     pub turns: f64,

@@ -24,6 +24,17 @@ pub struct EnclosedState {
     pub dx: Interval,
 }
 
+/// What loads make of the slider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SliderUse {
+    /// Nothing.
+    None,
+    /// They move it, and do not depend on its position or velocity.
+    Moved,
+    /// They depend on its position or velocity.
+    Read,
+}
+
 /// Effects of a unit load.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct UnitLoadEffects {
@@ -75,8 +86,9 @@ pub(super) struct PoseRanges {
 }
 
 impl Linkage {
-    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles.
-    pub(super) fn enclose(&self, theta: Interval) -> PoseRanges {
+    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles; `sharply`: by the sense of the slider between
+    /// dead centres.
+    pub(super) fn enclose(&self, theta: Interval, sharply: bool) -> PoseRanges {
         let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
         let sin_phi = (point(self.e) + point(self.r) * sin) * point(1.0 / self.l);
@@ -86,7 +98,7 @@ impl Linkage {
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
         let x = along + point(self.s * self.l) * cos_phi;
-        let (x, dx) = match self.margin() > 0.0 {
+        let (x, dx) = match sharply && self.margin() > 0.0 {
             true => self.between_dead_centres(theta, x, per),
             false => {
                 let of_rod = point(self.s) * along * sin_phi * per;
@@ -137,10 +149,10 @@ impl Linkage {
         }
     }
 
-    /// Returns the enclosed state of a motion over the crank angle; `with_slider`: with x and x', if loads need
-    /// them.
-    pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
-        let ranges = with_slider.then(|| self.enclose(piece.angle));
+    /// Returns the enclosed state of a motion over the crank angle, with x and x' if loads need them.
+    pub fn enclosed_state(&self, piece: &MotionPiece, slider: SliderUse) -> EnclosedState {
+        let sharply = slider == SliderUse::Read;
+        let ranges = (slider != SliderUse::None).then(|| self.enclose(piece.angle, sharply));
         let [x, dx] = ranges.map_or([Interval::WHOLE; 2], |ranges| [ranges.x, ranges.dx]);
         EnclosedState {
             t: piece.t,
@@ -174,13 +186,13 @@ impl Rocker {
 }
 
 impl Curve {
-    /// Returns the enclosed state of a motion over the coordinate; `with_slider`: with x and x', always if q is not θ.
-    pub fn enclosed_state(&self, piece: &MotionPiece, with_slider: bool) -> EnclosedState {
+    /// Returns the enclosed state of a motion over the coordinate, with x and x' if loads need them or q is not θ.
+    pub fn enclosed_state(&self, piece: &MotionPiece, slider: SliderUse) -> EnclosedState {
         let point = Interval::point;
         let ranges = match &self.chart {
-            Chart::Crank => return self.linkage().enclosed_state(piece, with_slider),
+            Chart::Crank => return self.linkage().enclosed_state(piece, slider),
             Chart::Rod(swapped) => {
-                let ranges = swapped.enclose(piece.angle);
+                let ranges = swapped.enclose(piece.angle, true);
                 match swapped.s < 0.0 {
                     true => PoseRanges {
                         angle: point(PI) - ranges.angle,

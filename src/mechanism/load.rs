@@ -207,17 +207,17 @@ impl Loads {
     /// Returns torque and force of the loads whose work must be integrated.
     pub fn without_potential(&self, now: &Instant) -> LoadValue {
         let [called] = self.beside_time(&[*now]);
-        self.damped(now).plus(self.of_time(now.t)).plus(called)
+        let [timed] = self.of_times(&[now.t]);
+        self.damped(now).plus(timed).plus(called)
     }
 
-    /// Returns torque and force of the loads that depend on time (s) alone.
-    pub fn of_time(&self, t: f64) -> LoadValue {
-        let now = Instant {
+    /// Returns torque and force of the loads that depend on time alone, at some times, s.
+    pub fn of_times<const N: usize>(&self, t: &[f64; N]) -> [LoadValue; N] {
+        let now = t.map(|t| Instant {
             t,
             ..Instant::default()
-        };
-        let [value] = NonlinearLoads::sums([&self.timed], &[now]);
-        value
+        });
+        NonlinearLoads::sums([&self.timed], &now)
     }
 
     /// Returns torque and force of the loads without a known potential that depend on the position alone, at slider
@@ -262,7 +262,8 @@ impl Loads {
     /// Returns torque and force of the loads whose work must be integrated, without dry loads.
     pub fn non_conservative(&self, now: &Instant) -> LoadValue {
         let [called] = NonlinearLoads::sums([&self.placed, &self.mixed], &[*now]);
-        self.damped(now).plus(self.of_time(now.t)).plus(called)
+        let [timed] = self.of_times(&[now.t]);
+        self.damped(now).plus(timed).plus(called)
     }
 
     /// Returns torque and force of all loads together, also for a slider whose motion is not that of the ideal joints.

@@ -43,7 +43,7 @@ pub use clearance::{Depth, JointTouch, LooseMechanism, NormalForce, Rubbing, Spe
 pub use configuration_curve::Curve;
 pub use curve_equation::{CurveEquation, CurveTerms};
 pub use curve_pose::CurvePose;
-pub use enclosed_state::{EnclosedState, UnitLoadEffects};
+pub use enclosed_state::{EnclosedState, SliderUse, UnitLoadEffects};
 pub use equivalent::EquivalentMasses;
 pub use extremes::{Extreme, Extremes};
 pub use first_order::FirstOrder;

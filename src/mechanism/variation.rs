@@ -1,7 +1,7 @@
 //! Variation of the loads between the nodes of a panel or a step, from enclosures of the loads.
 
 use super::nonlinear_loads::NonlinearLoads;
-use super::{CurveEquation, CurveTerms, EnclosedState, Linkage, Loads, UnitLoadEffects};
+use super::{CurveEquation, CurveTerms, EnclosedState, Linkage, Loads, SliderUse, UnitLoadEffects};
 use crate::numeric::enclosure::{Enclosed, Interval, MotionPiece, Variation};
 use crate::scene::{Load, Variable, Variables};
 
@@ -104,9 +104,13 @@ impl Loads {
         self.placed.loads().any(varies_with_position)
     }
 
-    /// Whether the loads act on the slider or depend on its position or velocity.
-    pub fn meet_slider(&self) -> bool {
-        self.on_slider() || !self.reads().disjoint(Variables::X.or(Variables::V))
+    /// Returns what the loads make of the slider.
+    pub fn slider_use(&self) -> SliderUse {
+        match self.reads().disjoint(Variables::X.or(Variables::V)) {
+            false => SliderUse::Read,
+            true if self.on_slider() => SliderUse::Moved,
+            true => SliderUse::None,
+        }
     }
 
     /// Returns the variation of the loads, times their effects, on a piece of a motion and in an `ellipse` around it.
@@ -143,7 +147,7 @@ impl Loads {
             angle,
             speed: none,
         };
-        let state = &linkage.enclosed_state(&piece, self.meet_slider());
+        let state = &linkage.enclosed_state(&piece, self.slider_use());
         let varying = self.placed.0.iter();
         let varying = varying.filter(|(load, _)| varies_with_position(load));
         Around { state, ellipse }.loads(varying, state.unit_load_effects())

@@ -37,7 +37,10 @@ fn near_one(exponent: f64) -> f64 {
     let shifted = exponent * LOG2_E + shift;
     let (twos, bits) = (shifted - shift, shifted.to_bits());
     // ln 2 in two parts (fdlibm, e_exp.c): products of the first with small whole numbers are exact.
-    let ln_2 = [0x3FE6_2E42_FEE0_0000, 0x3DEA_39EF_3579_3C76].map(f64::from_bits);
+    let ln_2 = [
+        f64::from_bits(0x3FE6_2E42_FEE0_0000),
+        f64::from_bits(0x3DEA_39EF_3579_3C76),
+    ];
     let (high, low) = (exponent - twos * ln_2[0], twos * ln_2[1]);
     let r = high - low;
     let z = r * r;

@@ -5,7 +5,7 @@ use super::row::{Row, RowMaker};
 use super::stick_slip::CurveMotion;
 use crate::engine::step::Step;
 use crate::engine::time::MotionState;
-use crate::engine::{Batch, Counted, Motion};
+use crate::engine::{Batch, Counted, Motion, NODES};
 use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -40,7 +40,7 @@ impl Motion for Equation {
 
     fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
         let loads = self.loads();
-        let seen = self.linkage().enclosed_state(reach, loads.meet_slider());
+        let seen = self.linkage().enclosed_state(reach, loads.slider_use());
         let force = loads.variation(&seen, seen.unit_load_effects(), ellipse);
         force.times(1.0 / self.terms(reach.angle.middle()).inertia.m)
     }
@@ -49,9 +49,9 @@ impl Motion for Equation {
         self.loads().row_on_way(from, to)
     }
 
-    fn of_time(&self, t: f64) -> [f64; 2] {
-        let LoadValue { torque, force } = self.loads().of_time(t);
-        [torque, force]
+    fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
+        let values = self.loads().of_times(t);
+        values.map(|LoadValue { torque, force }| [torque, force])
     }
 
     fn fill(&self, batch: &mut Batch) {

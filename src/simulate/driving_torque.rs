@@ -118,7 +118,7 @@ impl ConstantSpeedMotion<'_> {
             speed: Interval::point(self.speed),
         };
         let (loads, linkage) = (self.equation().loads(), self.equation().linkage());
-        let state = linkage.enclosed_state(&near, loads.meet_slider());
+        let state = linkage.enclosed_state(&near, loads.slider_use());
         loads.unbounded(&state).is_some() && has_pole(|aside| self.torque(t + aside), width)
     }
 

@@ -30,16 +30,20 @@ struct StepEnd {
 }
 
 impl RoundoffPropagation {
-    /// Starts with one rounding of the angle if the run moves, with none in a balance. Tolerances are absolute below
-    /// one radian: the start is resolved to a unit in the last place of one, however small the angle.
-    pub fn new(method: Method, moves: bool) -> RoundoffPropagation {
-        let angle = if moves { ROUNDING_DEVIATION } else { 0.0 };
+    /// Starts without roundoff, as in a balance.
+    pub fn new(method: Method) -> RoundoffPropagation {
         RoundoffPropagation {
-            covariance: CovarianceFactor::default().plus_independent(angle, 0.0),
+            covariance: CovarianceFactor::default(),
             rounds_states: !matches!(method, Method::Picard),
             evaluations: 0,
             before: None,
         }
+    }
+
+    /// Adds the rounding of the angle at a start in motion. Tolerances are absolute below one radian: the start is
+    /// resolved to a unit in the last place of one, however small the angle.
+    pub fn round_start(&mut self) {
+        self.round(1.0, 0.0);
     }
 
     /// Adds the rounding of a state: angle, rad, and speed, rad/s.

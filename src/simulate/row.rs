@@ -119,7 +119,7 @@ impl RowMaker {
             angle: near(at.angle.radians()),
             speed: near(at.speed),
         };
-        let unbounded = || loads.unbounded(&linkage.enclosed_state(&piece, loads.meet_slider()));
+        let unbounded = || loads.unbounded(&linkage.enclosed_state(&piece, loads.slider_use()));
         loads.without_value(&now).or_else(unbounded).cloned()
     }
 

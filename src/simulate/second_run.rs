@@ -6,8 +6,8 @@ use std::slice::Iter;
 use std::sync::LazyLock;
 
 use super::result::ErrorEstimate;
-use crate::engine::NODES;
 use crate::engine::step::Step;
+use crate::engine::{NODES, collocation};
 use crate::numeric::gauss;
 use crate::scene::LEAST_RUN_TOLERANCE;
 
@@ -16,11 +16,22 @@ pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Returns the tolerance of a second run, whose error is then negligible beside that of the first: finer by 1000, near
-/// rounding by 10 at least.
+/// Returns the tolerance of a second run of another method than collocation, whose error is then negligible beside that
+/// of the first.
 pub(super) fn finer(tolerance: f64) -> f64 {
-    let (ratio, least_ratio) = (1e3, 10.0);
-    (tolerance / ratio).max(LEAST_RUN_TOLERANCE.min(tolerance / least_ratio))
+    let ratio = 1e3;
+    above_rounding(tolerance / ratio, tolerance)
+}
+
+/// Returns the tolerance of a second run by collocation.
+pub(super) fn collocation_tolerance(tolerance: f64) -> f64 {
+    above_rounding(collocation::tolerance_beside(tolerance), tolerance)
+}
+
+/// Raises the tolerance of a second run to the least one, or to a tenth of the first if that is less.
+fn above_rounding(second: f64, first: f64) -> f64 {
+    let least_ratio = 10.0;
+    second.max(LEAST_RUN_TOLERANCE.min(first / least_ratio))
 }
 
 /// Returns the tolerance of a second run by the method of the first.

@@ -49,7 +49,6 @@ impl AccelerationSlopes {
         let aside = (end.theta - start.theta)
             .abs()
             .clamp(least_angle, most_angle);
-        let timed = motion.depends_on_time();
         let later = 1e-5 * h;
         let mut faster = AtNodes::default();
         // Four states at each node: on the motion, and with another angle, speed and time.
@@ -68,10 +67,9 @@ impl AccelerationSlopes {
             beside.theta[4 * i + 1] += aside;
             beside.omega[4 * i + 2] += faster[i];
             beside.t[4 * i + 3] += later;
-            if timed {
-                beside.of_time[4 * i..4 * i + 3].fill(motion.of_time(t));
-                beside.of_time[4 * i + 3] = motion.of_time(t + later);
-            }
+        }
+        if motion.depends_on_time() {
+            beside.of_time = motion.of_times(&beside.t);
         }
         motion.fill(&mut beside);
         let gain = |i: usize, j: usize| beside.alpha[4 * i + j] - beside.alpha[4 * i];

@@ -144,7 +144,7 @@ impl Motion for CurveMotion<'_> {
         let seen = self
             .equation
             .curve()
-            .enclosed_state(reach, loads.meet_slider());
+            .enclosed_state(reach, loads.slider_use());
         loads.variation(
             &seen,
             self.equation.unit_load_effects(reach.angle, c),

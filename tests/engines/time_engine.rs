@@ -678,7 +678,7 @@ fn a_batch_is_what_its_instants_are() {
             let omega: [f64; 9] = std::array::from_fn(|i| 3.0 - 1.7 * i as f64);
             let t: [f64; 9] = std::array::from_fn(|i| 0.1 * i as f64);
             let (mut alpha, mut power) = ([0.0; 9], [0.0; 9]);
-            let of_time = t.map(|t| equation.loads().of_time(t));
+            let of_time = equation.loads().of_times(&t);
             let at = Instants {
                 t: &t,
                 of_time: &of_time,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use slider_crank::mechanism::{Class, Curve, Limits, Linkage};
+use slider_crank::mechanism::{Class, Curve, Limits, Linkage, SliderUse};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::numeric::enclosure::{Interval, MotionPiece};
 use slider_crank::scene::{Branch, Geometry};
@@ -42,7 +42,7 @@ fn every_position_lies_in_its_enclosure() {
                     angle: q,
                     speed: Interval::point(1.0),
                 };
-                let seen = curve.enclosed_state(&reach, true);
+                let seen = curve.enclosed_state(&reach, SliderUse::Read);
                 for part in 0..=20 {
                     let q = low + width * f64::from(part) / 20.0;
                     let place = curve.pose(q);
@@ -85,7 +85,7 @@ fn between_dead_centres_the_slider_keeps_its_direction() {
                         angle: Interval::new(low, high),
                         speed: Interval::new(3.0, 5.0),
                     };
-                    let v = linkage.enclosed_state(&reach, true).v;
+                    let v = linkage.enclosed_state(&reach, SliderUse::Read).v;
                     let middle = linkage.pose(0.5 * (low + high)).dx;
                     assert!(v.low >= 0.0 || v.high <= 0.0, "{v:?} {offset} {turn}");
                     assert!(v.contains(3.0 * middle), "{v:?} {middle}");

@@ -68,6 +68,8 @@ pub struct Resolution<'a> {
     pub tail: f64,
     /// True for a second run: panels unlike those of the first, and the roundoff of both runs.
     pub is_second: bool,
+    /// True if another engine may take over before the crank is slow.
+    pub may_decline: bool,
     /// Result of the run to compare with, if it is known.
     pub guide: Option<Guide<'a>>,
     /// Limit of load evaluations and tabulated positions.

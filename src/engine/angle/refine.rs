@@ -22,11 +22,13 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         {
             return panel.raise(self.dynamics, degree, attempt);
         }
-        // Below this fraction of the largest kinetic energy, and this half length, rad, a crank that seems to stop on
-        // the panel is not followed further: the panels would shrink geometrically, and a step in time passes.
-        let (slow_share, short_half) = (0.1, 0.25);
-        let slows = kinetic < slow_share * fastest && panel.half().abs() < short_half;
-        if self.gives_up && why == Unsolved::Stops && slows {
+        // A crank that seems to stop within this half length, rad, is not followed further: the panels would shrink
+        // geometrically, and a step in time passes. Where the angle is asked for, only below this fraction of the
+        // largest kinetic energy.
+        let (short_half, slow_share) = (0.25, 0.1);
+        let stops = why == Unsolved::Stops && panel.half().abs() < short_half;
+        let leaves = self.may_decline || kinetic < slow_share * fastest;
+        if self.gives_up && stops && leaves {
             return Err(NotApplicable::TooSlow);
         }
         // Rounded times leave too few places on a panel that the crank passes this quickly.

@@ -43,6 +43,8 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     pub limit: WorkLimit<'a>,
     /// True if a crank that seems to stop is given up before its panels become tiny.
     pub(super) gives_up: bool,
+    /// True if another engine may take over before the crank is slow.
+    pub(super) may_decline: bool,
 }
 
 impl<'a, D: Dynamics> PanelStepper<'a, D> {
@@ -91,6 +93,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             positions,
             limit: resolution.limit,
             gives_up: true,
+            may_decline: resolution.may_decline,
         })
     }
 

@@ -46,12 +46,9 @@ impl Collocation<'_> {
     pub(super) fn prepare(&mut self, state: &State, h: f64) {
         let batch = &mut self.batch;
         batch.turns = state.turns;
-        let timed = self.motion.depends_on_time();
-        for (i, c) in self.tableau.nodes.iter().enumerate() {
-            batch.t[i] = state.t + c * h;
-            if timed {
-                batch.of_time[i] = self.motion.of_time(batch.t[i]);
-            }
+        batch.t = self.tableau.nodes.map(|c| state.t + c * h);
+        if self.motion.depends_on_time() {
+            batch.of_time = self.motion.of_times(&batch.t);
         }
         batch.alpha = match (guided(self.guide, &batch.t), &self.last) {
             (Some(alpha), _) => alpha,
@@ -91,7 +88,7 @@ impl Collocation<'_> {
         let apart = 1e-3 * h;
         let mut later = self.batch;
         later.t = later.t.map(|t| t + apart);
-        later.of_time = later.t.map(|t| self.motion.of_time(t));
+        later.of_time = self.motion.of_times(&later.t);
         self.motion.fill(&mut later);
         let slope = |i: usize| ((later.alpha[i] - self.batch.alpha[i]) / apart).abs();
         let steepest = (0..NODES).map(slope).fold(0.0, f64::max);
@@ -134,13 +131,23 @@ fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
     Some(alpha)
 }
 
+/// Length of a step in a run that is to show the error of another, over that of the other's step: the part of its error
+/// that remains, by the order 2 NODES, is 6e-5.
+const LENGTH_RATIO: f64 = 2.0 / 3.0;
+
+/// Returns the tolerance of a run that is to show the error of another one by the same method. Steps are chosen by the
+/// decay of the acceleration inside, which is of order NODES.
+pub fn tolerance_beside(tolerance: f64) -> f64 {
+    tolerance * LENGTH_RATIO.powi(NODES as i32)
+}
+
 /// Returns the longest step (s) at a time (s) beside a guide by the same method, which errs alike where its steps are
-/// not chosen by the tolerance. Three quarters of the length reduce the error to a thousandth, by the order 2 NODES.
+/// not chosen by the tolerance.
 pub(super) fn length_beside(guide: &[Step], t: f64) -> f64 {
     let now = guide.partition_point(|step| step.end.t <= t);
     // A step cut short by a corner says little: the one before counts, too.
     let steps = guide.get(now.saturating_sub(1)..=now).unwrap_or_default();
     let of_method = steps.iter().filter(|step| step.has_polynomial());
     let longest = of_method.map(Step::length).reduce(f64::max);
-    longest.map_or(f64::INFINITY, |longest| 0.75 * longest)
+    longest.map_or(f64::INFINITY, |longest| LENGTH_RATIO * longest)
 }

@@ -17,6 +17,7 @@ use super::resolution::Feature;
 use super::step::{Node, Step};
 use super::time::{Finish, MotionState, Settings};
 use super::{Counted, Motion};
+pub use attempt::tolerance_beside;
 use attempt::{Accepted, Attempt, Rejection};
 use state::State;
 use step::Collocation;

@@ -7,7 +7,7 @@ use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Attempt, Rejection, last_term};
 use super::newton::Newton;
 use super::state::State;
-use super::tableau::Tableau;
+use super::tableau::{Tableau, combined};
 use crate::numeric::gauss::legendre_series;
 
 /// Collocation method with the data that a step hands to the next.
@@ -210,14 +210,7 @@ impl<'a> Collocation<'a> {
     /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
     pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
-        let (mut speed, mut angle) = ([0.0; NODES], [0.0; NODES]);
-        for j in 0..NODES {
-            let alpha = batch.alpha[j];
-            for i in 0..NODES {
-                speed[i] += tableau.speed[j][i] * alpha;
-                angle[i] += tableau.angle[j][i] * alpha;
-            }
-        }
+        let [speed, angle] = tableau.integrals(&batch.alpha);
         let (mut angle_change, mut speed_change) = (0.0f64, 0.0f64);
         for i in 0..NODES {
             let omega = state.omega + (h * speed[i] + state.omega_low);
@@ -232,13 +225,7 @@ impl<'a> Collocation<'a> {
     }
 
     fn coefficients(&self) -> [f64; NODES] {
-        let mut coefficients = [0.0; NODES];
-        for (alpha, row) in self.batch.alpha.iter().zip(&self.tableau.legendre) {
-            for k in 0..NODES {
-                coefficients[k] += row[k] * alpha;
-            }
-        }
-        coefficients
+        combined(&self.tableau.legendre, &self.batch.alpha)
     }
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.

@@ -264,7 +264,7 @@ impl Dynamics for AngleModel<'_> {
         let seen = self
             .equation
             .linkage()
-            .enclosed_state(reach, loads.meet_slider());
+            .enclosed_state(reach, loads.slider_use());
         let friction_torque = self.guide.map(|guide| guide.unit_load_effects(reach.angle));
         let arms = seen
             .unit_load_effects()

@@ -13,7 +13,7 @@ use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
 use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
-use super::super::second_run::{Comparison, MARGIN, finer, same_method_tolerance};
+use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
 use super::super::stick_slip::CurveMotion;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
@@ -58,7 +58,7 @@ pub(super) fn estimate(
             first_engine,
             is_second: true,
             extent: Extent::Duration(result.state.t),
-            resolution: second_run_resolution(pass.resolution.tail, guide),
+            resolution: second_run_resolution(pass.resolution, guide),
             time_settings,
             // Another part of a turn than in the first run.
             resume_rotation: 1.4 * TAU,
@@ -71,11 +71,8 @@ pub(super) fn estimate(
         let mut observer = SecondRunObserver {
             equation: pass.task.equation(),
             motion: &motion,
-            // Panels over the angle state their roundoff themselves.
-            rounding: RoundoffPropagation::new(
-                time_settings.method,
-                moves && first_engine == Engine::Time,
-            ),
+            moves,
+            rounding: RoundoffPropagation::new(time_settings.method),
             comparison: Comparison::with(&record.checkpoints),
         };
         let mut best = finer.run(&motion, &mut observer).ok()?;
@@ -161,7 +158,7 @@ fn second_settings<'a>(
     };
     let collocation = Settings {
         method: Method::Picard,
-        tolerance: finer(pass.time_settings.tolerance),
+        tolerance: collocation_tolerance(pass.time_settings.tolerance),
         guide: &record.checkpoints.first,
         ..again
     };
@@ -211,6 +208,8 @@ fn of_crank(result: &PassResult, covariance: CovarianceFactor) -> [f64; 2] {
 struct SecondRunObserver<'m, 'a> {
     equation: &'m Equation,
     motion: &'m Counted<'m>,
+    /// Whether the motion does not begin in a balance.
+    moves: bool,
     rounding: RoundoffPropagation,
     comparison: Comparison<'a>,
 }
@@ -267,7 +266,10 @@ impl PassObserver for SecondRunObserver<'_, '_> {
     }
 
     fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, _: Reason) {
-        if curve.is_none() && from.t > 0.0 {
+        // Panels over the angle state their roundoff themselves.
+        if from.t == 0.0 && self.moves {
+            self.rounding.round_start();
+        } else if from.t > 0.0 && curve.is_none() {
             self.rounding.round(from.angle.rest, from.speed);
         }
     }

@@ -14,7 +14,7 @@ use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::numeric::root;
-use crate::plan::Engine;
+use crate::plan::{Engine, Method};
 use crate::scene::Extent;
 
 impl Pass<'_, '_> {
@@ -144,6 +144,7 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
     Resolution {
         tail: (share * task.scene.run.tolerance).max(LEAST_TAIL),
         is_second: false,
+        may_decline: task.options.method == Method::Auto,
         guide: None,
         limit: task.options.limit(),
     }
@@ -151,14 +152,18 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 
 /// Returns the resolution of a second run, finer by far: its panels have higher degrees than those of the guide, or end
 /// elsewhere, as two runs on the same panels would have the same error.
-pub(super) fn second_run_resolution(tail: f64, guide: Option<Guide<'_>>) -> Resolution<'_> {
+pub(super) fn second_run_resolution<'a>(
+    first: Resolution<'a>,
+    guide: Option<Guide<'a>>,
+) -> Resolution<'a> {
     // The series decay further than to the tail, as the degrees are few.
     let ratio = 1e4;
     Resolution {
-        tail: (tail / ratio).max(LEAST_TAIL),
+        tail: (first.tail / ratio).max(LEAST_TAIL),
         is_second: true,
         guide,
         limit: WorkLimit::NONE,
+        ..first
     }
 }
 
