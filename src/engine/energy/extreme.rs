@@ -3,7 +3,6 @@
 use super::panel::Panel;
 use super::piece::{Piece, Turning};
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, SERIES_ROUNDING, Values};
-use crate::numeric::root;
 
 /// Best of the points whose value is no smaller than at their neighbours. Beside a point a value gains at most the
 /// larger difference from a neighbour.
@@ -76,24 +75,47 @@ pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Peak; 2]
 }
 
 impl Panel {
-    /// Returns the largest sign·|speed| at or beside one of some points, where the derivative of the speed vanishes,
-    /// rad/s.
-    fn largest_beside(&self, points: &[f64], index: usize, sign: f64) -> f64 {
-        let (from, to) = (index.saturating_sub(1), (index + 1).min(points.len() - 1));
+    /// Returns the largest sign·|speed| at or beside one of some points, where it is no smaller than at the neighbours and
+    /// `known`, rad/s: by Newton's method for a zero of the derivative, kept between the neighbours.
+    fn largest_beside(&self, points: &[f64], index: usize, sign: f64, known: f64) -> f64 {
         let bend = self.slope.derivative();
-        // The speed is dθ/dx over dt/dx.
+        let twist = bend.derivative();
+        // The speed is dθ/dx over dt/dx: its derivative has the sign of this rate.
+        let uphill = sign * self.piece.span().signum();
         let rate = |x: f64| {
+            let [bend, twist] = bend.values_with(&twist, x);
             let bent = match self.piece.d2theta() {
                 0.0 => 0.0,
                 bent => bent * self.slope.value(x),
             };
-            bent - self.piece.dtheta(x) * bend.value(x)
+            let dtheta = self.piece.dtheta(x);
+            [bent - dtheta * bend, -dtheta * twist].map(|of| uphill * of)
         };
-        let speed = |x: f64| sign * self.speed(x).abs();
-        // At an extreme the speed is insensitive to the position.
-        let zero = root::within(rate, points[from], points[to], 1e-9);
-        zero.map_or(f64::NEG_INFINITY, speed)
-            .max(speed(points[index]))
+        let [mut low, mut high] =
+            [index.saturating_sub(1), (index + 1).min(points.len() - 1)].map(|i| points[i]);
+        let mut x = points[index];
+        // A step squares the error, to which the speed at an extreme is insensitive.
+        let (last_step, resolved) = (1e-5, 1e-9);
+        while high - low > resolved {
+            let [rate, slope] = rate(x);
+            match rate > 0.0 {
+                true => low = x,
+                false => high = x,
+            }
+            let newton = x - rate / slope;
+            let is_inside = low < newton && newton < high;
+            let next = if is_inside {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
+            let step = (next - x).abs();
+            x = next;
+            if is_inside && step < last_step {
+                break;
+            }
+        }
+        known.max(sign * self.speed(x).abs())
     }
 
     /// Returns the largest sign·|speed| at and between some points, rad/s; `known` if none is larger.
@@ -108,7 +130,7 @@ impl Panel {
         let mut best = known;
         local_extremes(speeds, |j, of, step| {
             if of == sign && exceeds(sign * speeds[j] + step, best) {
-                best = best.max(self.largest_beside(points, j, sign));
+                best = best.max(self.largest_beside(points, j, sign, sign * speeds[j]));
             }
         });
         best
@@ -142,12 +164,13 @@ pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     for panel in panels {
         let Peak {
             point,
+            value,
             bound,
             rival,
-            ..
         } = peak(panel);
         if exceeds(speed(panel, bound), best) {
-            best = best.max(panel.largest_beside(panel.rule.points(), point, sign));
+            let known = speed(panel, value);
+            best = best.max(panel.largest_beside(panel.rule.points(), point, sign, known));
         }
         if exceeds(speed(panel, rival), best) {
             best = panel.largest_among(panel.rule.points(), sign, best);
