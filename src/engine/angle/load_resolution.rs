@@ -154,7 +154,9 @@ impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
         table.push[0] - table.damping[0] * speed + squared + state_loads
     }
 
-    fn missed(&self, at: f64) -> f64 {
-        self.force(at) - self.non_conservative.value(2.0 * at - 1.0)
+    fn missed(&self, at: &mut [f64]) {
+        for at in at {
+            *at = self.force(*at) - self.non_conservative.value(2.0 * *at - 1.0);
+        }
     }
 }

@@ -18,14 +18,20 @@ pub trait ForceAlong {
         None
     }
 
+    /// Returns a position between two others at which the motion turns back: a force of the speed may be analytic on
+    /// either side only.
+    fn turn(&self, _from: f64, _to: f64) -> Option<f64> {
+        None
+    }
+
     /// Returns the force at a position.
     fn force(&self, _at: f64) -> f64 {
         0.0
     }
 
-    /// Returns the force at a position minus its interpolant through the nodes.
-    fn missed(&self, _at: f64) -> f64 {
-        0.0
+    /// Replaces some positions by the force there minus its interpolant through the nodes.
+    fn missed(&self, at: &mut [f64]) {
+        at.fill(0.0);
     }
 }
 
@@ -96,6 +102,7 @@ pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<U
         is_missed: false,
         first: None,
         corner: None,
+        has_turned: false,
     };
     search.run(force)
 }
@@ -149,12 +156,14 @@ struct Search {
     /// First piece on which the nodes miss anything.
     first: Option<[f64; 2]>,
     corner: Option<f64>,
+    /// True once a piece was divided at a turn.
+    has_turned: bool,
 }
 
 impl Search {
     /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
     fn run(mut self, force: &impl ForceAlong) -> Option<Unresolved> {
-        let mut left = [[0.0; 2]; HALVINGS as usize + 2];
+        let mut left = [[0.0; 2]; HALVINGS as usize + 4];
         let begin = self.criterion.end(force, |end| [0.0, end]);
         let end = self.criterion.end(force, |end| [1.0 - end, 1.0]);
         // A corner made up by rounding there would hide the first one inside.
@@ -181,8 +190,14 @@ impl Search {
                 Some(nodes) => self.compare(force, [from, to], nodes),
                 None if self.is_least(&varies, to - from) => self.note_corner(&varies, from, to),
                 None => {
-                    let [before, behind] = self.divided(force, from, to);
+                    let around_turn = self.around_turn(force, from, to);
+                    let [before, behind] =
+                        around_turn.unwrap_or_else(|| self.divided(force, from, to));
                     left[count] = [behind, to];
+                    if around_turn.is_some() {
+                        count += 1;
+                        left[count] = [before, behind];
+                    }
                     left[count + 1] = [from, before];
                     count += 2;
                 }
@@ -205,6 +220,18 @@ impl Search {
         };
         self.corner_at(at);
         [at - least, at + least]
+    }
+
+    /// Returns the ends of a short part about the first turn in a piece, once.
+    fn around_turn(&mut self, force: &impl ForceAlong, from: f64, to: f64) -> Option<[f64; 2]> {
+        if self.has_turned {
+            return None;
+        }
+        let least = self.criterion.least;
+        let inside = |at: &f64| at - least > from && at + least < to;
+        let at = force.turn(from, to).filter(inside)?;
+        self.has_turned = true;
+        Some([at - least, at + least])
     }
 
     fn corner_at(&mut self, at: f64) {
@@ -273,7 +300,9 @@ impl Search {
         }
         let half = 0.5 * (to - from);
         let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
-        let missed = (0..nodes).map(|i| size(force.missed(at(i)))).sum::<f64>();
+        let mut missed = Vec::from_iter((0..nodes).map(at));
+        force.missed(&mut missed);
+        let missed = missed.into_iter().map(size).sum::<f64>();
         let integral = missed / nodes as f64 * (to - from);
         if integral > self.criterion.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);

@@ -4,8 +4,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::numeric::median::range;
-
 /// Interval of all numbers from one to another.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Interval {
@@ -154,10 +152,14 @@ impl Mul for Interval {
             self.high * other.low,
             self.high * other.high,
         ];
-        if ends.iter().any(|end| end.is_nan()) {
+        // NaN also of infinities of both signs.
+        if ends.iter().sum::<f64>().is_nan() {
             return Interval::WHOLE;
         }
-        let (low, high) = range(&ends);
-        Interval { low, high }
+        let [a, b, c, d] = ends;
+        Interval {
+            low: a.min(b).min(c.min(d)),
+            high: a.max(b).max(c.max(d)),
+        }
     }
 }

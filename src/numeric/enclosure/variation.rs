@@ -111,15 +111,21 @@ impl Variation {
 }
 
 /// Returns two sizes of ellipses in which this number of nodes leaves less than this part. The smaller serves a
-/// function that grows slowly, as with a singularity nearby, the larger rather an entire function.
+/// function that grows slowly, the larger rather an entire function.
 pub fn ellipses(nodes: usize, part: f64) -> [f64; 2] {
-    // The bound 4M/(ρ − 1) is taken as a hundred times the change of the function on the piece.
-    let smaller = (part / 100.0).powf(-1.0 / nodes as f64);
+    let smaller = least_ellipse(nodes, part);
     [smaller, smaller * smaller]
 }
 
-/// Returns the variation of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
-/// ellipses, if no more than `most`.
+/// Returns about the size of the smallest ellipse in which this number of nodes leaves less than this part of the change
+/// of a function on the piece.
+fn least_ellipse(nodes: usize, part: f64) -> f64 {
+    // The bound 4M/(ρ − 1) is taken as a hundred times the change.
+    (part / 100.0).powf(-1.0 / nodes as f64)
+}
+
+/// Returns the variation of a function on a piece, and the least number of nodes that resolve it to `allowed` by one of
+/// these ellipses, or by the smallest that may serve where a singularity is nearby, if no more than `most`.
 pub fn resolved(
     variation: impl Fn(f64) -> Variation,
     ellipses: [f64; 2],
@@ -136,8 +142,11 @@ pub fn resolved(
         nodes.filter(|nodes| *nodes <= most)
     };
     let nodes = few(first, smaller).or_else(|| {
-        (!first.deviates(allowed)).then_some(())?;
-        few(variation(larger), larger)
+        let other = match first.deviates(allowed) {
+            true => Some(least_ellipse(most, allowed / first.change)).filter(|of| *of < smaller),
+            false => Some(larger),
+        };
+        other.and_then(|other| few(variation(other), other))
     });
     (first, nodes)
 }
