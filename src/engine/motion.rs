@@ -44,6 +44,11 @@ pub trait Motion {
 
     /// Computes accelerations and powers of a batch.
     fn fill(&self, batch: &mut Batch) {
+        self.fill_one_by_one(batch);
+    }
+
+    /// Computes accelerations and powers of a batch, each by itself.
+    fn fill_one_by_one(&self, batch: &mut Batch) {
         for i in 0..NODES {
             let angle = Angle::new(batch.turns, batch.theta[i]);
             (batch.alpha[i], batch.power[i]) =

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::lagrange::forward;
 use super::load::instant;
-use super::{Equation, Inertia, LoadValue, Normal, Terms};
+use super::{CurveEquation, Equation, GuideForces, Inertia, LoadValue, Normal, Sense, Terms};
 use crate::numeric::LANES;
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
@@ -23,6 +23,17 @@ pub struct Instants<'a, const N: usize> {
     pub theta: &'a [f64; N],
     /// Crank speeds, rad/s.
     pub omega: &'a [f64; N],
+}
+
+impl<const N: usize> Instants<'_, N> {
+    /// Variables of the loads, from the positions at these instants.
+    fn seen(&self, sides: &TermArrays<N>) -> [Instant; N] {
+        std::array::from_fn(|i| {
+            let angle = Angle::new(self.turns, self.theta[i]);
+            let position = [sides.x[i], sides.dx[i]];
+            instant(self.t[i], angle, self.omega[i], position)
+        })
+    }
 }
 
 /// Terms of the equation at N crank angles.
@@ -70,10 +81,7 @@ impl Equation {
     ) {
         let sides = self.term_arrays(at.theta);
         let loads = self.loads();
-        let now: [Instant; N] = std::array::from_fn(|i| {
-            let angle = Angle::new(at.turns, at.theta[i]);
-            instant(at.t[i], angle, at.omega[i], [sides.x[i], sides.dx[i]])
-        });
+        let now = at.seen(&sides);
         let called = loads.beside_time(&now);
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
@@ -125,6 +133,50 @@ impl Equation {
         count: usize,
     ) -> (TermArrays<N>, [Normal; N]) {
         first(self, theta, count, |at| self.normal_without_cases(at))
+    }
+}
+
+impl CurveEquation {
+    /// Whether the coordinate is the crank angle, all of which is far from limits: near them, sines that differ in the
+    /// last place are other motions.
+    pub fn may_be_batched(&self) -> bool {
+        self.curve().is_crank_angle() && self.curve().linkage().stays_far_from_limits()
+    }
+
+    /// Computes θ̈ (rad/s²) at N instants of a crank whose slider slides with c = −μ sgn(v) sgn(N), against dry loads in
+    /// these senses, and the power (W) of all that has no potential; equal to [`super::Free::sliding`] to rounding.
+    pub fn accelerations<const N: usize>(
+        &self,
+        at: &Instants<'_, N>,
+        (c, opposed): (f64, Sense),
+        alpha: &mut [f64; N],
+        power: &mut [f64; N],
+    ) {
+        let equation = self.over_crank_angle();
+        let (sides, normals) = match c {
+            0.0 => (equation.term_arrays(at.theta), [Normal::default(); N]),
+            _ => equation.first_guided(at.theta, N),
+        };
+        let loads = self.loads();
+        let now = at.seen(&sides);
+        let called = loads.smooth_beside_time(&now);
+        for i in 0..N {
+            let (dx, omega, normal) = (sides.dx[i], at.omega[i], &normals[i]);
+            let mut other = loads.damped(&now[i]).plus(at.of_time[i]).plus(called[i]);
+            if loads.are_dry() {
+                other = other.plus(loads.dry(&now[i], opposed));
+            }
+            let load = loads.with_potential_at(sides.x[i]).plus(other);
+            let free = normal.place + normal.of_load(load) + normal.square * (omega * omega);
+            let rubbed = GuideForces::rubbing(free, normal.force, c).friction * dx;
+            let inertia = Inertia {
+                m: sides.m[i],
+                half_dm: sides.half_dm[i],
+            };
+            let q = load.generalized(dx) + rubbed;
+            alpha[i] = forward(&inertia, sides.dv[i], q, omega);
+            power[i] = (other.generalized(dx) + rubbed) * omega;
+        }
     }
 }
 

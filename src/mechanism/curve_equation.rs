@@ -72,6 +72,11 @@ impl CurveEquation {
         &self.curve
     }
 
+    /// Returns the equation over the crank angle.
+    pub(super) fn over_crank_angle(&self) -> &Equation {
+        &self.equation
+    }
+
     /// Returns the loads.
     pub fn loads(&self) -> &Loads {
         self.equation.loads()

@@ -1,6 +1,6 @@
 //! Guide normal force of a crank that turns, and the generalized force of guide friction on the crank.
 
-use super::{CurvePose, CurveTerms, Equation, Path, Terms};
+use super::{CurvePose, CurveTerms, Equation, LoadValue, Path, Terms};
 
 /// Normal force without friction: N = place + torque·τ + force·F + square·ω², with the loads τ (torque on the crank)
 /// and F (force on the slider).
@@ -51,6 +51,11 @@ impl Equation {
 }
 
 impl Normal {
+    /// Returns the part of a load, N.
+    pub(super) fn of_load(&self, load: LoadValue) -> f64 {
+        self.torque * load.torque + self.force * load.force
+    }
+
     /// Returns the generalized force of friction on the crank, N m, per newton of the normal force without friction: x'
     /// c/(1 − c κ) for c = −μ sgn(v) sgn(N). None where rigid bodies jam, μ |κ| ≥ 1.
     pub fn grip(&self, c: f64) -> Option<f64> {

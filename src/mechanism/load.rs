@@ -125,8 +125,8 @@ impl Loads {
 
     /// Returns the first load that has no finite value.
     pub fn without_value(&self, now: &Instant) -> Option<&Load> {
-        let mut classes = self.classes().into_iter();
-        classes.find_map(|class| class.without_value(now))
+        let classes = self.classes();
+        classes.into_iter().find_map(|of| of.without_value(now))
     }
 
     /// Whether a load depends on speed or time other than by linear damping.
@@ -186,9 +186,8 @@ impl Loads {
 
     /// Returns the next time after `t` (s) at which a load is not smooth in time; infinite if none is known.
     pub fn next_corner(&self, t: f64) -> f64 {
-        self.called()
-            .map(|load| load.next_corner(t))
-            .fold(f64::INFINITY, f64::min)
+        let corners = self.called().map(|load| load.next_corner(t));
+        corners.fold(f64::INFINITY, f64::min)
     }
 
     /// Returns torque and force of all loads together.
@@ -206,17 +205,13 @@ impl Loads {
 
     /// Returns torque and force of the loads whose work must be integrated.
     pub fn without_potential(&self, now: &Instant) -> LoadValue {
-        let [called] = self.beside_time(&[*now]);
-        let [timed] = self.of_times(&[now.t]);
-        self.damped(now).plus(timed).plus(called)
+        let [dry] = NonlinearLoads::sums([&self.dry], &[*now]);
+        self.non_conservative(now).plus(dry)
     }
 
     /// Returns torque and force of the loads that depend on time alone, at some times, s.
     pub fn of_times<const N: usize>(&self, t: &[f64; N]) -> [LoadValue; N] {
-        let now = t.map(|t| Instant {
-            t,
-            ..Instant::default()
-        });
+        let now = t.map(|t| instant(t, Angle::default(), 0.0, [0.0; 2]));
         NonlinearLoads::sums([&self.timed], &now)
     }
 
@@ -251,6 +246,11 @@ impl Loads {
         NonlinearLoads::sums([&self.placed, &self.mixed, &self.dry], now)
     }
 
+    /// Returns torque and force of the nonlinear loads at some instants, but for dry ones and those of time alone.
+    pub(super) fn smooth_beside_time<const N: usize>(&self, now: &[Instant; N]) -> [LoadValue; N] {
+        NonlinearLoads::sums([&self.placed, &self.mixed], now)
+    }
+
     /// Returns torque and force of the loads that are linear in the speed.
     pub(super) fn damped(&self, now: &Instant) -> LoadValue {
         LoadValue {
@@ -261,7 +261,7 @@ impl Loads {
 
     /// Returns torque and force of the loads whose work must be integrated, without dry loads.
     pub fn non_conservative(&self, now: &Instant) -> LoadValue {
-        let [called] = NonlinearLoads::sums([&self.placed, &self.mixed], &[*now]);
+        let [called] = self.smooth_beside_time(&[*now]);
         let [timed] = self.of_times(&[now.t]);
         self.damped(now).plus(timed).plus(called)
     }

@@ -46,6 +46,16 @@ pub fn legendre_series<const K: usize, const N: usize>(
     sum
 }
 
+/// Returns a bound of the change of a Legendre series over a part of [−1, 1], as a fraction of its length, by Markov's
+/// inequality: |P_k'| ≤ k(k + 1)/2.
+pub fn legendre_change(coefficients: &[f64], part: f64) -> f64 {
+    let changes = coefficients.iter().enumerate().map(|(k, c)| {
+        let steepest = (k * (k + 1)) as f64;
+        c.abs() * (steepest * part).min(2.0)
+    });
+    changes.sum()
+}
+
 /// Integrates f over [from, to] by the rule with three points on each of `panels` equal panels.
 pub fn composite(f: impl Fn(f64) -> f64, from: f64, to: f64, panels: u32) -> f64 {
     let h = (to - from) / f64::from(panels);

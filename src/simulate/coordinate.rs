@@ -6,7 +6,7 @@ use super::stick_slip::CurveMotion;
 use crate::engine::step::Step;
 use crate::engine::time::MotionState;
 use crate::engine::{Batch, Counted, Motion, NODES};
-use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue};
+use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue, Loads};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
 use crate::scene::Variable;
@@ -50,23 +50,38 @@ impl Motion for Equation {
     }
 
     fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
-        let values = self.loads().of_times(t);
-        values.map(|LoadValue { torque, force }| [torque, force])
+        of_times(self.loads(), t)
     }
 
     fn fill(&self, batch: &mut Batch) {
-        let of_time = batch
-            .of_time
-            .map(|[torque, force]| LoadValue { torque, force });
-        let at = Instants {
-            t: &batch.t,
-            of_time: &of_time,
-            turns: batch.turns,
-            theta: &batch.theta,
-            omega: &batch.omega,
-        };
-        self.accelerations(&at, &mut batch.alpha, &mut batch.power);
+        fill_with(batch, |at, alpha, power| {
+            self.accelerations(at, alpha, power)
+        });
     }
+}
+
+/// Computes accelerations and powers of a batch over the crank angle.
+pub(super) fn fill_with(
+    batch: &mut Batch,
+    accelerations: impl FnOnce(&Instants<'_, NODES>, &mut [f64; NODES], &mut [f64; NODES]),
+) {
+    let of_time = batch
+        .of_time
+        .map(|[torque, force]| LoadValue { torque, force });
+    let at = Instants {
+        t: &batch.t,
+        of_time: &of_time,
+        turns: batch.turns,
+        theta: &batch.theta,
+        omega: &batch.omega,
+    };
+    accelerations(&at, &mut batch.alpha, &mut batch.power);
+}
+
+/// Returns torque (N m) and force (N) of the loads of time alone at some times, s.
+pub(super) fn of_times(loads: &Loads, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
+    let values = loads.of_times(t);
+    values.map(|LoadValue { torque, force }| [torque, force])
 }
 
 /// Coordinate of a step, with its equation of motion.

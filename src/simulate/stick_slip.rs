@@ -4,10 +4,11 @@ use std::cell::Cell;
 
 use EventIndex::{CrankRate, DeadCentre, JamDistance, Limit, NormalForce, Speed, TurnLimit};
 
+use super::coordinate;
 use super::guide_friction::NEARBY_ANGLE;
-use crate::engine::Motion;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ANGLE_ROUNDING;
+use crate::engine::{Batch, Motion, NODES};
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -117,6 +118,21 @@ impl Motion for CurveMotion<'_> {
     fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
         let (acceleration, _, power) = self.state(t, angle, speed);
         (acceleration, power)
+    }
+
+    fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
+        coordinate::of_times(self.equation.loads(), t)
+    }
+
+    fn fill(&self, batch: &mut Batch) {
+        match self.phase {
+            StickSlipPhase::Sliding { c, opposed } if self.equation.may_be_batched() => {
+                coordinate::fill_with(batch, |at, alpha, power| {
+                    self.equation.accelerations(at, (c, opposed), alpha, power);
+                });
+            }
+            _ => self.fill_one_by_one(batch),
+        }
     }
 
     fn depends_on_time(&self) -> bool {

@@ -37,6 +37,28 @@ fn formula(text: String) -> Load {
     Load::Expression(Expression::parse(&text).unwrap())
 }
 
+/// A crank that turns back soon is not followed over the angle, whose panels shrink before each turning point:
+/// I θ̈ = A cos(wt).
+#[test]
+fn a_swing_costs_no_more_than_in_time() {
+    let (amplitude, w, speed, duration) = (3.0, 30.0, 1.0, 1.5);
+    let scene = wheel()
+        .torque(formula(format!("{amplitude}*cos({w}*t)")))
+        .start(0.4, speed)
+        .duration(duration);
+    let [auto, in_time] = [Method::Auto, Method::Time].map(|method| run(&scene, method).summary);
+    let a = amplitude / INERTIA / w;
+    let angle = 0.4 + speed * duration + a / w * (1.0 - (w * duration).cos());
+    let stated = auto.error_estimate.expect("an estimate").theta_rad;
+    let error = (auto.last.theta_rad - angle).abs();
+    assert!(
+        error <= 2.0 * stated && stated < 1e-9,
+        "{error:e} {stated:e}"
+    );
+    let [of_auto, of_time] = [&auto, &in_time].map(|of| of.evaluations as f64);
+    assert!(of_auto < 1.2 * of_time, "{of_auto} {of_time}");
+}
+
 fn mechanism() -> impl Strategy<Value = Scene> {
     let lengths = (0.03..0.15f64, 0.3..2.0f64, -0.7..0.7f64, any::<bool>());
     let masses = (0.5..3.0f64, 0.1..1.0f64, 0.1..1.0f64);

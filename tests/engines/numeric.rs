@@ -282,7 +282,9 @@ mod student {
 mod gauss {
     use std::cell::Cell;
 
-    use slider_crank::numeric::gauss::{adaptive, composite, legendre};
+    use slider_crank::numeric::gauss::{
+        adaptive, composite, legendre, legendre_change, legendre_series,
+    };
 
     #[test]
     fn polynomials_are_integrated_exactly() {
@@ -307,6 +309,27 @@ mod gauss {
         assert!(adaptive(&wave, &[2e4 - 1.0, 2e4 + 1.0], 0.0).abs() < 1e-11);
         assert!(calls.get() < 500, "{}", calls.get());
         assert!((composite(|x| x.powi(5), 0.0, 2.0, 3) - 64.0 / 6.0).abs() < 1e-13);
+    }
+
+    /// Over parts of [−1, 1], long and short: a bound that is not exceeded, and reached by each polynomial alone.
+    #[test]
+    fn a_legendre_series_changes_by_no_more_than_its_bound() {
+        for part in [1.0f64, 0.5, 0.1, 0.01] {
+            let places: [f64; 101] = std::array::from_fn(|i| -1.0 + 0.02 * i as f64);
+            let change = |coefficients: &[f64; 8]| {
+                let ends = places.map(|x| (x + 2.0 * part).min(1.0));
+                let [here, there] = [places, ends].map(|x| legendre_series(coefficients, x));
+                let pairs = here.into_iter().zip(there);
+                pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+            };
+            let mixed: [f64; 8] = std::array::from_fn(|k| (1.7 * k as f64).sin());
+            assert!(change(&mixed) <= legendre_change(&mixed, part));
+            for k in 1..8 {
+                let single: [f64; 8] = std::array::from_fn(|i| f64::from(u8::from(i == k)));
+                let ratio = change(&single) / legendre_change(&single, part);
+                assert!((0.4..=1.0 + 1e-12).contains(&ratio), "{k} {part}: {ratio}");
+            }
+        }
     }
 
     /// Beside its zero the integrand is rounding of the argument, which no bisection removes.

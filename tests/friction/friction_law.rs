@@ -5,7 +5,9 @@ use crate::support::random::{Case, any_class, case, cases, magnitude, rotating_c
 use crate::support::run::Run;
 use crate::support::{close, condition};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Curve, CurveEquation, Equation, Free, FromRest, Linkage};
+use slider_crank::mechanism::{
+    Curve, CurveEquation, Equation, Free, FromRest, Instants, Linkage, Sense,
+};
 use slider_crank::numeric::angle::Angle;
 use slider_crank::scene::{Friction, Scene};
 
@@ -34,6 +36,26 @@ fn on_curve(case: &Case, omega: f64) -> OnCurve {
 impl OnCurve {
     fn crank_acceleration(&self, acceleration: f64) -> f64 {
         self.dtheta * acceleration + self.d2theta * self.speed * self.speed
+    }
+}
+
+impl OnCurve {
+    /// Returns θ̈ and the power of a motion that slides, from instants that are evaluated together.
+    fn among_others(&self, case: &Case, c: f64) -> [f64; 2] {
+        let apart = [-0.3, 0.0, 0.2, 0.4, 0.7];
+        let t = apart.map(|apart| case.t + apart);
+        let at = Instants {
+            t: &t,
+            of_time: &self.equation.loads().of_times(&t),
+            turns: self.q.turns,
+            theta: &apart.map(|apart| self.q.rest + apart),
+            omega: &apart.map(|apart| self.speed * (1.0 + apart)),
+        };
+        let (mut alpha, mut power) = ([0.0; 5], [0.0; 5]);
+        let way = (c, Sense::default());
+        self.equation
+            .accelerations(&at, way, &mut alpha, &mut power);
+        [alpha[1], power[1]]
     }
 }
 
@@ -97,6 +119,19 @@ fn check_forces(case: &Case, mu: f64, tolerance: f64) {
             tolerance,
         );
         let size_alpha = 10.0 * (size_alpha + run.size(alpha) / run.expected_terms()[0]);
+        if on.equation.curve().is_crank_angle() {
+            let [together, power] = on.among_others(case, free.opposing(mu, sgn_v));
+            close(
+                "sliding, with others",
+                together,
+                alpha,
+                size_alpha,
+                tolerance,
+            );
+            let one = free.power + touch.friction * free.dx * on.speed;
+            let size_power = (size * free.dx * on.speed).abs() + free.power.abs();
+            close("power, with others", power, one, size_power, tolerance);
+        }
         close(
             "sliding",
             on.crank_acceleration(acceleration),

@@ -1,5 +1,7 @@
 //! One collocation step: sweeps to convergence, then error estimate and next length.
 
+use multiversion::multiversion;
+
 use super::super::resolution::{Feature, NodeCriterion, OnStep, Unresolved, finest, unresolved};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
@@ -7,7 +9,7 @@ use super::super::{Batch, Counted, Motion, NODES};
 use super::attempt::{Accepted, Attempt, Rejection, last_term};
 use super::newton::Newton;
 use super::state::State;
-use super::tableau::{Tableau, combined};
+use super::tableau::Tableau;
 use crate::numeric::gauss::legendre_series;
 
 /// Collocation method with the data that a step hands to the next.
@@ -210,7 +212,8 @@ impl<'a> Collocation<'a> {
     /// Updates angles and speeds from the accelerations; returns the largest change in units of the tolerance.
     pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
-        let [speed, angle] = tableau.integrals(&batch.alpha);
+        let [speed, angle] =
+            [&tableau.speed, &tableau.angle].map(|rows| combined(rows, &batch.alpha));
         let (mut angle_change, mut speed_change) = (0.0f64, 0.0f64);
         for i in 0..NODES {
             let omega = state.omega + (h * speed[i] + state.omega_low);
@@ -280,4 +283,16 @@ impl<'a> Collocation<'a> {
 
 fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Returns the sum of rows times factors.
+#[multiversion(targets("x86_64+avx2"))]
+fn combined(rows: &[[f64; NODES]; NODES], factors: &[f64; NODES]) -> [f64; NODES] {
+    let mut sums = [0.0; NODES];
+    for j in 0..NODES {
+        for i in 0..NODES {
+            sums[i] += rows[j][i] * factors[j];
+        }
+    }
+    sums
 }

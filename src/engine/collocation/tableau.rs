@@ -3,8 +3,6 @@
 
 use std::sync::OnceLock;
 
-use multiversion::multiversion;
-
 use super::super::NODES;
 use super::super::step::TERMS;
 use crate::numeric::gauss;
@@ -36,11 +34,6 @@ impl Tableau {
         TABLEAU.get_or_init(Tableau::new)
     }
 
-    /// Returns the integrals of an acceleration at the nodes, to the nodes: once and twice, over steps of length 1.
-    pub fn integrals(&self, alpha: &[f64; NODES]) -> [[f64; NODES]; 2] {
-        [combined(&self.speed, alpha), combined(&self.angle, alpha)]
-    }
-
     fn new() -> Tableau {
         let rule: [(f64, f64); NODES] =
             std::array::from_fn(|j| gauss::legendre(NODES as u32, NODES - 1 - j));
@@ -68,18 +61,6 @@ impl Tableau {
             powers: powers(),
         }
     }
-}
-
-/// Returns the sum of rows times factors.
-#[multiversion(targets("x86_64+avx2"))]
-pub fn combined(rows: &[[f64; NODES]; NODES], factors: &[f64; NODES]) -> [f64; NODES] {
-    let mut sums = [0.0; NODES];
-    for j in 0..NODES {
-        for i in 0..NODES {
-            sums[i] += rows[j][i] * factors[j];
-        }
-    }
-    sums
 }
 
 fn transposed(rows: [[f64; NODES]; NODES]) -> [[f64; NODES]; NODES] {

@@ -4,7 +4,7 @@ use super::{Feature, ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
 use crate::engine::{Batch, Counted, Motion, NODES};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
-use crate::numeric::gauss::legendre_series;
+use crate::numeric::gauss::{legendre_change, legendre_series};
 use crate::numeric::root;
 
 /// Motion on a step.
@@ -68,7 +68,7 @@ impl ForceAlong for OnStep<'_> {
         // Between the ends the speed deviates from a straight line by less than the change of its slope allows.
         let speed = match self.nodes {
             Some(coefficients) => {
-                let bend = bend(coefficients, to - from);
+                let bend = legendre_change(coefficients, to - from);
                 let [slope] = legendre_series(coefficients, [from + to - 1.0]);
                 let is_monotone = slope.abs() > bend;
                 ends.widened(if is_monotone { 0.0 } else { 0.5 * bend * aside })
@@ -106,17 +106,8 @@ impl ForceAlong for OnStep<'_> {
 
     fn missed(&self, at: &mut [f64]) {
         let Some(coefficients) = self.nodes else {
-            at.fill(0.0);
-            return;
+            return at.fill(0.0);
         };
-        // A batch takes the time of about half as many single evaluations.
-        if 2 * at.len() < NODES {
-            for at in at {
-                let [shown] = legendre_series(coefficients, [2.0 * *at - 1.0]);
-                *at = self.force(*at) - shown;
-            }
-            return;
-        }
         for some in at.chunks_mut(NODES) {
             let places: [f64; NODES] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
             let mut batch = Batch {
@@ -127,9 +118,7 @@ impl ForceAlong for OnStep<'_> {
             for i in 0..NODES {
                 (batch.theta[i], batch.omega[i]) = self.step.at(batch.t[i]);
             }
-            if self.motion.depends_on_time() {
-                batch.of_time = self.motion.of_times(&batch.t);
-            }
+            batch.of_time = self.motion.of_times(&batch.t);
             self.motion.fill(&mut batch);
             let shown = legendre_series(coefficients, places.map(|at| 2.0 * at - 1.0));
             for (i, missed) in some.iter_mut().enumerate() {
@@ -137,14 +126,4 @@ impl ForceAlong for OnStep<'_> {
             }
         }
     }
-}
-
-/// Returns a bound of the change, rad/s², of a Legendre series of the acceleration on a part of the step, by Markov's
-/// inequality: |P_k'| ≤ k(k + 1)/2.
-fn bend(coefficients: &[f64; NODES], part: f64) -> f64 {
-    let changes = coefficients.iter().enumerate().map(|(k, c)| {
-        let steepest = (k * (k + 1)) as f64;
-        c.abs() * (steepest * part).min(2.0)
-    });
-    changes.sum()
 }
