@@ -3,6 +3,7 @@
 use super::super::resolution::Unresolved;
 use super::super::step::Step;
 use super::super::{Motion, NODES};
+use super::guide::guided;
 use super::state::State;
 use super::step::Collocation;
 use crate::numeric::gauss::legendre_series;
@@ -112,42 +113,4 @@ impl Collocation<'_> {
 /// Returns the larger of the last two Legendre coefficients, rad/s²: the error of the motion inside a step.
 pub(super) fn last_term([.., a, b]: &[f64; NODES]) -> f64 {
     a.abs().max(b.abs())
-}
-
-/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
-/// without its own polynomial, which is less accurate inside than at its ends.
-fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
-    let past = guide.partition_point(|step| step.end.t < t[0]);
-    let mut steps = guide[past..].iter();
-    let mut step = steps.next()?;
-    let mut alpha = [0.0; NODES];
-    for (alpha, t) in alpha.iter_mut().zip(t) {
-        while step.end.t < *t {
-            step = steps.next()?;
-        }
-        let knows = step.start.t <= *t && step.has_polynomial();
-        *alpha = knows.then(|| step.acceleration_at(*t))?;
-    }
-    Some(alpha)
-}
-
-/// Length of a step in a run that is to show the error of another, over that of the other's step: the part of its error
-/// that remains, by the order 2 NODES, is 6e-5.
-const LENGTH_RATIO: f64 = 2.0 / 3.0;
-
-/// Returns the tolerance of a run that is to show the error of another one by the same method. Steps are chosen by the
-/// decay of the acceleration inside, which is of order NODES.
-pub fn tolerance_beside(tolerance: f64) -> f64 {
-    tolerance * LENGTH_RATIO.powi(NODES as i32)
-}
-
-/// Returns the longest step (s) at a time (s) beside a guide by the same method, which errs alike where its steps are
-/// not chosen by the tolerance.
-pub(super) fn length_beside(guide: &[Step], t: f64) -> f64 {
-    let now = guide.partition_point(|step| step.end.t <= t);
-    // A step cut short by a corner says little: the one before counts, too.
-    let steps = guide.get(now.saturating_sub(1)..=now).unwrap_or_default();
-    let of_method = steps.iter().filter(|step| step.has_polynomial());
-    let longest = of_method.map(Step::length).reduce(f64::max);
-    longest.map_or(f64::INFINITY, |longest| LENGTH_RATIO * longest)
 }

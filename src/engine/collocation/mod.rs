@@ -6,6 +6,7 @@
 //! the same equations. The polynomial is the motion inside the step, too.
 
 mod attempt;
+mod guide;
 mod newton;
 mod state;
 mod step;
@@ -17,8 +18,8 @@ use super::resolution::Feature;
 use super::step::{Node, Step};
 use super::time::{Finish, MotionState, Settings};
 use super::{Counted, Motion};
-pub use attempt::tolerance_beside;
 use attempt::{Accepted, Attempt, Rejection};
+pub use guide::tolerance_beside;
 use state::State;
 use step::Collocation;
 pub use tableau::Tableau;
@@ -51,7 +52,7 @@ pub fn run(
         let corner = motion.next_corner(state.t).min(hidden);
         let until = corner.min(settings.t_end);
         let left = until - state.t;
-        let beside_guide = attempt::length_beside(settings.guide, state.t);
+        let beside_guide = guide::length_beside(settings.guide, state.t);
         let way = wanted.min(TAU / state.omega.abs()).min(beside_guide);
         let length = fitted(way, left);
         // Length that results from the rounded times.

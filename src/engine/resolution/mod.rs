@@ -5,7 +5,7 @@ mod steps;
 
 use search::Search;
 
-use crate::numeric::enclosure::{Variation, ellipses, resolved};
+use crate::numeric::enclosure::{Variation, ellipses, is_resolved_closely, resolved};
 
 pub use steps::{OnStep, finest, unresolved_at};
 
@@ -90,7 +90,10 @@ pub enum Feature {
 
 /// Returns the position at which a panel or a step has to end for its nodes to resolve the force; none if they do.
 pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<Unresolved> {
-    if criterion.nodes_on(force, 0.0, 1.0).1.is_some() {
+    let (varies, resolved) = criterion.nodes_on(force, 0.0, 1.0);
+    let of_whole = |ellipse| force.variation(0.0, 1.0, ellipse);
+    let NodeCriterion { allowed, nodes, .. } = criterion;
+    if resolved.is_some() || is_resolved_closely(of_whole, varies.change, allowed, nodes) {
         return None;
     }
     Search::new(criterion).run(force)

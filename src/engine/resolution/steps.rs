@@ -108,6 +108,14 @@ impl ForceAlong for OnStep<'_> {
         let Some(coefficients) = self.nodes else {
             return at.fill(0.0);
         };
+        // A batch takes the time of about half as many single evaluations.
+        if 2 * at.len() < NODES {
+            for at in at {
+                let [shown] = legendre_series(coefficients, [2.0 * *at - 1.0]);
+                *at = self.force(*at) - shown;
+            }
+            return;
+        }
         for some in at.chunks_mut(NODES) {
             let places: [f64; NODES] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
             let mut batch = Batch {

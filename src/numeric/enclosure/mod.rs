@@ -19,7 +19,9 @@ use std::ops::Neg;
 pub use interval::Interval;
 pub use partition::{PanelResolution, partition};
 pub use rectangle::Rectangle;
-pub use variation::{CORNER_SHARE, MotionPiece, Variation, ellipses, has_pole, resolved};
+pub use variation::{
+    CORNER_SHARE, MotionPiece, Variation, ellipses, has_pole, is_resolved_closely, resolved,
+};
 
 /// Enclosure of values over an interval and around it in the complex plane.
 #[derive(Clone, Copy, Debug, PartialEq)]

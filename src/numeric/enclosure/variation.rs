@@ -124,8 +124,8 @@ fn least_ellipse(nodes: usize, part: f64) -> f64 {
     (part / 100.0).powf(-1.0 / nodes as f64)
 }
 
-/// Returns the variation of a function on a piece, and the least number of nodes that resolve it to `allowed` by one of
-/// these ellipses, or by the smallest that may serve where a singularity is nearby, if no more than `most`.
+/// Returns the variation of a function on a piece, and the least number of nodes that resolve it to `allowed` by these
+/// ellipses, if no more than `most`.
 pub fn resolved(
     variation: impl Fn(f64) -> Variation,
     ellipses: [f64; 2],
@@ -142,13 +142,23 @@ pub fn resolved(
         nodes.filter(|nodes| *nodes <= most)
     };
     let nodes = few(first, smaller).or_else(|| {
-        let other = match first.deviates(allowed) {
-            true => Some(least_ellipse(most, allowed / first.change)).filter(|of| *of < smaller),
-            false => Some(larger),
-        };
-        other.and_then(|other| few(variation(other), other))
+        (!first.deviates(allowed)).then_some(())?;
+        few(variation(larger), larger)
     });
     (first, nodes)
+}
+
+/// Whether this number of nodes resolves to `allowed` a function of this change on the piece, by the smallest ellipse
+/// that may serve: a larger one may hold a singularity.
+pub fn is_resolved_closely(
+    variation: impl Fn(f64) -> Variation,
+    change: f64,
+    allowed: f64,
+    nodes: usize,
+) -> bool {
+    let ellipse = least_ellipse(nodes, allowed / change);
+    let least = || variation(ellipse).nodes(ellipse, allowed);
+    ellipse.is_finite() && least().is_some_and(|least| least <= nodes)
 }
 
 /// Returns true if a function whose enclosure is unbounded, given by the signed distance from a place that is known to

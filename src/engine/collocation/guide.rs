@@ -1,0 +1,42 @@
+//! Run beside a guide, which is another run from the same start whose error it is to show.
+
+use super::super::NODES;
+use super::super::step::Step;
+
+/// Length of a step over that of the guide's step: the part of the guide's error that remains, by the order 2 NODES, is
+/// 6e-5.
+const LENGTH_RATIO: f64 = 2.0 / 3.0;
+
+/// Returns the tolerance beside a guide of the same method and this tolerance. Steps are chosen by the decay of the
+/// acceleration inside, which is of order NODES.
+pub fn tolerance_beside(tolerance: f64) -> f64 {
+    tolerance * LENGTH_RATIO.powi(NODES as i32)
+}
+
+/// Returns the longest step (s) at a time (s) beside a guide by the same method, which errs alike where its steps are
+/// not chosen by the tolerance.
+pub(super) fn length_beside(guide: &[Step], t: f64) -> f64 {
+    let now = guide.partition_point(|step| step.end.t <= t);
+    // A step cut short by a corner says little: the one before counts, too.
+    let steps = guide.get(now.saturating_sub(1)..=now).unwrap_or_default();
+    let of_method = steps.iter().filter(|step| step.has_polynomial());
+    let longest = of_method.map(Step::length).reduce(f64::max);
+    longest.map_or(f64::INFINITY, |longest| LENGTH_RATIO * longest)
+}
+
+/// Returns accelerations (rad/s²) of the guide at times (s) in rising order; none where it has no step, or a step
+/// without its own polynomial, which is less accurate inside than at its ends.
+pub(super) fn guided(guide: &[Step], t: &[f64; NODES]) -> Option<[f64; NODES]> {
+    let past = guide.partition_point(|step| step.end.t < t[0]);
+    let mut steps = guide[past..].iter();
+    let mut step = steps.next()?;
+    let mut alpha = [0.0; NODES];
+    for (alpha, t) in alpha.iter_mut().zip(t) {
+        while step.end.t < *t {
+            step = steps.next()?;
+        }
+        let knows = step.start.t <= *t && step.has_polynomial();
+        *alpha = knows.then(|| step.acceleration_at(*t))?;
+    }
+    Some(alpha)
+}
