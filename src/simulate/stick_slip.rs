@@ -121,7 +121,10 @@ impl Motion for CurveMotion<'_> {
     }
 
     fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
-        coordinate::of_times(self.equation.loads(), t)
+        match self.equation.may_be_batched() {
+            true => coordinate::of_times(self.equation.loads(), t),
+            false => [[0.0; 2]; NODES],
+        }
     }
 
     fn fill(&self, batch: &mut Batch) {

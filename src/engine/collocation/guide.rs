@@ -10,7 +10,8 @@ const LENGTH_RATIO: f64 = 2.0 / 3.0;
 /// Returns the tolerance beside a guide of the same method and this tolerance. Steps are chosen by the decay of the
 /// acceleration inside, which is of order NODES.
 pub fn tolerance_beside(tolerance: f64) -> f64 {
-    tolerance * LENGTH_RATIO.powi(NODES as i32)
+    // A power would be rounded as the compiler likes.
+    (0..NODES).fold(tolerance, |finer, _| LENGTH_RATIO * finer)
 }
 
 /// Returns the longest step (s) at a time (s) beside a guide by the same method, which errs alike where its steps are

@@ -30,7 +30,7 @@ pub trait ForceAlong {
         0.0
     }
 
-    /// Replaces some positions by the force there minus its interpolant through the nodes.
+    /// Replaces some positions, no more than the nodes, by the force there minus its interpolant through the nodes.
     fn missed(&self, at: &mut [f64]) {
         at.fill(0.0);
     }
@@ -39,7 +39,7 @@ pub trait ForceAlong {
 /// Criterion for the nodes of a panel or a step to resolve a force.
 #[derive(Clone, Copy, Debug)]
 pub struct NodeCriterion {
-    /// Number of nodes.
+    /// Number of nodes, at most [`crate::numeric::chebyshev::MAX_DEGREE`].
     pub nodes: usize,
     /// Parameters ρ of the Bernstein ellipses in which the force is enclosed, the smaller first.
     pub ellipses: [f64; 2],

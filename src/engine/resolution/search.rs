@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{Feature, ForceAlong, NodeCriterion, Unresolved};
+use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{CORNER_SHARE, Variation, has_pole};
 
 /// Halvings of the interval that locate a corner or jump: positions on a panel are rounded by more.
@@ -61,6 +62,7 @@ impl Search {
 
     /// Bisects until each piece is resolved by the number of nodes of the whole, and compares there.
     pub fn run(mut self, force: &impl ForceAlong) -> Option<Unresolved> {
+        // Beside the halves: the whole, two parts about a turn, and one behind a known corner.
         let mut left = [[0.0; 2]; HALVINGS as usize + 4];
         let begin = self.criterion.end(force, |end| [0.0, end]);
         let end = self.criterion.end(force, |end| [1.0 - end, 1.0]);
@@ -198,9 +200,10 @@ impl Search {
         }
         let half = 0.5 * (to - from);
         let at = |i: usize| from + half * (1.0 - (PI * (i as f64 + 0.5) / nodes as f64).cos());
-        let mut missed = Vec::from_iter((0..nodes).map(at));
-        force.missed(&mut missed);
-        let missed = missed.into_iter().map(size).sum::<f64>();
+        let mut missed: Values = std::array::from_fn(at);
+        let missed = &mut missed[..nodes];
+        force.missed(missed);
+        let missed = missed.iter().map(|missed| size(*missed)).sum::<f64>();
         let integral = missed / nodes as f64 * (to - from);
         if integral > self.criterion.allowed * (to - from) && self.first.is_none() {
             self.first = Some([from, to]);
