@@ -70,7 +70,8 @@ impl Tried {
     }
 }
 
-/// The linear model about a smoothed path: one for all orders of an unknown, whose derivatives are 0 along that path.
+/// The linear model about a smoothed path: one for all priors that are alike, as u less what follows the speed is constant in each
+/// step of that path.
 pub(super) struct About {
     pub linear: Linear,
     pub path: Path,
@@ -101,6 +102,12 @@ impl About {
             ..Linear::of(prior, self.linear.scales)
         }
     }
+}
+
+/// The linear model of a prior among some.
+fn about(abouts: &[About], prior: Prior) -> Option<&About> {
+    let mut abouts = abouts.iter();
+    abouts.find(|about| about.linear.prior.is_alike(prior))
 }
 
 impl Linear {
@@ -195,9 +202,8 @@ impl Problem<'_> {
     pub fn correlated(&self, white: Tried, rotation: Rotation) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
         let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
-            let mut abouts = white.abouts.iter().zip(LADDERS);
-            let about = abouts.find(|(_, ladder)| ladder.contains(&one.prior));
-            about.map_or(*one, |(about, _)| about.of(one.prior).with_correlation(one))
+            let about = about(&white.abouts, one.prior);
+            about.map_or(*one, |about| about.of(one.prior).with_correlation(one))
         });
         self.with_repeating(Tried::new(plain, white.abouts), rotation, true)
     }
@@ -219,10 +225,8 @@ impl Problem<'_> {
             following.noise.likelihood > torque.noise.likelihood + SIGNIFICANT_RISE
         };
         let plain = of(FOLLOWING).filter(is_shown).unwrap_or(torque);
-        let about = abouts
-            .iter()
-            .find(|about| about.linear.prior == plain.prior);
-        let high = about.map(|about| about.standing_out(plain, FIRST_HARMONICS));
+        let high =
+            about(abouts, plain.prior).map(|about| about.standing_out(plain, FIRST_HARMONICS));
         let with = |prior: Prior, before: Noise, least: f64| {
             // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
             if self.is_stopped()
@@ -235,7 +239,7 @@ impl Problem<'_> {
                 powers: prior.powers,
                 ..TORQUE
             };
-            let about = abouts.iter().find(|about| about.linear.prior == plain)?;
+            let about = about(abouts, plain)?;
             let plain = of(plain)?;
             let before = Noise {
                 spectrum: before.spectrum,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
-use super::prior::{Prior, State, Unknown};
+use super::prior::{Prior, State, Unknown, plain_state};
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use super::tone::{self, Carrier};
@@ -17,7 +17,7 @@ pub(super) fn coarse(grid: &Grid, times: &[f64], theta: &[f64]) -> Path {
         let next = *next.clamp(&1, &last);
         let (a, b) = (times[next - 1], times[next]);
         let slope = (theta[next] - theta[next - 1]) / (b - a);
-        [theta[next - 1] + slope * (t - a), slope, 0.0, 0.0, 0.0]
+        plain_state([theta[next - 1] + slope * (t - a), slope, 0.0])
     });
     Path::whole(states.collect())
 }
@@ -27,7 +27,9 @@ impl Problem<'_> {
     fn state_of(&self, prior: Prior, from: &Estimate, t: f64) -> State {
         let [theta, omega, alpha] = from.motion();
         if prior.unknown == Unknown::Acceleration {
-            return [theta, omega, alpha, from.state[3], 0.0];
+            let mut state = plain_state([theta, omega, alpha]);
+            state[3] = from.state[3];
+            return state;
         }
         let terms = self.equation.terms(theta);
         let tones = tone::sum(&self.record.tones, Carrier::Torque, t);
@@ -41,7 +43,7 @@ impl Problem<'_> {
             Unknown::Force => torque * dx / (dx * dx + 0.01 * r * r),
             _ => torque,
         };
-        [theta, omega, unknown, 0.0, 0.0]
+        plain_state([theta, omega, unknown])
     }
 
     /// Returns the states of a prior along a motion that was smoothed at all nodes or at these, at ranges of nodes.
@@ -52,7 +54,14 @@ impl Problem<'_> {
             let estimate = &from.estimates[if is_whole { nodes[k] } else { k }];
             match prior == from.prior {
                 true => estimate.state,
-                false => self.state_of(prior, estimate, self.grid.times[nodes[k]]),
+                false => {
+                    let mut state = self.state_of(prior, estimate, self.grid.times[nodes[k]]);
+                    if prior.is_alike(from.prior) {
+                        let constants = &estimate.state[from.prior.diffuse()..][..prior.powers];
+                        state[prior.diffuse()..][..prior.powers].copy_from_slice(constants);
+                    }
+                    state
+                }
             }
         });
         let repeating = from.repeating.clone();

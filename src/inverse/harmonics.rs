@@ -7,12 +7,13 @@ use crate::numeric::gauss::LOBATTO;
 use crate::numeric::hermite::cubic;
 
 /// Responses of θ, ω and u at the end of a step h to torques at its inner nodes and its end, by Lobatto's rule for θ̈.
-pub(super) fn responses(h: f64, lever: f64) -> [AtNodes<f64>; 3] {
-    let inner = h * lever * (5.0 / 12.0);
-    let [early, late] = LOBATTO;
+pub(super) fn responses(step: &Linearised) -> [AtNodes<f64>; 3] {
+    let h = step.h;
+    let [early, late, last] = step.levers.map(|lever| h * lever / 12.0);
+    let after = LOBATTO.map(|part| 5.0 * h * (1.0 - part));
     [
-        [h * inner * late, h * inner * early, 0.0],
-        [inner, inner, 0.2 * inner],
+        [after[0] * early, after[1] * late, 0.0],
+        [5.0 * early, 5.0 * late, last],
         [0.0, 0.0, 1.0],
     ]
 }
@@ -83,7 +84,7 @@ impl Increments {
     pub fn take_out(&self, coefficients: &[f64], steps: &mut [Linearised]) {
         for (k, step) in steps.iter_mut().enumerate() {
             let torques = self.of(k).map(|row| dot(row, coefficients));
-            let responses = responses(step.h, step.lever);
+            let responses = responses(step);
             for (to, response) in step.defect.iter_mut().zip(responses) {
                 *to -= dot(&response, &torques);
             }
@@ -96,6 +97,34 @@ mod tests {
     use super::*;
     use crate::inverse::prior::FOLLOWING;
     use crate::inverse::repeating::Repeating;
+
+    /// A torque s + s² beside ∂θ̈/∂u = 2 − 3 s + 4 s² at a time s from the begin of a step: Lobatto's rule is exact for the speed,
+    /// of s⁴, and for the angle, of s⁵.
+    #[test]
+    fn responses_are_those_of_a_lever_that_changes() {
+        let h = 0.3;
+        let places = [LOBATTO[0], LOBATTO[1], 1.0].map(|part| part * h);
+        let step = Linearised {
+            h,
+            levers: places.map(|s| 2.0 - 3.0 * s + 4.0 * s * s),
+            ..Linearised::default()
+        };
+        let torques = places.map(|s| s + s * s);
+        // The acceleration 2 s − s² + s³ + 4 s⁴, integrated once and twice.
+        let terms = [(1, 2.0), (2, -1.0), (3, 1.0), (4, 4.0)];
+        let integrated = |often: i32| {
+            let term = |(power, factor): (i32, f64)| {
+                let per: i32 = (1..=often).map(|k| power + k).product();
+                factor * h.powi(power + often) / f64::from(per)
+            };
+            terms.map(term).iter().sum::<f64>()
+        };
+        let expected = [integrated(2), integrated(1), h + h * h];
+        let found = responses(&step).map(|response| dot(&response, &torques));
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{found}: {expected}");
+        }
+    }
 
     /// The table of a torque has the sum of its harmonics, and the slopes of that sum by differences.
     #[test]

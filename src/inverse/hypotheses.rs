@@ -13,7 +13,7 @@ use super::links::{Link, Track, is_resolved, way};
 use super::matrix::diagonal;
 use super::measurement_model::Sensor;
 use super::mirror_image::DISTINCT_ROTATION;
-use super::prior::{KINEMATIC, Prior, TORQUE};
+use super::prior::{KINEMATIC, Prior, TORQUE, plain_state};
 use super::residual_tests::repeats;
 use super::transition::transition;
 use crate::mechanism::Equation;
@@ -210,7 +210,7 @@ impl Tracker<'_, '_> {
         };
         let [theta, omega, share] = *from;
         let torque = self.inertia * share;
-        let rates = motion.rates(t, &[theta, omega, torque, 0.0, 0.0]);
+        let rates = motion.rates(t, &plain_state([theta, omega, torque]));
         let at = |part: f64, alpha: f64| {
             let h = part * h;
             let [turned, faster] = [theta + h * (omega + 0.5 * h * alpha), omega + h * alpha];

@@ -123,7 +123,11 @@ impl Problem<'_> {
             let last = first + piece.len() - 1;
             let from = times.partition_point(|t| *t < times[first] - shared);
             let to = times.partition_point(|t| *t <= times[last] + shared);
-            let stretch = self.stretch(prior, path, from..to, noise.sigma);
+            let stretch = Stretch {
+                // The whole record tells them, a piece beside it little.
+                constants: [0.0; 2],
+                ..self.stretch(prior, path, from..to, noise.sigma)
+            };
             let model = linear.deviations(&stretch, noise);
             let all = with_dimension!(model.dimension(), N => {
                 let (deviations, innovations) = fixed_interval::smooth::<N>(&model, &mut ());

@@ -3,6 +3,7 @@
 //! State: θ (rad), ω (rad/s), u and its derivatives below the order. θ̈ = (Q − V' − ½ M' ω² + a u)/M with the arm a = 1
 //! for a torque (N m) and x' for a force (N); without mechanics θ̈ = u.
 
+use super::harmonics::AtNodes;
 use super::prior::{Prior, State, Unknown, powers_of};
 use super::repeating::Repeating;
 use super::tone::{self, Carrier, Tone};
@@ -143,23 +144,16 @@ impl Motion<'_> {
         let change = [0, 1, 2].map(|k| last[k] - first[k]);
         let [before, after] = [a, b].map(|node| powers_of(node.state[1]));
         let tilt = std::array::from_fn(|k| (after[k] - before[k]) / h);
-        let mut top = transition(h, mean, change);
-        if self.prior.powers > 0 {
-            for row in &mut top {
-                let ramp = row[3];
-                let columns = row.iter_mut().skip(self.prior.diffuse()).zip(tilt);
-                columns.for_each(|(value, tilt)| *value = ramp * tilt);
-            }
-        }
         let mut defect = self.predicted(a, b, torque, inner.map(|rates| rates.alpha));
         for (value, end) in defect.iter_mut().zip(b.state) {
             *value -= end;
         }
         Linearised {
             h,
-            top,
+            top: transition(h, mean, change),
             defect,
             lever: mean[2],
+            levers: [early[2], late[2], last[2]],
             tilt,
         }
     }
@@ -170,12 +164,14 @@ impl Motion<'_> {
 pub(super) struct Linearised {
     /// Duration, s.
     pub h: f64,
-    /// Transition rows of θ and ω.
+    /// Transition rows of θ and ω, from θ, ω, u and its derivatives.
     pub top: [State; 2],
     /// Prediction from the nominal path's begin minus its end.
     pub defect: State,
     /// Mean ∂θ̈/∂u of the step.
     pub lever: f64,
+    /// ∂θ̈/∂u at the inner nodes and the end of the step.
+    pub levers: AtNodes<f64>,
     /// Mean rates of ω, rad/s², and of ω|ω|, rad²/s³: those at which g₁ and g₂ add to u.
     pub tilt: [f64; 2],
 }
@@ -183,7 +179,7 @@ pub(super) struct Linearised {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inverse::prior::QUADRATIC;
+    use crate::inverse::prior::{QUADRATIC, plain_state};
     use crate::scene::{Crank, Scene, Slider};
 
     /// A loss by the speed and its square and a constant torque on an offset slider-crank: along the motion by 2000 steps of
@@ -218,7 +214,9 @@ mod tests {
                 let middle = rates([0, 1].map(|k| now[k] + 0.5 * h * begin[k]));
                 now = [0, 1].map(|k| now[k] + h * middle[k]);
             }
-            [now[0], now[1], driven(now[1]), g[0], g[1]]
+            let mut state = plain_state([now[0], now[1], driven(now[1])]);
+            [state[3], state[4]] = g;
+            state
         };
         let left = |h: f64| {
             let [begin, end] = [node(0.0), node(h)];

@@ -9,12 +9,11 @@
 //! what is left is a linear regression with the information Σ EᵀE/S. The derivatives of p by θ and ω, with the β of the last
 //! iteration, are those of the equation of motion, too: u less p is the state of the linear model.
 
-use nalgebra::{DMatrix, DMatrixView};
+use nalgebra::{DMatrix, DMatrixView, Dyn};
 
 use super::fixed_interval::{Companion, Later};
 use super::harmonics::responses;
 use super::kalman::{Filtered, Gaussian, Innovation, Sample, Step};
-use super::linearised::Linearised;
 use super::matrix::{Matrix, transposed};
 use super::regression::{BLOCK, ROWS_AT_ONCE, Regression};
 use super::repeating::dot;
@@ -56,10 +55,9 @@ impl<'a, const N: usize> Columns<'a, N> {
     /// Takes a step, with what the coefficients add to the state in it.
     fn step(&mut self, node: usize, step: &Step<N>) {
         self.transform(&step.transition);
-        let Linearised { h, lever, .. } = self.stretch.steps[node];
         let torques = self.stretch.increments.of(node);
         let rows = self.of.chunks_exact_mut(self.errors.len());
-        for (row, response) in rows.zip(responses(h, lever)) {
+        for (row, response) in rows.zip(responses(&self.stretch.steps[node])) {
             for (factor, torque) in response.into_iter().zip(torques) {
                 add(row, factor, torque);
             }
@@ -151,7 +149,8 @@ impl<'a, const N: usize> Regressed<'a, N> {
 }
 
 impl Derivatives {
-    /// Adds what coefficients do to the smoothed states and prediction errors, with a factor A of their covariance Aᵀ A.
+    /// Adds what coefficients do to the smoothed states and prediction errors, and to the covariance of θ, ω and u, with a factor A
+    /// of their covariance Aᵀ A.
     pub fn add<const N: usize>(
         self,
         coefficients: &[f64],
@@ -170,14 +169,22 @@ impl Derivatives {
             .chunks(ROWS_AT_ONCE * size)
             .zip(path.chunks_mut(ROWS_AT_ONCE))
         {
-            let spread = spread(factor, columns);
             let rows: Vec<&[f64]> = columns.chunks_exact(count).collect();
+            // θ, ω and u of each node.
+            let spreads = [0, 1, 2].map(|i| {
+                let (from, shape) = (&columns[i * count..], (count, states.len()));
+                let state = DMatrixView::from_slice_with_strides(from, shape.0, shape.1, 1, size);
+                spread(factor, state)
+            });
             for (k, state) in states.iter_mut().enumerate() {
-                let spread = spread.columns(N * k, N);
                 for i in 0..N {
                     state.mean[i] += dot(rows[N * k + i], coefficients);
-                    for j in 0..N {
-                        state.covariance[i][j] += spread.column(i).dot(&spread.column(j));
+                }
+                for i in 0..3 {
+                    for j in 0..=i {
+                        let shared = spreads[i].column(k).dot(&spreads[j].column(k));
+                        state.covariance[i][j] += shared;
+                        state.covariance[j][i] = state.covariance[i][j];
                     }
                 }
             }
@@ -186,12 +193,10 @@ impl Derivatives {
 }
 
 /// Returns the product of a lower triangular factor and columns, block by block of rows.
-fn spread(factor: &DMatrix<f64>, columns: &[f64]) -> DMatrix<f64> {
-    let count = factor.nrows();
-    let columns = DMatrixView::from_slice(columns, count, columns.len() / count);
-    let mut spread = DMatrix::zeros(count, columns.ncols());
-    for first in (0..count).step_by(BLOCK) {
-        let end = count.min(first + BLOCK);
+fn spread(factor: &DMatrix<f64>, columns: DMatrixView<'_, f64, Dyn, Dyn>) -> DMatrix<f64> {
+    let mut spread = DMatrix::zeros(columns.nrows(), columns.ncols());
+    for first in (0..columns.nrows()).step_by(BLOCK) {
+        let end = columns.nrows().min(first + BLOCK);
         let factor = factor.view((first, 0), (end - first, end));
         let mut rows = spread.rows_mut(first, end - first);
         rows.gemm(1.0, &factor, &columns.rows(0, end), 0.0);

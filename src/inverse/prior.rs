@@ -3,8 +3,15 @@
 /// Largest order of a prior.
 pub(super) const ORDERS: usize = 3;
 
-/// State: θ, ω, u, then the derivatives of u, or g₁ and g₂.
-pub(super) type State = [f64; 2 + ORDERS];
+/// State: θ, ω, u, then the derivatives of u, then g₁ and g₂.
+pub(super) type State = [f64; 3 + ORDERS];
+
+/// Returns a state of θ, rad, ω, rad/s, and u, and of nothing beside.
+pub(super) fn plain_state([theta, omega, unknown]: [f64; 3]) -> State {
+    let mut state = State::default();
+    [state[0], state[1], state[2]] = [theta, omega, unknown];
+    state
+}
 
 /// Returns ω and ω|ω|.
 pub(super) fn powers_of(omega: f64) -> [f64; 2] {
@@ -107,6 +114,11 @@ impl Prior {
         self.harmonics as f64 / f64::from(self.cycle.max(1))
     }
 
+    /// Whether the unknown is that of another prior, and follows the same powers of the speed.
+    pub fn is_alike(self, other: Prior) -> bool {
+        self.unknown == other.unknown && self.powers == other.powers
+    }
+
     /// Number of states.
     pub fn states(self) -> usize {
         self.diffuse() + self.powers
@@ -129,29 +141,34 @@ impl Prior {
     }
 
     /// Names the random term in words.
-    pub fn name(self) -> &'static str {
-        match (self.cycle, self.powers) {
-            (0, 0) => match (self.unknown, self.order) {
-                (Unknown::Acceleration, 3) => "angle with white crackle, without mechanics",
-                (Unknown::Acceleration, _) => "angle with white snap, without mechanics",
-                (Unknown::Torque, 1) => "torque as a Wiener process",
-                (Unknown::Torque, 2) => "torque as an integrated Wiener process",
-                (Unknown::Torque, _) => "torque as a twice integrated Wiener process",
-                (Unknown::Force, 1) => "force as a Wiener process",
-                (Unknown::Force, 2) => "force as an integrated Wiener process",
-                (Unknown::Force, _) => "force as a twice integrated Wiener process",
-            },
-            (0, 1) if self.order > 1 => {
-                "torque that follows the speed, and an integrated Wiener process"
+    pub fn name(self) -> String {
+        let process = match self.order {
+            1 => "a Wiener process",
+            2 => "an integrated Wiener process",
+            _ => "a twice integrated Wiener process",
+        };
+        let unknown = match self.unknown {
+            Unknown::Acceleration if self.order == 3 => {
+                return "angle with white crackle, without mechanics".to_owned();
             }
-            (0, 1) => "torque that follows the speed, and a Wiener process",
-            (0, _) => "torque that follows the speed and its square, and a Wiener process",
-            (1, 0) => "torque that repeats every turn, and a Wiener process",
-            (1, _) => "torque that repeats every turn and follows the speed, and a Wiener process",
-            (_, 0) => "torque that repeats every two turns, and a Wiener process",
-            (_, _) => {
-                "torque that repeats every two turns and follows the speed, and a Wiener process"
-            }
+            Unknown::Acceleration => return "angle with white snap, without mechanics".to_owned(),
+            Unknown::Torque => "torque",
+            Unknown::Force => "force",
+        };
+        let repeats = match self.cycle {
+            0 => None,
+            1 => Some("repeats every turn"),
+            _ => Some("repeats every two turns"),
+        };
+        let follows = match (self.powers, self.cycle) {
+            (0, _) => None,
+            (2, 0) => Some("follows the speed and its square"),
+            _ => Some("follows the speed"),
+        };
+        let parts = Vec::from_iter(repeats.into_iter().chain(follows)).join(" and ");
+        match parts.as_str() {
+            "" => format!("{unknown} as {process}"),
+            _ => format!("{unknown} that {parts}, and {process}"),
         }
     }
 }
@@ -177,22 +194,27 @@ pub(super) const QUADRATIC: Prior = Prior {
     ..TORQUE
 };
 
-/// All priors without a part that repeats, in lists of one unknown.
+/// Returns a prior with all orders.
+const fn ladder(first: Prior) -> [Prior; ORDERS] {
+    [
+        first,
+        Prior { order: 2, ..first },
+        Prior { order: 3, ..first },
+    ]
+}
+
+/// All priors without a part that repeats, in lists of priors that are alike.
 pub(super) const LADDERS: [&[Prior]; 5] = [
+    &ladder(Prior::new(Unknown::Force, 1)),
+    &ladder(TORQUE),
+    &ladder(FOLLOWING),
+    // Within a turn a twice integrated process beside both powers takes what varies in time for a law.
     &[
-        Prior::new(Unknown::Force, 1),
-        Prior::new(Unknown::Force, 2),
-        Prior::new(Unknown::Force, 3),
+        QUADRATIC,
+        Prior {
+            order: 2,
+            ..QUADRATIC
+        },
     ],
-    &[
-        TORQUE,
-        Prior::new(Unknown::Torque, 2),
-        Prior::new(Unknown::Torque, 3),
-    ],
-    &[FOLLOWING, QUADRATIC],
-    &[Prior {
-        order: 2,
-        ..FOLLOWING
-    }],
     WITHOUT_MECHANICS,
 ];

@@ -66,8 +66,10 @@ impl<'a> Problem<'a> {
         // Beyond the ends as at the ends.
         let part = part.clamp(0.0, 1.0);
         let between = |k: usize| a.covariance[k] + part * (b.covariance[k] - a.covariance[k]);
+        let mut state = a.state;
+        [state[0], state[1], state[2]] = [theta, omega, unknown];
         Estimate {
-            state: [theta, omega, unknown, a.state[3], a.state[4]],
+            state,
             alpha: motion.acceleration(t, theta, omega, unknown)[0],
             covariance: std::array::from_fn(between),
             innovation: f64::NAN,
@@ -174,9 +176,14 @@ impl<'a> Problem<'a> {
         let observed = parallel::list(range.len(), |k| {
             self.record.observed(&course, range.start + k, sigma)
         });
+        let mut constants = [0.0; 2];
+        let known = states[0].iter().skip(prior.diffuse()).take(prior.powers);
+        let pairs = constants.iter_mut().zip(known);
+        pairs.for_each(|(constant, known)| *constant = *known);
         Stretch {
             steps: steps.into(),
             intensities: intensities.collect(),
+            constants,
             increments,
             observed: observed.into(),
         }

@@ -107,7 +107,8 @@ impl Beside<'_> {
                 let ends = LOBATTO.map(|part| wave(t + part * step.h));
                 let torques = [ends[0], ends[1], wave(t + step.h)].map(|one| one - wave(*t));
                 // What the model predicts is not in the deviations.
-                let pairs = step.defect.iter_mut().zip(responses(step.h, step.lever));
+                let responses = responses(step);
+                let pairs = step.defect.iter_mut().zip(responses);
                 pairs.for_each(|(value, response)| *value -= dot(&response, &torques));
             }
         }
@@ -120,6 +121,7 @@ impl Beside<'_> {
         }
         Stretch {
             steps: steps.into(),
+            constants: self.stretch.constants.map(|one| part * one),
             observed: observed.into(),
             ..self.stretch.clone()
         }

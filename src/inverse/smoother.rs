@@ -5,7 +5,7 @@ use super::estimate::Estimate;
 use super::grid::{Course, Grid, Path};
 use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
-use super::prior::{KINEMATIC, Prior};
+use super::prior::{KINEMATIC, Prior, plain_state};
 use super::problem::Problem;
 use super::repeating::Repeating;
 use super::scales::{Noise, Scales};
@@ -37,12 +37,9 @@ impl Smoothed {
 
     /// The same prior, without mechanics, along the motion of another one at the same nodes.
     pub fn along(&self, other: &Smoothed) -> Smoothed {
-        let motion = other.estimates.iter().map(|estimate| {
-            let [theta, omega, alpha] = estimate.motion();
-            Estimate {
-                state: [theta, omega, alpha, 0.0, 0.0],
-                ..*estimate
-            }
+        let motion = other.estimates.iter().map(|estimate| Estimate {
+            state: plain_state(estimate.motion()),
+            ..*estimate
         });
         Smoothed {
             estimates: motion.collect(),

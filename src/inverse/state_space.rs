@@ -10,7 +10,7 @@ use super::linearised::Linearised;
 use super::matrix::{Matrix, diagonal};
 use super::prior::{Prior, State};
 
-/// Evaluates an expression with the number of states, 3 to 6, as a constant.
+/// Evaluates an expression with the number of states, 3 to 7, as a constant.
 macro_rules! with_dimension {
     (const $n:ident = $number:literal => $value:expr) => {{
         const $n: usize = $number;
@@ -21,7 +21,8 @@ macro_rules! with_dimension {
             3 => with_dimension!(const $n = 3 => $value),
             4 => with_dimension!(const $n = 4 => $value),
             5 => with_dimension!(const $n = 5 => $value),
-            _ => with_dimension!(const $n = 6 => $value),
+            6 => with_dimension!(const $n = 6 => $value),
+            _ => with_dimension!(const $n = 7 => $value),
         }
     };
 }
@@ -49,6 +50,8 @@ pub(super) struct Stretch {
     pub steps: Arc<[Linearised]>,
     /// Intensity of the process noise in each step over the usual one.
     pub intensities: Vec<f64>,
+    /// g₁ and g₂ of the nominal path at its begin, in the place of those that the prior expects: 0.
+    pub constants: [f64; 2],
     /// Increments of the harmonics of the periodic part in each step.
     pub increments: Increments,
     pub observed: Arc<[Observed]>,
@@ -99,7 +102,11 @@ impl Deviations<'_> {
             transition[3][4] = step.h;
         }
         for k in 0..self.prior.powers {
-            transition[2][self.prior.diffuse() + k] = step.h * step.tilt[k];
+            // What a power of the speed adds to u begins at 0 and grows at its tilt.
+            let ramp = [step.top[0][3], step.top[1][3], step.h];
+            for (row, ramp) in transition.iter_mut().zip(ramp) {
+                row[self.prior.diffuse() + k] = ramp * step.tilt[k];
+            }
         }
         let mut noise = self.process_noise(node);
         if let Some(decay) = self.correlated {
@@ -134,15 +141,18 @@ impl Deviations<'_> {
 
     /// Returns mean and covariance before the first sample.
     pub fn start<const N: usize>(&self) -> Gaussian<N> {
-        let mut variances = [0.0; N];
+        let (mut mean, mut variances) = ([0.0; N], [0.0; N]);
         for k in 0..self.prior.states() {
             variances[k] = self.spread[k] * self.spread[k];
+        }
+        for k in 0..self.prior.powers {
+            mean[self.prior.diffuse() + k] = -self.stretch.constants[k];
         }
         if self.correlated.is_some() {
             variances[N - 1] = 1.0 - WHITE_FRACTION;
         }
         Gaussian {
-            mean: [0.0; N],
+            mean,
             covariance: diagonal(variances),
         }
     }
@@ -233,7 +243,7 @@ mod tests {
             speed_noise: 0.0,
             law_noise: 0.3,
             correlated: None,
-            spread: [10.0; 5],
+            spread: [10.0; 6],
         };
         let noise = [0, 1, 2].map(|node| model.process_noise::<4>(node));
         let of_law = 4.0 * 0.3 * 0.2;
@@ -246,5 +256,24 @@ mod tests {
         ] {
             assert!((found - expected).abs() < 1e-12, "{found}: {expected}");
         }
+    }
+
+    /// About a path whose g₁ is 0.4 the prior expects a deviation of −0.4, so that g₁ itself is 0.
+    #[test]
+    fn a_law_begins_at_nothing_about_any_path() {
+        let stretch = Stretch {
+            constants: [0.4, 0.0],
+            ..Stretch::default()
+        };
+        let model = Deviations {
+            stretch: &stretch,
+            prior: FOLLOWING,
+            noise: 0.0,
+            speed_noise: 0.0,
+            law_noise: 0.0,
+            correlated: Some(1.0),
+            spread: [10.0; 6],
+        };
+        assert_eq!(model.start::<5>().mean, [0.0, 0.0, 0.0, -0.4, 0.0]);
     }
 }

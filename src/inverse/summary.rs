@@ -66,7 +66,7 @@ pub struct FitSummary {
     /// Reason for this kind, in words.
     pub reason: String,
     /// Random term of the smoother's equation of motion; empty for a polynomial.
-    pub prior: &'static str,
+    pub prior: String,
     /// Priors that were compared, the likeliest first.
     pub candidates: Vec<CandidateSummary>,
     /// Degree of the polynomial; for a smoother, of the smoothing spline that it is without mechanics.
@@ -150,7 +150,7 @@ pub struct SensorSummary {
 #[derive(Clone, Debug, Serialize)]
 pub struct CandidateSummary {
     /// Random term of the prior, in words.
-    pub prior: &'static str,
+    pub prior: String,
     /// ln of the marginal likelihood, less what the two parameters of a spectrum of harmonics cost.
     pub log_likelihood: f64,
 }

@@ -1,6 +1,6 @@
 //! Transition of the deviations of θ and ω over a step.
 
-use super::prior::State;
+use super::prior::{State, plain_state};
 
 /// Derivatives of θ̈ by θ, ω and u.
 pub(super) type Slopes = [f64; 3];
@@ -16,13 +16,14 @@ pub(super) fn transition(h: f64, mean: Slopes, change: Slopes) -> [State; 2] {
         h * lever - q * dl + lever * dq,
     ];
     // Rows of Ω, to which u adds its derivatives.
-    let mut top = [[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0]];
+    let mut top = [plain_state([1.0, 0.0, 0.0]), plain_state([0.0, 1.0, 0.0])];
     for row in &mut top {
         let mut term = *row;
         for share in [1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0] {
-            let [theta, omega, u, first, _] = term.map(|value| share * value);
+            let [theta, omega, u, first, ..] = term.map(|value| share * value);
             let by = |k: usize| theta * of_theta[k] + omega * of_omega[k];
-            term = [by(0), by(1), by(2), u * h + omega * dl, first * h];
+            term = plain_state([by(0), by(1), by(2)]);
+            [term[3], term[4]] = [u * h + omega * dl, first * h];
             for (sum, term) in row.iter_mut().zip(term) {
                 *sum += term;
             }

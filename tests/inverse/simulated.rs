@@ -1433,6 +1433,31 @@ fn a_smooth_torque_is_found_with_few_rows_in_a_turn() {
     assert!(covered > 0.85 && off < 2e-4, "{off}, {covered}");
 }
 
+/// A drive that varies smoothly in time and a loss that follows the speed: beside a smooth torque the loss is told by what the speed
+/// does within each turn, and a torque that is smooth alone would be off by its variation there.
+#[test]
+fn a_smooth_drive_has_its_loss_within_each_turn() {
+    let viscous = Motion {
+        name: "viscous",
+        start: [0.3, 100.0],
+        end: 4.0,
+        rows: 1256,
+        torque: |t, _, omega| 0.3 + 0.2 * (8.0 * t + 0.4).sin() - 3e-3 * omega,
+    };
+    let fan = Motion {
+        name: "fan",
+        start: [0.3, 100.0],
+        end: 1.5,
+        rows: 700,
+        torque: |t, _, omega| 3.0 + 2.5 * t - 3e-4 * omega * omega,
+    };
+    for motion in [&viscous, &fan] {
+        let [off, covered] = over_seeds(motion, 1e-4, 3);
+        let name = motion.name;
+        assert!(covered > 0.85 && off < 1e-3, "{name}: {off}, {covered}");
+    }
+}
+
 /// A torque that repeats, seen by precise samples: the likelihood has a second maximum, at which the torque takes every sample's
 /// noise. Less process noise is likelier only with less of what repeats, so that a search along one of both ends there; white
 /// noise is then taken for correlated noise, or each sample is worth a parameter.

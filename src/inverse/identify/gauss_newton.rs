@@ -2,7 +2,7 @@
 
 use super::super::candidates::Candidate;
 use super::super::grid::Path;
-use super::super::prior::TORQUE;
+use super::super::prior::{TORQUE, plain_state};
 use super::super::problem::Problem;
 use super::super::scales::{Noise, Scales, root_mean_square};
 use super::super::smoother::{Correction, Smoothed};
@@ -51,7 +51,7 @@ impl<'a> Search<'a> {
         smooth: &Smoothed,
     ) -> Search<'a> {
         let states = smooth.estimates.iter();
-        let states = states.map(|e| [e.state[0], e.state[1], 0.0, 0.0, 0.0]);
+        let states = states.map(|e| plain_state([e.state[0], e.state[1], 0.0]));
         let path = Path::whole(states.collect());
         let scales = Scales {
             identified: Some(count),
