@@ -104,7 +104,7 @@ impl Smoothed {
             is_within.then(|| with(corner.exp(), way))
         };
         let first = with(self.noise.corner, 0.0);
-        counting(on_both_sides(first, 1.5 * FIRST_STEP, least, at), least)
+        counting(on_both_sides(first, 2.0 * FIRST_STEP, least, at), least)
     }
 
     /// Returns the priors that count beside its own, whose part that repeats has harmonics enough for what others might add. One that

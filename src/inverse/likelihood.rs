@@ -4,6 +4,8 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use multiversion::multiversion;
+
 use super::fixed_interval::Companion;
 use super::kalman::{self, Evidence};
 use super::periodic::Regressed;
@@ -14,6 +16,14 @@ use super::spectra::OverSpectra;
 use super::spectrum::Spectrum;
 use super::state_space::{Deviations, Stretch, with_dimension};
 use crate::numeric::parallel;
+
+/// Returns the likelihood terms of a model.
+#[multiversion(targets("x86_64+avx2"))]
+fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
+    let mut evidence = Evidence::default();
+    kalman::run::<N>(model, None, |_, at| evidence.add(at));
+    evidence
+}
 
 /// Stretches of nodes with their linear models, and the scales of the search.
 #[derive(Clone, Debug)]
@@ -72,11 +82,7 @@ impl Linear {
     fn plain(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            let mut evidence = Evidence::default();
-            with_dimension!(model.dimension(), N => {
-                kalman::run::<N>(&model, None, |_, at| evidence.add(at));
-            });
-            evidence
+            with_dimension!(model.dimension(), N => evidence::<N>(&model))
         };
         let mut all = Evidence::default();
         for part in parallel::map(self.stretches.iter(), of) {

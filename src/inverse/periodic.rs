@@ -9,6 +9,7 @@
 //! what is left is a linear regression with the information Σ EᵀE/S. The derivatives of p by θ and ω, with the β of the last
 //! iteration, are those of the equation of motion, too: u less p is the state of the linear model.
 
+use multiversion::multiversion;
 use nalgebra::{DMatrix, DMatrixView, Dyn};
 
 use super::fixed_interval::{Companion, Later};
@@ -78,7 +79,7 @@ impl<'a, const N: usize> Columns<'a, N> {
 }
 
 /// Adds a multiple of a row.
-#[inline(always)]
+#[multiversion(targets("x86_64+avx2"))]
 fn add(to: &mut [f64], factor: f64, row: &[f64]) {
     if factor != 0.0 {
         to.iter_mut()
