@@ -14,5 +14,5 @@ pub mod step;
 pub mod time;
 pub mod work_forecast;
 
-pub use motion::{Batch, Counted, Motion, NODES, PIECES};
+pub use motion::{Batch, Counted, Motion, NODES, PIECES, fill_one_by_one};
 pub use run_in_time::WorkLimit;

@@ -44,16 +44,16 @@ pub trait Motion {
 
     /// Computes accelerations and powers of a batch.
     fn fill(&self, batch: &mut Batch) {
-        self.fill_one_by_one(batch);
+        fill_one_by_one(self, batch);
     }
+}
 
-    /// Computes accelerations and powers of a batch, each by itself.
-    fn fill_one_by_one(&self, batch: &mut Batch) {
-        for i in 0..NODES {
-            let angle = Angle::new(batch.turns, batch.theta[i]);
-            (batch.alpha[i], batch.power[i]) =
-                self.acceleration_and_power(batch.t[i], angle, batch.omega[i]);
-        }
+/// Computes accelerations and powers of a batch, each by itself.
+pub fn fill_one_by_one(motion: &(impl Motion + ?Sized), batch: &mut Batch) {
+    for i in 0..NODES {
+        let angle = Angle::new(batch.turns, batch.theta[i]);
+        (batch.alpha[i], batch.power[i]) =
+            motion.acceleration_and_power(batch.t[i], angle, batch.omega[i]);
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Instants<'a, const N: usize> {
 
 impl<const N: usize> Instants<'_, N> {
     /// Variables of the loads, from the positions at these instants.
-    fn seen(&self, sides: &TermArrays<N>) -> [Instant; N] {
+    fn variables(&self, sides: &TermArrays<N>) -> [Instant; N] {
         std::array::from_fn(|i| {
             let angle = Angle::new(self.turns, self.theta[i]);
             let position = [sides.x[i], sides.dx[i]];
@@ -81,7 +81,7 @@ impl Equation {
     ) {
         let sides = self.term_arrays(at.theta);
         let loads = self.loads();
-        let now = at.seen(&sides);
+        let now = at.variables(&sides);
         let called = loads.beside_time(&now);
         for i in 0..N {
             let (x, dx, omega) = (sides.x[i], sides.dx[i], at.omega[i]);
@@ -158,7 +158,7 @@ impl CurveEquation {
             _ => equation.first_guided(at.theta, N),
         };
         let loads = self.loads();
-        let now = at.seen(&sides);
+        let now = at.variables(&sides);
         let called = loads.smooth_beside_time(&now);
         for i in 0..N {
             let (dx, omega, normal) = (sides.dx[i], at.omega[i], &normals[i]);

@@ -28,7 +28,7 @@ pub struct EnclosedState {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SliderUse {
     /// Nothing.
-    None,
+    Untouched,
     /// They move it, and do not depend on its position or velocity.
     Moved,
     /// They depend on its position or velocity.
@@ -86,9 +86,9 @@ pub(super) struct PoseRanges {
 }
 
 impl Linkage {
-    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles; `sharply`: by the sense of the slider between
+    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles; `by_sense`: by the sense of the slider between
     /// dead centres.
-    pub(super) fn enclose(&self, theta: Interval, sharply: bool) -> PoseRanges {
+    pub(super) fn enclose(&self, theta: Interval, by_sense: bool) -> PoseRanges {
         let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
         let sin_phi = (point(self.e) + point(self.r) * sin) * point(1.0 / self.l);
@@ -98,7 +98,7 @@ impl Linkage {
         let along = point(self.r) * cos;
         let per = cos_phi.reciprocal();
         let x = along + point(self.s * self.l) * cos_phi;
-        let (x, dx) = match sharply && self.margin() > 0.0 {
+        let (x, dx) = match by_sense && self.margin() > 0.0 {
             true => self.between_dead_centres(theta, x, per),
             false => {
                 let of_rod = point(self.s) * along * sin_phi * per;
@@ -151,8 +151,8 @@ impl Linkage {
 
     /// Returns the enclosed state of a motion over the crank angle, with x and x' if loads need them.
     pub fn enclosed_state(&self, piece: &MotionPiece, slider: SliderUse) -> EnclosedState {
-        let sharply = slider == SliderUse::Read;
-        let ranges = (slider != SliderUse::None).then(|| self.enclose(piece.angle, sharply));
+        let by_sense = slider == SliderUse::Read;
+        let ranges = (slider != SliderUse::Untouched).then(|| self.enclose(piece.angle, by_sense));
         let [x, dx] = ranges.map_or([Interval::WHOLE; 2], |ranges| [ranges.x, ranges.dx]);
         EnclosedState {
             t: piece.t,

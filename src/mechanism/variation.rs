@@ -109,7 +109,7 @@ impl Loads {
         match self.reads().disjoint(Variables::X.or(Variables::V)) {
             false => SliderUse::Read,
             true if self.on_slider() => SliderUse::Moved,
-            true => SliderUse::None,
+            true => SliderUse::Untouched,
         }
     }
 

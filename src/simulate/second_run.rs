@@ -18,7 +18,7 @@ pub(super) const MARGIN: f64 = 1.5;
 
 /// Returns the tolerance of a second run of another method than collocation, whose error is then negligible beside that
 /// of the first.
-pub(super) fn finer(tolerance: f64) -> f64 {
+pub(super) fn other_method_tolerance(tolerance: f64) -> f64 {
     let ratio = 1e3;
     above_rounding(tolerance / ratio, tolerance)
 }

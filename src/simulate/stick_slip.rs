@@ -8,7 +8,7 @@ use super::coordinate;
 use super::guide_friction::NEARBY_ANGLE;
 use crate::engine::event_functions::EventFunction;
 use crate::engine::events::ANGLE_ROUNDING;
-use crate::engine::{Batch, Motion, NODES};
+use crate::engine::{Batch, Motion, NODES, fill_one_by_one};
 use crate::mechanism::{CurveEquation, CurvePose, GuideForces, LoadValue, Sense};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -134,7 +134,7 @@ impl Motion for CurveMotion<'_> {
                     self.equation.accelerations(at, (c, opposed), alpha, power);
                 });
             }
-            _ => self.fill_one_by_one(batch),
+            _ => fill_one_by_one(self, batch),
         }
     }
 

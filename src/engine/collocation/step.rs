@@ -213,7 +213,7 @@ impl<'a> Collocation<'a> {
     pub(super) fn update(&mut self, state: &State, h: f64) -> f64 {
         let (batch, tableau) = (&mut self.batch, self.tableau);
         let [speed, angle] =
-            [&tableau.speed, &tableau.angle].map(|rows| combined(rows, &batch.alpha));
+            [&tableau.speed, &tableau.angle].map(|rows| product(rows, &batch.alpha));
         let (mut angle_change, mut speed_change) = (0.0f64, 0.0f64);
         for i in 0..NODES {
             let omega = state.omega + (h * speed[i] + state.omega_low);
@@ -228,7 +228,7 @@ impl<'a> Collocation<'a> {
     }
 
     fn coefficients(&self) -> [f64; NODES] {
-        combined(&self.tableau.legendre, &self.batch.alpha)
+        product(&self.tableau.legendre, &self.batch.alpha)
     }
 
     /// Returns the position at which the step has to end to resolve the loads; none if it does or cannot be shorter.
@@ -285,13 +285,13 @@ fn dot(a: &[f64; NODES], b: &[f64; NODES]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Returns the sum of rows times factors.
+/// Returns the product of a matrix, given by its columns, and a vector.
 #[multiversion(targets("x86_64+avx2"))]
-fn combined(rows: &[[f64; NODES]; NODES], factors: &[f64; NODES]) -> [f64; NODES] {
+fn product(columns: &[[f64; NODES]; NODES], vector: &[f64; NODES]) -> [f64; NODES] {
     let mut sums = [0.0; NODES];
     for j in 0..NODES {
         for i in 0..NODES {
-            sums[i] += rows[j][i] * factors[j];
+            sums[i] += columns[j][i] * vector[j];
         }
     }
     sums

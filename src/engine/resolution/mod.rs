@@ -5,7 +5,7 @@ mod steps;
 
 use search::Search;
 
-use crate::numeric::enclosure::{Variation, ellipses, is_resolved_closely, resolved};
+use crate::numeric::enclosure::{Variation, ellipses, is_resolved_by_least_ellipse, resolved};
 
 pub use steps::{OnStep, finest, unresolved_at};
 
@@ -93,7 +93,7 @@ pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<U
     let (varies, resolved) = criterion.nodes_on(force, 0.0, 1.0);
     let of_whole = |ellipse| force.variation(0.0, 1.0, ellipse);
     let NodeCriterion { allowed, nodes, .. } = criterion;
-    if resolved.is_some() || is_resolved_closely(of_whole, varies.change, allowed, nodes) {
+    if resolved.is_some() || is_resolved_by_least_ellipse(of_whole, varies.change, allowed, nodes) {
         return None;
     }
     Search::new(criterion).run(force)

@@ -20,7 +20,8 @@ pub use interval::Interval;
 pub use partition::{PanelResolution, partition};
 pub use rectangle::Rectangle;
 pub use variation::{
-    CORNER_SHARE, MotionPiece, Variation, ellipses, has_pole, is_resolved_closely, resolved,
+    CORNER_SHARE, MotionPiece, Variation, ellipses, has_pole, is_resolved_by_least_ellipse,
+    resolved,
 };
 
 /// Enclosure of values over an interval and around it in the complex plane.

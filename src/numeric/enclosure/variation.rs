@@ -150,7 +150,7 @@ pub fn resolved(
 
 /// Whether this number of nodes resolves to `allowed` a function of this change on the piece, by the smallest ellipse
 /// that may serve: a larger one may hold a singularity.
-pub fn is_resolved_closely(
+pub fn is_resolved_by_least_ellipse(
     variation: impl Fn(f64) -> Variation,
     change: f64,
     allowed: f64,

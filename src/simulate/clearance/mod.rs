@@ -18,7 +18,7 @@ use super::result::Cost;
 use super::row::RowSink;
 use super::run_setup::RunSetup;
 use super::schedule::Schedule;
-use super::second_run::finer;
+use super::second_run::other_method_tolerance;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::contact::{self, ContactEnd, ContactSettings};
@@ -135,7 +135,7 @@ impl<'a, const N: usize> Loose<'a, N> {
         let begun = Instant::now();
         // Steps of a contact are bounded by its phases, too: bounds that stay would err alike.
         let share = 0.5;
-        let tolerance = finer(self.task.scene.run.tolerance);
+        let tolerance = other_method_tolerance(self.task.scene.run.tolerance);
         let (ended, follower) = self.integrate(None, tolerance, share, t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),
