@@ -1,23 +1,19 @@
 //! Priors about a smoothed path with the noise that makes the samples likeliest.
 
-use std::f64::consts::PI;
+mod with_repeating;
+
 use std::ops::Range;
 
 use super::grid::Path;
 use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
-use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
-use super::prior::{FOLLOWING, LADDERS, Prior, TORQUE};
+use super::prior::{LADDERS, Prior};
 use super::problem::Problem;
 use super::rotation::Rotation;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
 use super::state_space::Stretch;
-use super::weighed::LEAST_LOG_ODDS;
 use crate::numeric::parallel;
-
-/// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
-const FIRST_HARMONICS: usize = 12;
 
 /// A prior with its noise, about a path.
 #[derive(Clone, Copy, Debug)]
@@ -184,20 +180,6 @@ impl Problem<'_> {
         Tried::new(plain.into_iter().flatten().collect(), abouts)
     }
 
-    /// The priors beside those with a part that repeats.
-    pub fn with_repeating(&self, plain: Tried, rotation: Rotation, is_correlated: bool) -> Tried {
-        // What repeats is noise that comes down: of what was computed there is none.
-        if self.is_computed() {
-            return plain;
-        }
-        let Tried {
-            mut candidates,
-            abouts,
-        } = plain;
-        candidates.extend(self.repeating(rotation, &candidates, &abouts, is_correlated));
-        Tried::new(candidates, abouts)
-    }
-
     /// The priors with the likeliest correlation of the sample noise.
     pub fn correlated(&self, white: Tried, rotation: Rotation) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
@@ -206,96 +188,5 @@ impl Problem<'_> {
             about.map_or(*one, |about| about.of(one.prior).with_correlation(one))
         });
         self.with_repeating(Tried::new(plain, white.abouts), rotation, true)
-    }
-
-    /// Priors with a part that repeats every turn, or in each swing, where that may count beside the same prior without.
-    fn repeating(
-        &self,
-        rotation: Rotation,
-        tried: &[Candidate],
-        abouts: &[About],
-        is_correlated: bool,
-    ) -> Vec<Candidate> {
-        let of = |prior: Prior| tried.iter().find(|one| one.prior == prior);
-        let Some(torque) = of(TORQUE).filter(|_| rotation.passes >= 2.0) else {
-            return Vec::new();
-        };
-        // A part that follows the speed is tried at once where the samples show it without what repeats.
-        let is_shown = |following: &&Candidate| {
-            following.noise.likelihood > torque.noise.likelihood + SIGNIFICANT_RISE
-        };
-        let plain = of(FOLLOWING).filter(is_shown).unwrap_or(torque);
-        let high =
-            about(abouts, plain.prior).map(|about| about.standing_out(plain, FIRST_HARMONICS));
-        let with = |prior: Prior, before: Noise, least: f64| {
-            // The samples tell no more coefficients than there are samples, and the nodes no wave shorter than two of them.
-            if self.is_stopped()
-                || 2.0 * prior.coefficients() as f64 > self.record.counted()
-                || prior.waves() * rotation.step > PI
-            {
-                return None;
-            }
-            let plain = Prior {
-                powers: prior.powers,
-                ..TORQUE
-            };
-            let about = about(abouts, plain)?;
-            let plain = of(plain)?;
-            let before = Noise {
-                spectrum: before.spectrum,
-                ..better(before, plain.noise)
-            };
-            let linear = about.repeating(prior);
-            let mut next = linear.candidate(before, least)?;
-            if is_correlated {
-                next = linear.with_correlation(&next);
-            }
-            (next.noise.sigma > self.record.instrument_noise()).then_some(next)
-        };
-        let first = Prior {
-            cycle: 1,
-            harmonics: FIRST_HARMONICS,
-            high: high.unwrap_or_default(),
-            ..plain.prior
-        };
-        let mut found = Vec::from_iter(with(
-            first,
-            plain.noise,
-            plain.noise.likelihood + LEAST_LOG_ODDS,
-        ));
-        // What repeats may stand for a part that follows the speed.
-        if first.powers > 0 {
-            let before = Noise {
-                speed_corner: 0.0,
-                ..found.last().unwrap_or(plain).noise
-            };
-            let least = before.likelihood + LEAST_LOG_ODDS;
-            found.extend(with(Prior { powers: 0, ..first }, before, least));
-            found.sort_by(|a, b| a.noise.likelihood.total_cmp(&b.noise.likelihood));
-        }
-        if let Some(Candidate {
-            prior,
-            noise,
-            scales,
-        }) = found.last().copied().filter(|_| first.powers == 0)
-        {
-            let least = noise.likelihood + ENOUGH_RISE;
-            let followed = |from| with(Prior { powers: 1, ..prior }, from, least);
-            let starts = [noise, Linear::of(prior, scales).quiet(noise)].into_iter();
-            found.extend(starts.filter_map(followed).reduce(likelier));
-        }
-        // Forward selection: what is added stays where it makes the samples likelier.
-        let mut extend = |rise: f64, by: fn(Prior) -> Prior| {
-            let next =
-                |Candidate { prior, noise, .. }| with(by(prior), noise, noise.likelihood + rise);
-            let next = found.last().copied().and_then(next);
-            found.extend(next);
-            next.is_some()
-        };
-        if rotation.turns >= 4.0 {
-            extend(ENOUGH_RISE, Prior::over_two_turns);
-        }
-        while extend(SIGNIFICANT_RISE, Prior::with_twice_the_harmonics) {}
-        found
     }
 }
