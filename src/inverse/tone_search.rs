@@ -45,10 +45,9 @@ impl Problem<'_> {
         let least = noise.likelihood + self.cost_of_tone();
         let at = |line: &Line| {
             let near = line.highest(&errors);
+            let of = |carrier| self.beside(&linear, carrier)?.likeliest(near, noise);
             let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
-            let found = carriers
-                .filter_map(|carrier| self.beside(&linear, carrier)?.likeliest(near, noise));
-            let found: Vec<(Tone, Noise)> = found.collect();
+            let found = Vec::from_iter(carriers.filter_map(of));
             let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
             gains.then(|| found.into_iter().map(|(tone, _)| tone).collect())
         };
@@ -89,9 +88,8 @@ impl Problem<'_> {
             ..smoothed.noise
         };
         let scales = self.scales(prior, &path, smoothed.scales.slope, first.sigma);
-        let stretch = self.stretch(prior, &path, 0..self.grid.len(), first.sigma);
         let linear = Linear {
-            stretches: std::iter::once(stretch).collect(),
+            stretches: [self.stretch(prior, &path, 0..self.grid.len(), first.sigma)].into(),
             ..Linear::of(prior, scales)
         };
         let noise = linear.with_corner(linear.begun(first));
