@@ -177,7 +177,8 @@ impl<'a> Problem<'a> {
             self.record.observed(&course, range.start + k, sigma)
         });
         let mut constants = [0.0; 2];
-        let known = states[0].iter().skip(prior.diffuse()).take(prior.powers);
+        let first = states.first().into_iter().flatten();
+        let known = first.skip(prior.diffuse()).take(prior.powers);
         let pairs = constants.iter_mut().zip(known);
         pairs.for_each(|(constant, known)| *constant = *known);
         Stretch {

@@ -141,9 +141,15 @@ impl Linear {
 }
 
 impl Problem<'_> {
-    /// The linear model of a prior about a smoothed path.
+    /// The linear model of a prior, and of those that are alike, about a smoothed path.
     pub fn about(&self, prior: Prior, from: &Smoothed) -> About {
-        let path = self.path_of(prior, from, self.sampled());
+        let mut path = self.path_of(prior, from, self.sampled());
+        // Other priors have their constants at other places of the state, where no step may change them.
+        let first = path.states.first().copied().unwrap_or_default();
+        for state in &mut path.states {
+            let constants = prior.diffuse()..prior.states();
+            state[constants.clone()].copy_from_slice(&first[constants]);
+        }
         let scales = Scales {
             acceleration: from.scales.acceleration,
             ..self.scales(prior, &path, from.scales.slope, from.noise.sigma)
