@@ -123,19 +123,6 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
         if rate < 0.0 { [pair[1], pair[0]] } else { pair }
     });
     let acceleration = |extreme| locate(extreme, rate * rate);
-    let mut warnings = Vec::new();
-    if limits.class == Class::ChangePoint {
-        warnings.push(
-            "the lengths make a change point: the mechanism can leave it on either branch"
-                .to_owned(),
-        );
-    }
-    if extremes.is_none() {
-        warnings.push(
-            "velocity and acceleration grow without bound towards the limit positions of the crank"
-                .to_owned(),
-        );
-    }
     let dead_centres = limits.dead_centres.iter().map(|centre| DeadCentre {
         theta_rad: centre.theta,
         x_m: centre.x,
@@ -157,9 +144,27 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
         speed_rad_per_s: (speed != 0.0).then_some(speed),
         positions: linkage.named_positions(),
         reach_rad: limits.reach,
-        warnings,
+        warnings: warnings(limits.class),
         linkage,
     }
+}
+
+/// Returns the warnings about one turn of a mechanism of a class.
+pub(crate) fn warnings(class: Class) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if class == Class::ChangePoint {
+        warnings.push(
+            "the lengths make a change point: the mechanism can leave it on either branch"
+                .to_owned(),
+        );
+    }
+    if class != Class::RotatingCrank {
+        warnings.push(
+            "velocity and acceleration grow without bound towards the limit positions of the crank"
+                .to_owned(),
+        );
+    }
+    warnings
 }
 
 impl Kinematics {

@@ -8,9 +8,9 @@ mod synthesis;
 mod turning_moment;
 
 pub use crate::mechanism::{Length, size_from_stroke};
-#[cfg(feature = "cli")]
-pub(crate) use closed_form::of_checked;
 pub use closed_form::{DeadCentre, Kinematics, KinematicsRow, Located, NamedPosition, kinematics};
+#[cfg(feature = "cli")]
+pub(crate) use closed_form::{of_checked, warnings};
 pub use diagrams::{Counterweight, Diagrams, Indicated, Order};
 pub use forces::{ForceAnalysis, ForceRow, StrokeTorque, forces};
 #[cfg(feature = "cli")]

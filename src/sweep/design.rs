@@ -1,8 +1,9 @@
 //! One design of a sweep: computes its closed-form turn, diagrams, steady state and motion, as the options ask.
 
-use super::SweepOptions;
+use super::{Source, SweepOptions};
 use crate::error::Error;
 use crate::kinematics::{self, Diagrams, Kinematics, forces, left_out_of_forces};
+use crate::mechanism::{Class, Linkage};
 use crate::numeric::stop::Stop;
 use crate::scene::{Scene, VariedValue};
 use crate::simulate::{NoRows, Options, SteadyState, Summary, simulate_rows, steady_state};
@@ -34,7 +35,7 @@ pub struct Design {
     pub outcome: Outcome,
     /// Reason for any other outcome than done, then warnings.
     pub notes: Vec<String>,
-    /// One turn in closed form; none for an impossible design.
+    /// One turn in closed form, if figures of it are asked for; none for an impossible design.
     pub kinematics: Option<Kinematics>,
     /// Diagrams of a cycle, if asked for and defined.
     pub diagrams: Option<Diagrams>,
@@ -65,9 +66,11 @@ impl Design {
 
     /// Computes all that is asked of a valid scene.
     fn compute(&mut self, scene: &Scene, options: &SweepOptions) {
-        let turn = kinematics::of_checked(scene);
-        self.notes.extend(turn.warnings.iter().cloned());
-        self.kinematics = Some(turn);
+        let class = Class::of(&Linkage::new(&scene.geometry));
+        self.notes.extend(kinematics::warnings(class));
+        self.kinematics = options
+            .has(Source::Turn)
+            .then(|| kinematics::of_checked(scene));
         if options.diagrams {
             self.notes.extend(left_out_of_forces(scene));
             match forces(scene) {

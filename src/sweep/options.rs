@@ -81,9 +81,11 @@ impl SweepOptions {
     }
 
     /// Whether the options ask for the computation `source`.
-    fn has(&self, source: Source) -> bool {
+    pub(super) fn has(&self, source: Source) -> bool {
         match source {
-            Source::Turn => true,
+            Source::Turn => {
+                self.figures.is_empty() || self.figures.iter().any(|one| one.source == source)
+            }
             Source::Diagrams => self.diagrams,
             Source::Motion => self.motion,
             Source::Peaks => self.run.reactions,

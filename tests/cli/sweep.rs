@@ -538,6 +538,38 @@ fn what_cannot_be_varied_is_refused_with_what_would_be_right() {
     assert_eq!(folder.names(), ["scene.toml", "torque.csv"]);
 }
 
+/// Named figures of the motion are those among all figures, with the same outcome and notes, and no turn is computed for them: at
+/// 108.83 mm of offset the mechanism has a change point, at 120 mm the crank has limits.
+#[test]
+fn figures_of_the_motion_need_no_turn() {
+    use slider_crank::scene::Draft;
+    use slider_crank::sweep::{Design, Sweep, SweepOptions};
+    let sweep = |figures: &[&str]| {
+        let offsets = "geometry.offset=0mm,20mm,108.83mm,120mm".parse();
+        let figures = figures.iter().map(|name| name.parse().expect("a figure"));
+        let options = SweepOptions {
+            figures: figures.collect(),
+            ..SweepOptions::default()
+        };
+        Sweep::new(Draft::duarte(), vec![offsets.expect("values")], options).expect("a sweep")
+    };
+    let (whole, named) = (sweep(&[]), sweep(&["theta", "omega"]));
+    let mut notes = 0;
+    for k in 0..4 {
+        let [whole, named] = [&whole, &named].map(|sweep| sweep.design(k));
+        let last = |design: &Design| {
+            let last = design.motion.as_ref().map(|motion| motion.last);
+            last.map(|last| [last.theta_rad, last.omega_rad_per_s])
+        };
+        assert_eq!(last(&named), last(&whole), "{k}");
+        assert_eq!(named.outcome, whole.outcome, "{k}");
+        assert_eq!(named.notes, whole.notes, "{k}");
+        assert!(whole.kinematics.is_some() && named.kinematics.is_none());
+        notes += named.notes.len();
+    }
+    assert!(notes > 2, "{notes}");
+}
+
 #[test]
 fn what_the_scene_lacks_may_be_varied_in() {
     let folder = Folder::with(&format!("{PUMP}[run]\nduration = \"0.2 s\"\n"));
