@@ -66,8 +66,8 @@ impl Tried {
     }
 }
 
-/// The linear model about a smoothed path: one for all priors that are alike, as u less what follows the speed is constant in each
-/// step of that path.
+/// The linear model about a smoothed path: one for all priors that are alike, as along that path the derivatives of u are 0 and
+/// the constants of its law do not change.
 pub(super) struct About {
     pub linear: Linear,
     pub path: Path,
