@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::beside_tones::{BesideTones, Rival};
 use super::branch_tracking::CrankAngles;
 use super::candidates::Candidate;
 use super::motion_estimate::MotionEstimate;
@@ -16,8 +15,9 @@ use super::samples;
 use super::shared_errors::Source;
 use super::smoother::Smoothed;
 use super::summary::FitSummary;
+use super::tone::beside::{BesideTones, Rival};
+use super::tone::choice::Given;
 use super::tone::{self, Carrier, Tone};
-use super::tone_choice::Given;
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::median::range;

@@ -166,7 +166,7 @@ mod tests {
         Stretch {
             steps: vec![step; steps].into(),
             intensities: vec![1.0; steps],
-            observed: (0..=steps).map(observed).collect(),
+            observed: Vec::from_iter((0..=steps).map(observed)).into(),
             ..Stretch::default()
         }
     }

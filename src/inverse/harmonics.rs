@@ -52,7 +52,8 @@ impl Increments {
             let pairs = waves(angle / f64::from(prior.cycle), prior);
             for (to, [cos, sin]) in row.chunks_exact_mut(prior.of_harmonic()).zip(pairs) {
                 let values = [cos, sin, speed * cos, speed * sin];
-                to.copy_from_slice(&values[..to.len()]);
+                let pairs = to.iter_mut().zip(values);
+                pairs.for_each(|(to, value)| *to = value);
             }
         };
         let steps = ways.len();

@@ -16,7 +16,7 @@ use super::problem::Problem;
 use super::rotation::Rotation;
 use super::smoother::Smoothed;
 use super::span::{Intensities, Span};
-use super::state_space::{Deviations, with_dimension};
+use super::state_space::{Deviations, Stretch, with_dimension};
 use super::stretch_search::{Guess, Trial};
 
 /// Number of parameters of a stretch: begin, end, factor.
@@ -111,6 +111,11 @@ impl Problem<'_> {
         let mut intensities = Intensities::default();
         let Smoothed { prior, scales, .. } = *found;
         let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
+        linear.stretches = linear
+            .stretches
+            .iter()
+            .map(Stretch::beside_known_tones)
+            .collect();
         let mut noise = found.noise;
         let passes = Rotation::of(found.angles()).passes;
         while intensities.0.len() < self.record.counted() as usize / 10 {
@@ -221,7 +226,7 @@ mod tests {
     use crate::inverse::kalman::{self, Evidence};
     use crate::inverse::linearised::Linearised;
     use crate::inverse::prior::TORQUE;
-    use crate::inverse::state_space::{Observed, Stretch};
+    use crate::inverse::state_space::Observed;
     use crate::inverse::transition::transition;
 
     /// Returns a model of a stretch of samples.
@@ -255,7 +260,7 @@ mod tests {
         let mut stretch = Stretch {
             steps: vec![step; 20].into(),
             intensities: vec![1.0; 20],
-            observed: (0..21).map(sample).collect(),
+            observed: Vec::from_iter((0..21).map(sample)).into(),
             ..Stretch::default()
         };
         let found = scores::<3>(&model(&stretch), 1.0).list;

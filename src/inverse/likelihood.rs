@@ -15,6 +15,7 @@ use super::scales::{Noise, Scales};
 use super::spectra::OverSpectra;
 use super::spectrum::Spectrum;
 use super::state_space::{Deviations, Stretch, with_dimension};
+use super::tone::regressors::Regressors;
 use crate::numeric::parallel;
 
 /// Returns the likelihood terms of a model.
@@ -23,6 +24,14 @@ fn evidence<const N: usize>(model: &Deviations<'_>) -> Evidence {
     let mut evidence = Evidence::default();
     kalman::run::<N>(model, None, |_, at| evidence.add(at));
     evidence
+}
+
+/// Returns the normal equations of a model.
+#[multiversion(targets("x86_64+avx2"))]
+fn regression<const N: usize>(model: &Deviations<'_>) -> Regression {
+    let mut regressed = Regressed::<N>::new(model, false);
+    kalman::run::<N>(model, None, |node, at| regressed.filtered(node, at));
+    regressed.into_parts().0
 }
 
 /// Stretches of nodes with their linear models, and the scales of the search.
@@ -78,6 +87,12 @@ impl Linear {
         }
     }
 
+    /// The regressors of the tones; none without tones.
+    fn tones(&self) -> Option<&Regressors> {
+        let first = self.stretches.first()?;
+        Some(&*first.tones).filter(|tones| tones.count > 0)
+    }
+
     /// Returns the evidence without a periodic part.
     fn plain(&self, noise: &Noise) -> Evidence {
         let of = |stretch: &Stretch| {
@@ -91,15 +106,17 @@ impl Linear {
         all
     }
 
-    /// Returns the normal equations of the coefficients of what repeats.
+    /// Returns the normal equations of the coefficients of what repeats, over all values of the tones.
     pub fn regression(&self, noise: &Noise) -> Regression {
+        let unit = self.tones().map_or(0.0, |tones| tones.log_unit);
+        self.normal_equations(noise).over_tones(unit)
+    }
+
+    /// Returns the normal equations of the coefficients of what repeats, then of the numbers of the tones.
+    pub fn normal_equations(&self, noise: &Noise) -> Regression {
         let of = |stretch: &Stretch| {
             let model = self.deviations(stretch, noise);
-            with_dimension!(model.dimension(), N => {
-                let mut regressed = Regressed::<N>::new(&model, false);
-                kalman::run::<N>(&model, None, |node, at| regressed.filtered(node, at));
-                regressed.into_parts().0
-            })
+            with_dimension!(model.dimension(), N => regression::<N>(&model))
         };
         Regression::of_all(self.prior, parallel::map(self.stretches.iter(), of))
     }
@@ -135,11 +152,14 @@ impl Linear {
 
     /// Returns the evidence; with a periodic part, for the spectrum of the noise or else for the likeliest, which is left there.
     fn evidence(&self, noise: &mut Noise, near: Option<Spectrum>) -> Evidence {
-        if self.prior.cycle == 0 {
+        if self.prior.cycle == 0 && self.tones().is_none() {
             return self.plain(noise);
         }
         let regression = self.regression(noise);
         let mut evidence = regression.evidence;
+        if self.prior.cycle == 0 {
+            return evidence;
+        }
         let rest = self.rest(&evidence);
         let found = match noise.spectrum {
             Some(spectrum) => regression

@@ -190,13 +190,13 @@ mod tests {
             harmonics: 5,
             ..TORQUE
         };
-        let mut regression = Regression::new(prior);
+        let mut regression = Regression::new(prior, prior.coefficients());
         let mut squares = 0.0;
         for i in 0..40 {
             let wave = |j: usize| (0.37 * (i * (j / 2 + 1)) as f64 + 1.6 * (j % 2) as f64).cos();
             let row: Vec<f64> = (0..prior.coefficients()).map(wave).collect();
             let error = ((i * i * 37 + 11) as f64).sin() + 0.8 * row[7] - 0.4 * row[0];
-            regression.take(&row, error, 1.0);
+            regression.take([&row, &[]], error, 1.0);
             squares += error * error;
         }
         regression.multiply();

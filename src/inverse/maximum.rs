@@ -37,18 +37,26 @@ pub(super) fn climb(
         here = best;
         points.extend(stepped(here.0, step).map(with));
     }
-    for _ in 0..4 {
+    let mut width = f64::INFINITY;
+    for _ in 0..12 {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let best = likeliest(&points);
         if best == 0 || best + 1 == points.len() {
             break;
         }
         let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
-        let top = vertex(a, b, c);
-        if !top.place.is_finite() || top.rise < ENOUGH_RISE {
+        let Top { place, rise } = vertex(a, b, c);
+        if !place.is_finite() || rise < ENOUGH_RISE {
             break;
         }
-        points.push(with(top.place));
+        // Beside a cliff parabolas come nearer by little at a time.
+        let is_slow = c.0 - a.0 > 0.5 * width;
+        width = c.0 - a.0;
+        points.push(with(if is_slow {
+            middle_of_wider(a, b, c)
+        } else {
+            place
+        }));
     }
     points[likeliest(&points)].1
 }
@@ -80,17 +88,22 @@ pub(super) fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (right - left) / (c.0 - a.0);
     if !curvature.is_finite() || curvature >= 0.0 {
-        // No parabola: the middle of the wider side.
-        let place = match c.0 - b.0 > b.0 - a.0 {
-            true => 0.5 * (b.0 + c.0),
-            false => 0.5 * (a.0 + b.0),
+        return Top {
+            place: middle_of_wider(a, b, c),
+            rise: f64::INFINITY,
         };
-        let rise = f64::INFINITY;
-        return Top { place, rise };
     }
     let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
     Top {
         place: top.clamp(a.0 + 0.1 * (b.0 - a.0), c.0 - 0.1 * (c.0 - b.0)),
         rise: -curvature * (top - b.0).powi(2),
+    }
+}
+
+/// Returns the middle of the wider side of three points.
+fn middle_of_wider(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> f64 {
+    match c.0 - b.0 > b.0 - a.0 {
+        true => 0.5 * (b.0 + c.0),
+        false => 0.5 * (a.0 + b.0),
     }
 }

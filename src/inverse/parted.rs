@@ -111,7 +111,7 @@ mod tests {
         let usual = Stretch {
             steps: vec![step; 300].into(),
             intensities: vec![1.0; 300],
-            observed: (0..301).map(sample).collect(),
+            observed: Vec::from_iter((0..301).map(sample)).into(),
             ..Stretch::default()
         };
         let along = Deviations {

@@ -19,6 +19,7 @@ use super::matrix::{Matrix, transposed};
 use super::regression::{BLOCK, ROWS_AT_ONCE, Regression};
 use super::repeating::dot;
 use super::state_space::{Deviations, Stretch};
+use super::tone::sensitivity::Sensitivity;
 
 /// Derivatives of the state by the coefficients, along the filter.
 struct Columns<'a, const N: usize> {
@@ -55,6 +56,9 @@ impl<'a, const N: usize> Columns<'a, N> {
 
     /// Takes a step, with what the coefficients add to the state in it.
     fn step(&mut self, node: usize, step: &Step<N>) {
+        if self.errors.is_empty() {
+            return;
+        }
         self.transform(&step.transition);
         let torques = self.stretch.increments.of(node);
         let rows = self.of.chunks_exact_mut(self.errors.len());
@@ -67,7 +71,7 @@ impl<'a, const N: usize> Columns<'a, N> {
 
     /// Takes a sample in and leaves E in `errors`.
     fn update(&mut self, sample: &Sample, found: &Innovation<N>) {
-        let count = self.errors.len();
+        let count = self.errors.len().max(1);
         self.errors.fill(0.0);
         for (row, share) in self.of.chunks_exact(count).zip(sample.row::<N>()) {
             add(&mut self.errors, -share, row);
@@ -91,6 +95,8 @@ fn add(to: &mut [f64], factor: f64, row: &[f64]) {
 /// Companion of filter and smoother that fills the normal equations.
 pub(super) struct Regressed<'a, const N: usize> {
     columns: Columns<'a, N>,
+    /// Derivatives by the tones; those of a smoother are known.
+    tones: Option<Sensitivity<N>>,
     to: Regression,
     /// The smoother's derivatives, if there is one.
     found: Option<Derivatives>,
@@ -111,9 +117,12 @@ impl<'a, const N: usize> Regressed<'a, N> {
     pub fn new(model: &Deviations<'a>, is_smoother: bool) -> Self {
         let count = model.stretch.increments.count;
         let rows = model.stretch.observed.len() * count;
+        let tones = (!is_smoother).then(|| Sensitivity::new(model.stretch.tones.count));
+        let of_tones = tones.as_ref().map_or(0, |tones| tones.errors.len());
         Regressed {
             columns: Columns::new(model),
-            to: Regression::new(model.prior),
+            tones,
+            to: Regression::new(model.prior, count + of_tones),
             found: (is_smoother && count > 0).then(|| Derivatives {
                 list: Vec::with_capacity(rows * N),
                 errors: Vec::with_capacity(rows),
@@ -133,13 +142,17 @@ impl<'a, const N: usize> Regressed<'a, N> {
         if let Some(step) = at.step {
             self.columns.step(node - 1, step);
         }
+        let of_tones = match &mut self.tones {
+            Some(tones) => tones.filtered(&self.columns.stretch.tones, node, at),
+            None => &[],
+        };
         if let Some(derivatives) = &mut self.found {
             derivatives.list.extend(&self.columns.of);
         }
         if let Some((sample, found)) = at.sample {
             self.columns.update(sample, found);
             let (errors, per) = (&self.columns.errors, 1.0 / found.variance.sqrt());
-            self.to.take(errors, found.error, per);
+            self.to.take([errors, of_tones], found.error, per);
             if let Some(derivatives) = &mut self.found {
                 derivatives.left += 1;
                 let scaled = errors.iter().map(|value| value * per);
@@ -209,7 +222,7 @@ impl<const N: usize> Companion<N> for Regressed<'_, N> {
     #[inline(always)]
     fn filtered(&mut self, node: usize, at: &Filtered<'_, N>) {
         self.to.evidence.add(at);
-        if !self.columns.errors.is_empty() {
+        if self.to.count() > 0 {
             self.regress(node, at);
         }
     }

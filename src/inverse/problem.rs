@@ -181,7 +181,9 @@ impl<'a> Problem<'a> {
         let known = first.skip(prior.diffuse()).take(prior.powers);
         let pairs = constants.iter_mut().zip(known);
         pairs.for_each(|(constant, known)| *constant = *known);
+        let tones = self.regressors(&self.record.tones, prior, range.clone(), states);
         Stretch {
+            tones: tones.into(),
             steps: steps.into(),
             intensities: intensities.collect(),
             constants,

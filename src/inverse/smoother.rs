@@ -91,15 +91,29 @@ impl Problem<'_> {
             ..found
         };
         let mut correction = Correction::default();
+        // The iteration before which the noise is estimated.
+        let mut judged = usize::from(!is_linear);
         for iteration in 0..ITERATIONS {
-            if is_result && iteration == usize::from(!is_linear) {
-                whole.noise = self.by_all_samples(&path, &whole.candidate());
+            if is_result && iteration == judged {
+                let noise = self.by_all_samples(&path, &whole.candidate());
+                let is_first = iteration <= usize::from(!is_linear);
+                if !is_first && noise.likelihood < whole.noise.likelihood + ENOUGH_RISE {
+                    whole.converged = found.converged;
+                    break;
+                }
+                whole.noise = noise;
+                correction = Correction::default();
             }
             // Frees the memory of the former estimates first.
             whole.estimates = Vec::new();
             whole.estimates = self.smoothed(&mut path, &whole.candidate());
             let change = correction.taken(&mut path, &whole.estimates);
             let is_at_rest = is_linear || iteration > 0 && change < PATH_AT_REST;
+            if is_at_rest && is_result && iteration > judged {
+                // The path has moved since the noise was estimated about it.
+                judged = iteration + 1;
+                continue;
+            }
             whole.converged = found.converged && is_at_rest;
             if whole.converged || !change.is_finite() {
                 break;

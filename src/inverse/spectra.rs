@@ -175,9 +175,10 @@ mod tests {
         });
         let truth = DVector::from_vec(vec![2.0, -1.0, 0.1, 0.0, 0.3, 0.2]);
         let errors = DVector::from_fn(60, |i, _| ((i * i * 37 + 11) as f64).sin()) + &rows * truth;
-        let mut regression = Regression::new(of);
+        let mut regression = Regression::new(of, of.coefficients());
         for (row, error) in rows.row_iter().zip(&errors) {
-            regression.take(&Vec::from_iter(row.iter().copied()), *error, 1.0);
+            let row = Vec::from_iter(row.iter().copied());
+            regression.take([&row, &[]], *error, 1.0);
         }
         regression.multiply();
         let rest = Rest {

@@ -9,6 +9,7 @@ use super::kalman::{Gaussian, Sample, Step};
 use super::linearised::Linearised;
 use super::matrix::{Matrix, diagonal};
 use super::prior::{Prior, State};
+use super::tone::regressors::Regressors;
 
 /// Evaluates an expression with the number of states, 3 to 7, as a constant.
 macro_rules! with_dimension {
@@ -47,14 +48,26 @@ pub(super) struct Observed {
 /// Steps and samples of a stretch of nodes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stretch {
-    pub steps: Arc<[Linearised]>,
+    pub steps: Arc<Vec<Linearised>>,
     /// Intensity of the process noise in each step over the usual one.
     pub intensities: Vec<f64>,
     /// g₁ and g₂ of the nominal path at its begin, in the place of those that the prior expects: 0.
     pub constants: [f64; 2],
     /// Increments of the harmonics of the periodic part in each step.
     pub increments: Increments,
-    pub observed: Arc<[Observed]>,
+    /// Regressors of the tones.
+    pub tones: Arc<Regressors>,
+    pub observed: Arc<Vec<Observed>>,
+}
+
+impl Stretch {
+    /// The same stretch beside tones that are known.
+    pub fn beside_known_tones(&self) -> Stretch {
+        Stretch {
+            tones: Arc::default(),
+            ..self.clone()
+        }
+    }
 }
 
 /// Linear model of the deviations from a nominal path; N is 2 + order, one more with each power of the speed, one more with

@@ -1,7 +1,15 @@
 //! Tones: sinusoids of fixed frequencies in time, in the values of a sensor, as hum of the mains, or in the torque, as the ripple of
 //! an inverter.
 
-use nalgebra::{Matrix3, Vector3};
+pub(super) mod beside;
+pub(super) mod choice;
+mod effects;
+mod errors;
+pub(super) mod regressors;
+mod search;
+pub(super) mod sensitivity;
+mod sinusoid;
+
 use serde::Serialize;
 
 /// What has a tone.
@@ -22,8 +30,8 @@ pub(super) struct Tone {
     pub frequency: f64,
     /// a and b, rad or m of a sensor, N m of the torque.
     pub amplitudes: [f64; 2],
-    /// Covariance of a, b and ω.
-    pub covariance: Matrix3<f64>,
+    /// ln of the determinant of the covariance of a, b and ω by which it was accepted: the unit of their density before the samples.
+    pub log_unit: f64,
     /// ln of the odds to a tone of the other carrier; none where that has no likelihood.
     pub log_odds: Option<f64>,
 }
@@ -42,16 +50,13 @@ impl Tone {
         [cos, sin, t * (b * cos - a * sin)]
     }
 
-    /// True if another estimate of it is within a third of the standard errors of this one, in the mean of the three.
-    pub fn agrees(&self, other: &Tone) -> bool {
-        let vector =
-            |tone: &Tone| Vector3::new(tone.amplitudes[0], tone.amplitudes[1], tone.frequency);
-        let off = vector(other) - vector(self);
-        let solved = self
-            .covariance
-            .try_inverse()
-            .map(|inverse| off.dot(&(inverse * off)));
-        solved.is_some_and(|square| square < 1.0 / 3.0)
+    /// Returns it with a and b, and its frequency, changed.
+    pub fn moved(self, by: [f64; 3]) -> Tone {
+        Tone {
+            amplitudes: [self.amplitudes[0] + by[0], self.amplitudes[1] + by[1]],
+            frequency: self.frequency + by[2],
+            ..self
+        }
     }
 
     /// Returns its amplitude.

@@ -2,13 +2,14 @@
 //! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
 //! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
 
-use super::beside_tones::{BesideTones, Less};
-use super::branch_tracking::CrankAngles;
-use super::maximum::SIGNIFICANT_RISE;
-use super::mean_length::{ByMeans, by_means};
-use super::samples;
-use super::smoother::Smoothed;
-use super::tone::{Carrier, Tone};
+use super::super::branch_tracking::CrankAngles;
+use super::super::mean_length::{ByMeans, by_means};
+use super::super::prior::Prior;
+use super::super::samples;
+use super::super::smoother::Smoothed;
+use super::beside::{BesideTones, Less};
+use super::search::Corrected;
+use super::{Carrier, Tone};
 use crate::mechanism::Equation;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -16,7 +17,7 @@ use crate::scene::Measurement;
 
 /// What a motion is estimated from.
 #[derive(Clone, Copy)]
-pub(super) struct Given<'a, 'b> {
+pub(in crate::inverse) struct Given<'a, 'b> {
     pub measurement: &'a Measurement,
     pub angles: &'b CrankAngles<'a>,
     pub equation: &'a Equation,
@@ -68,21 +69,23 @@ impl<'a> Given<'a, '_> {
         best
     }
 
-    /// The likeliest motion beside tones of which the last is estimated anew about it, as long as that moves it and makes the motion
-    /// likelier.
-    fn refined(&self, mut tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
+    /// The likeliest motion beside tones that are corrected about it until they come to rest.
+    fn refined(&self, tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
         let mut found = self.beside(&tones, most, Some(near));
-        while let Some(tone) = found.problem.last_tone(&found.smoothed) {
-            if tones.pop().is_none_or(|known| tone.agrees(&known)) {
+        let mut before: Vec<(Prior, f64)> = Vec::new();
+        while let Some(Corrected { tones, square, .. }) =
+            found.problem.corrected_tones(&found.smoothed)
+        {
+            // The corrections beside a prior fall (natural monotonicity test); a third of a standard error is little.
+            let prior = found.smoothed.prior;
+            let falls = before
+                .iter()
+                .all(|(other, last)| *other != prior || square < *last);
+            if square < 1.0 / 9.0 || !falls {
                 break;
             }
-            tones.push(tone);
-            let next = self.beside(&tones, most, Some(&found.smoothed));
-            let is_likelier = next.likelihood() > found.likelihood() + SIGNIFICANT_RISE;
-            if !is_likelier {
-                break;
-            }
-            found = next;
+            before.push((prior, square));
+            found = self.beside(&tones, most, Some(&found.smoothed));
         }
         found
     }

@@ -1,22 +1,24 @@
 //! Least squares of a tone beside the likeliest noise of a linear model.
 
-use nalgebra::{Matrix2, Matrix3, Vector2};
+use nalgebra::{Matrix2, Vector2};
 
-use super::harmonics::responses;
-use super::kalman;
-use super::likelihood::Linear;
-use super::maximum::ENOUGH_RISE;
-use super::problem::Problem;
-use super::repeating::dot;
-use super::scales::Noise;
-use super::state_space::{Stretch, with_dimension};
-use super::tone::{Carrier, Tone};
+use super::super::grid::Path;
+use super::super::harmonics::responses;
+use super::super::kalman;
+use super::super::likelihood::Linear;
+use super::super::maximum::ENOUGH_RISE;
+use super::super::problem::Problem;
+use super::super::repeating::dot;
+use super::super::scales::Noise;
+use super::super::state_space::{Stretch, with_dimension};
+use super::{Carrier, Tone};
 use crate::numeric::gauss::LOBATTO;
 use crate::numeric::maximum;
 
 /// A linear model of one stretch with a tone beside it.
-pub(super) struct Beside<'a> {
+pub(in crate::inverse) struct Beside<'a> {
     pub linear: &'a Linear,
+    pub path: &'a Path,
     pub stretch: Stretch,
     pub problem: &'a Problem<'a>,
     pub carrier: Carrier,
@@ -31,7 +33,7 @@ struct Solved {
 
 impl Beside<'_> {
     /// The prediction errors of the samples of a stretch, in their standard deviations.
-    pub fn errors(&self, stretch: &Stretch, noise: &Noise) -> Vec<f64> {
+    fn errors(&self, stretch: &Stretch, noise: &Noise) -> Vec<f64> {
         let model = self.linear.deviations(stretch, noise);
         let mut errors = Vec::with_capacity(stretch.observed.len());
         with_dimension!(model.dimension(), N => {
@@ -52,15 +54,18 @@ impl Beside<'_> {
         loop {
             let errors = self.errors(&self.stretch, &noise);
             let of = |frequency| self.solved(frequency, &errors, &noise);
-            let range = [near - self.width(), near + self.width()];
+            let range = [
+                near - self.linear.resolved_frequency(),
+                near + self.linear.resolved_frequency(),
+            ];
             // As fine that the phase is off by 3e-4 rad at the ends of the record.
-            let width = 1e-4 * self.width();
+            let width = 1e-4 * self.linear.resolved_frequency();
             let (frequency, _) = maximum::largest_to(|one| of(one).fall, range, width);
             let tone = Tone {
                 carrier: self.carrier,
                 frequency,
                 amplitudes: of(frequency).amplitudes,
-                covariance: Matrix3::zeros(),
+                log_unit: 0.0,
                 log_odds: None,
             };
             let left = self.with(1.0, |t| -tone.at(t));
@@ -92,7 +97,7 @@ impl Beside<'_> {
     }
 
     /// The prediction errors that a wave alone makes.
-    pub fn errors_of(&self, noise: &Noise, wave: impl Fn(f64) -> f64) -> Vec<f64> {
+    fn errors_of(&self, noise: &Noise, wave: impl Fn(f64) -> f64) -> Vec<f64> {
         self.errors(&self.with(0.0, wave), noise)
     }
 

@@ -1,5 +1,7 @@
 //! Linear regression on the harmonics of what repeats: normal equations and coefficients.
 
+pub(super) mod over_tones;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::kalman::Evidence;
@@ -59,9 +61,8 @@ pub(super) struct Regression {
 }
 
 impl Regression {
-    /// The equations of the coefficients of a prior.
-    pub fn new(prior: Prior) -> Regression {
-        let count = prior.coefficients();
+    /// The equations of the coefficients of a prior, of which there are so many with those of other regressors.
+    pub fn new(prior: Prior, count: usize) -> Regression {
         Regression {
             prior,
             evidence: Evidence::default(),
@@ -81,12 +82,17 @@ impl Regression {
             sum
         };
         let sum = parts.into_iter().reduce(add);
-        sum.unwrap_or_else(|| Regression::new(prior))
+        sum.unwrap_or_else(|| Regression::new(prior, prior.coefficients()))
     }
 
-    /// Adds a row E with its error e; `per` is 1/√S.
-    pub fn take(&mut self, row: &[f64], error: f64, per: f64) {
-        for (value, score) in row.iter().zip(&mut self.score) {
+    /// Number of coefficients, with those of other regressors.
+    pub fn count(&self) -> usize {
+        self.score.len()
+    }
+
+    /// Adds a row E, in two parts, with its error e; `per` is 1/√S.
+    pub fn take(&mut self, row: [&[f64]; 2], error: f64, per: f64) {
+        for (value, score) in row.into_iter().flatten().zip(&mut self.score) {
             *score -= value * per * error * per;
             self.rows.push(value * per);
         }
@@ -108,6 +114,15 @@ impl Regression {
         self.rows.clear();
     }
 
+    /// Returns I + D½ information D½ of the coefficients with standard deviations D½ before the samples.
+    fn scaled(&self, deviations: &[f64]) -> DMatrix<f64> {
+        let count = deviations.len();
+        DMatrix::from_fn(count, count, |i, j| {
+            let unit = if i == j { 1.0 } else { 0.0 };
+            unit + deviations[i] * self.information[(i, j)] * deviations[j]
+        })
+    }
+
     /// The least standard error of a coefficient beside known others, in units of σ.
     pub fn least_error(&self) -> f64 {
         self.information.diagonal().max().sqrt().recip()
@@ -116,11 +131,7 @@ impl Regression {
     /// The coefficients given the samples, by their standard deviations before.
     pub fn solved_with(&self, deviations: Vec<f64>) -> Option<Posterior> {
         let count = self.score.len();
-        let scaled = DMatrix::from_fn(count, count, |i, j| {
-            let unit = if i == j { 1.0 } else { 0.0 };
-            unit + deviations[i] * self.information[(i, j)] * deviations[j]
-        });
-        let cholesky = cholesky(scaled)?;
+        let cholesky = cholesky(self.scaled(&deviations))?;
         let right = DVector::from_fn(count, |j, _| deviations[j] * self.score[j]);
         let solved = cholesky.solve(&right);
         let lower = cholesky.l();

@@ -1,14 +1,14 @@
 //! A motion beside tones, and the one that it has if a tone is of the other carrier.
 
-use super::motion_estimate::MotionEstimate;
-use super::problem::Problem;
-use super::selection;
-use super::smoother::Smoothed;
-use super::tone::{Carrier, Tone};
+use super::super::motion_estimate::MotionEstimate;
+use super::super::problem::Problem;
+use super::super::selection;
+use super::super::smoother::Smoothed;
+use super::{Carrier, Tone};
 use crate::numeric::student;
 
 /// A record beside its tones, with its motion without mechanics and the likeliest one.
-pub(super) struct BesideTones<'a> {
+pub(in crate::inverse) struct BesideTones<'a> {
     pub problem: Problem<'a>,
     pub kinematic: Smoothed,
     pub smoothed: Smoothed,
@@ -17,14 +17,14 @@ pub(super) struct BesideTones<'a> {
 }
 
 /// A less probable motion.
-pub(super) struct Less<'a> {
+pub(in crate::inverse) struct Less<'a> {
     pub motion: Box<BesideTones<'a>>,
     /// ln of the odds of the likelier one to it.
     pub log_odds: f64,
 }
 
 /// A motion that is less probable than another one.
-pub(super) struct Rival {
+pub(in crate::inverse) struct Rival {
     pub motion: Vec<MotionEstimate>,
     /// ln of the odds of the other one to it, at most those of a motion at the end of a 95 % band.
     pub log_odds: f64,
