@@ -179,7 +179,7 @@ mod tests {
             speed_noise: 0.0,
             law_noise: 0.0,
             correlated: None,
-            spread: [1e3, 1e4, 1e5, 0.0, 0.0, 0.0],
+            spread: [1e3, 1e4, 1e5, 0.0, 0.0, 0.0, 0.0],
         }
     }
 
@@ -282,7 +282,7 @@ mod tests {
             let model = Deviations {
                 prior: FOLLOWING,
                 correlated: Some(100.0),
-                spread: [1e3, 1e6, 2e7, 2e6, 0.0, 0.0],
+                spread: [1e3, 1e6, 2e7, 2e6, 0.0, 0.0, 0.0],
                 ..model(&stretch, (0.5 * f64::from(log)).exp())
             };
             smooth(&model, &mut Narrowing);

@@ -238,7 +238,7 @@ mod tests {
             speed_noise: 0.0,
             law_noise: 0.0,
             correlated: None,
-            spread: [10.0; 6],
+            spread: [10.0; 7],
         }
     }
 

@@ -162,7 +162,7 @@ mod tests {
                     speed_noise: 0.0,
                     law_noise: 0.0,
                     correlated,
-                    spread: [1e3, 1e6, 2e7, 2e6, 0.0, 0.0].map(|spread| width * spread),
+                    spread: [1e3, 1e6, 2e7, 2e6, 0.0, 0.0, 0.0].map(|spread| width * spread),
                 };
                 with_dimension!(model.dimension(), N => agrees::<N>(model, within));
             }

@@ -4,7 +4,7 @@
 pub(super) const ORDERS: usize = 3;
 
 /// State: θ, ω, u, then the derivatives of u, then g₁ and g₂.
-pub(super) type State = [f64; 3 + ORDERS];
+pub(super) type State = [f64; 2 + ORDERS + 2];
 
 /// Returns a state of θ, rad, ω, rad/s, and u, and of nothing beside.
 pub(super) fn plain_state([theta, omega, unknown]: [f64; 3]) -> State {
@@ -119,6 +119,12 @@ impl Prior {
         self.unknown == other.unknown && self.powers == other.powers
     }
 
+    /// Whether so many passages of the crank tell it: a twice integrated process beside both powers takes what varies in time for a law
+    /// where no speed comes again.
+    pub fn is_told_in(self, passes: f64) -> bool {
+        self.powers < 2 || self.order < ORDERS || passes >= 2.0
+    }
+
     /// Number of states.
     pub fn states(self) -> usize {
         self.diffuse() + self.powers
@@ -208,13 +214,6 @@ pub(super) const LADDERS: [&[Prior]; 5] = [
     &ladder(Prior::new(Unknown::Force, 1)),
     &ladder(TORQUE),
     &ladder(FOLLOWING),
-    // Within a turn a twice integrated process beside both powers takes what varies in time for a law.
-    &[
-        QUADRATIC,
-        Prior {
-            order: 2,
-            ..QUADRATIC
-        },
-    ],
+    &ladder(QUADRATIC),
     WITHOUT_MECHANICS,
 ];

@@ -11,7 +11,7 @@ use super::matrix::{Matrix, diagonal};
 use super::prior::{Prior, State};
 use super::tone::regressors::Regressors;
 
-/// Evaluates an expression with the number of states, 3 to 7, as a constant.
+/// Evaluates an expression with the number of states, 3 to 8, as a constant.
 macro_rules! with_dimension {
     (const $n:ident = $number:literal => $value:expr) => {{
         const $n: usize = $number;
@@ -23,7 +23,8 @@ macro_rules! with_dimension {
             4 => with_dimension!(const $n = 4 => $value),
             5 => with_dimension!(const $n = 5 => $value),
             6 => with_dimension!(const $n = 6 => $value),
-            _ => with_dimension!(const $n = 7 => $value),
+            7 => with_dimension!(const $n = 7 => $value),
+            _ => with_dimension!(const $n = 8 => $value),
         }
     };
 }
@@ -242,7 +243,7 @@ mod tests {
             speed_noise: 0.0,
             law_noise: 0.3,
             correlated: None,
-            spread: [10.0; 6],
+            spread: [10.0; 7],
         }
     }
 

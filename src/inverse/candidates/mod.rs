@@ -170,6 +170,8 @@ impl Problem<'_> {
         let abouts = parallel::map(LADDERS.iter(), |ladder| self.about(ladder[0], motion));
         let ladders = abouts.iter().zip(LADDERS);
         let pairs = ladders.flat_map(|(about, ladder)| ladder.iter().map(move |one| (about, one)));
+        let passes = Rotation::of(motion.angles()).passes;
+        let pairs = pairs.filter(|(_, prior)| prior.is_told_in(passes));
         let plain = parallel::map(pairs, |(about, prior)| {
             let first = match *prior == motion.prior {
                 true => motion.noise,
