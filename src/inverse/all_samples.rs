@@ -5,16 +5,16 @@ use std::iter;
 
 use super::candidates::Candidate;
 use super::grid::Path;
-use super::kalman::{self, Evidence, Gaussian};
 use super::likelihood::Linear;
 use super::linear_smoother::NODES_OF_A_THREAD;
 use super::maximum::{ENOUGH_RISE, better, vertex};
-use super::prior::Prior;
+use super::model::kalman::{self, Evidence, Gaussian};
+use super::model::prior::Prior;
+use super::model::sensitivity::Sensitivity;
+use super::model::state_space::{Deviations, with_dimension};
 use super::problem::Problem;
-use super::regression::Regression;
+use super::repeating::regression::Regression;
 use super::scales::Noise;
-use super::state_space::{Deviations, with_dimension};
-use super::tone::sensitivity::Sensitivity;
 use crate::numeric::parallel;
 
 /// Maximum number of rounds that look beyond the corner frequencies already tried.

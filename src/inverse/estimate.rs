@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::measurement_model::Turning;
+use super::model::prior::State;
 use super::motion_estimate::MotionEstimate;
-use super::prior::State;
 use super::problem::Problem;
 use super::smoother::Smoothed;
 use crate::numeric::parallel;

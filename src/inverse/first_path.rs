@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use super::estimate::Estimate;
 use super::grid::{Grid, Path};
-use super::prior::{Prior, State, Unknown, plain_state};
+use super::model::prior::{Prior, State, Unknown, plain_state};
+use super::model::tone::{self, Carrier};
 use super::problem::Problem;
 use super::smoother::Smoothed;
-use super::tone::{self, Carrier};
 use crate::numeric::parallel;
 
 /// Returns a path along crank angles, rad, of samples at times, s, with their slopes by differences.

@@ -2,22 +2,22 @@
 
 use std::f64::consts::TAU;
 
-use super::branch_tracking::CrankAngles;
 use super::candidates::Candidate;
+use super::model::prior::Unknown;
+use super::model::tone::{self, Carrier, Tone};
 use super::motion_estimate::MotionEstimate;
 use super::polynomial::Polynomial;
-use super::prior::Unknown;
 use super::problem::Problem;
 use super::record::Record;
 use super::residual_tests::Whiteness;
+use super::result::shared_errors::Source;
+use super::result::summary::FitSummary;
 use super::row::Residual;
 use super::samples;
-use super::shared_errors::Source;
 use super::smoother::Smoothed;
-use super::summary::FitSummary;
-use super::tone::beside::{BesideTones, Rival};
-use super::tone::choice::Given;
-use super::tone::{self, Carrier, Tone};
+use super::tones::beside::{BesideTones, Rival};
+use super::tones::choice::Given;
+use super::turns::branch_tracking::CrankAngles;
 use super::{FitKind, FitSize, InverseOptions};
 use crate::mechanism::Equation;
 use crate::numeric::median::range;

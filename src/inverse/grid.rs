@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::measurement_model::Turning;
-use super::prior::State;
-use super::repeating::Repeating;
+use super::model::prior::State;
+use super::model::repeating::Repeating;
 use super::scales::root_mean_square;
 use crate::numeric::hermite::between;
 

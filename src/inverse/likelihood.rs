@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use multiversion::multiversion;
 
-use super::fixed_interval::Companion;
-use super::kalman::{self, Evidence};
-use super::periodic::Regressed;
-use super::prior::{Prior, State};
-use super::regression::{Regression, Rest};
+use super::model::fixed_interval::Companion;
+use super::model::kalman::{self, Evidence};
+use super::model::prior::{Prior, State};
+use super::model::regressors::Regressors;
+use super::model::state_space::{Deviations, Stretch, with_dimension};
+use super::repeating::periodic::Regressed;
+use super::repeating::regression::{Regression, Rest};
+use super::repeating::spectra::OverSpectra;
+use super::repeating::spectrum::Spectrum;
 use super::scales::{Noise, Scales};
-use super::spectra::OverSpectra;
-use super::spectrum::Spectrum;
-use super::state_space::{Deviations, Stretch, with_dimension};
-use super::tone::regressors::Regressors;
 use crate::numeric::parallel;
 
 /// Returns the likelihood terms of a model.

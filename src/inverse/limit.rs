@@ -4,9 +4,9 @@
 //! one: the crank angle turns back either way, and within its uncertainty does not show which happened.
 
 use super::fitted::Fitted;
-use super::inverse_dynamics::NEAR_LIMIT;
 use super::measurement_model::Sensor;
 use super::motion_estimate::MotionEstimate;
+use super::result::inverse_dynamics::NEAR_LIMIT;
 use crate::error::Error;
 use crate::mechanism::Linkage;
 use crate::numeric::angle::circular_distance;

@@ -5,17 +5,17 @@ use std::ops::Range;
 
 use super::candidates::Candidate;
 use super::estimate::Estimate;
-use super::fixed_interval;
 use super::grid::Path;
-use super::kalman::Gaussian;
 use super::likelihood::Linear;
-use super::matrix::{Matrix, sum};
-use super::periodic::{Derivatives, Regressed};
+use super::model::fixed_interval;
+use super::model::kalman::Gaussian;
+use super::model::matrix::{Matrix, sum};
+use super::model::repeating::Repeating;
+use super::model::state_space::{Stretch, with_dimension};
 use super::problem::Problem;
-use super::regression::Regression;
-use super::repeating::Repeating;
+use super::repeating::periodic::{Derivatives, Regressed};
+use super::repeating::regression::Regression;
 use super::scales::Noise;
-use super::state_space::{Stretch, with_dimension};
 use crate::numeric::parallel;
 
 /// Nodes that one thread smooths at a time, at least, beside those at both ends that are shared with its neighbours.

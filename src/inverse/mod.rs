@@ -27,13 +27,9 @@
 //! }
 //! ```
 
-mod alignment;
 mod all_samples;
 mod as_printed;
 mod averaging;
-mod bands;
-mod branch_choice;
-mod branch_tracking;
 mod candidates;
 mod code_moments;
 mod comparison;
@@ -41,86 +37,57 @@ mod condensed;
 mod estimate;
 mod first_path;
 mod fitted;
-mod fixed_interval;
 mod grid;
-mod harmonics;
-mod high_harmonics;
-mod hypotheses;
-mod hypothesis;
 pub mod identify;
-mod intensities;
+mod intensity;
 mod interval;
-mod inverse_dynamics;
-mod kalman;
 mod likelihood;
 mod limit;
 mod linear_smoother;
-mod linearised;
-mod lines;
-mod links;
-mod matrix;
 mod maximum;
 mod mean_cycle;
 mod mean_length;
 mod measurement_model;
-mod mirror_image;
+mod model;
 mod motion_estimate;
 mod noise_search;
 mod options;
 mod outliers;
-mod parted;
-mod periodic;
-mod periodogram;
 mod polynomial;
-mod prediction;
-mod prior;
 mod problem;
 mod quantised;
 mod record;
-mod refusals;
-mod regression;
 mod repeating;
 mod residual_tests;
+mod result;
 mod rotation;
 mod row;
-mod rows;
 mod samples;
 mod scales;
 mod selection;
 mod sensors_beside;
-mod shared_errors;
 mod smoother;
-mod span;
-mod spectra;
-mod spectrum;
-mod state_space;
-mod stretch_search;
-mod summarised;
-mod summary;
-mod tone;
-mod transition;
+mod tones;
+mod turns;
 mod typical_sizes;
-mod unwrap;
-mod warnings;
 mod weighed;
-mod window;
 
 pub use as_printed::AsPrinted;
-pub use bands::{BandRule, DeadCentreBand};
 pub use mean_cycle::{CycleMean, MeanRow};
 pub use options::{FitKind, FitSize, InverseOptions};
-pub use row::{InverseRow, Residual};
-pub use shared_errors::BudgetShare;
-pub use summary::{
+pub use result::bands::{BandRule, DeadCentreBand};
+pub use result::shared_errors::BudgetShare;
+pub use result::summary::{
     CandidateSummary, Carrier, DataSummary, FitSummary, ForceRange, IntensitySummary,
     InverseSummary, SensorSummary, ToneSummary,
 };
+pub use row::{InverseRow, Residual};
 
 use self::fitted::Fitted;
-use self::inverse_dynamics::{Guide, InverseDynamics};
 use self::measurement_model::Sensor;
-use self::rows::Rows;
-use self::shared_errors::SharedErrors;
+use self::result::inverse_dynamics::{Guide, InverseDynamics};
+use self::result::rows::Rows;
+use self::result::shared_errors::SharedErrors;
 use crate::error::Error;
 use crate::mechanism::{Equation, Reactions, Reactor};
 use crate::numeric::parallel;
@@ -200,15 +167,16 @@ fn recovered(
     options: &InverseOptions,
 ) -> Result<Inverse, Error> {
     let scene = &measurement.known_in(scene)?;
-    let plan = refusals::plan(scene)?;
+    let plan = result::refusals::plan(scene)?;
     let reactor = options.reactions.then(|| Reactor::new(scene)).transpose()?;
     let guide = Guide::new(scene)?;
     let equation = Equation::new(scene);
     let sensor = Sensor::exact(equation.linkage(), measurement.measured());
     let stop = options.stop.as_ref();
-    let angles = branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion, stop)?;
+    let angles =
+        turns::branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion, stop)?;
     let zero = samples::codes(measurement, &angles).and_then(|codes| codes.zero_error());
-    let sources = shared_errors::sources(scene, uncertain, measurement, zero)?;
+    let sources = result::shared_errors::sources(scene, uncertain, measurement, zero)?;
     let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     if stop.is_some_and(Stop::is_requested) {
@@ -229,17 +197,19 @@ fn recovered(
     );
     let found = Rows::new(&backwards, &fitted, measurement, &shared, factor);
     limit::keeps_clear(&angles.sensor, &fitted, measurement)?;
-    branch_tracking::resolves(&angles.sensor, &found.rows)?;
-    let locked = refusals::finite(&backwards, measurement, &found.rows)?;
+    turns::branch_tracking::resolves(&angles.sensor, &found.rows)?;
+    let locked = result::refusals::finite(&backwards, measurement, &found.rows)?;
     let (measured, rows) = (measurement.measured(), &found.rows);
     let warnings = [
         measurement.notes().to_vec(),
         angles.warnings.clone(),
-        warnings::of_scene(scene, options),
-        warnings::of_motion(scene, measured, rows),
+        result::warnings::of_scene(scene, options),
+        result::warnings::of_motion(scene, measured, rows),
         locked.into_iter().collect(),
-        warnings::of_fit(&fitted, measurement),
-        Vec::from_iter(warnings::of_sensor(&fitted, measured, &equation, rows)),
+        result::warnings::of_fit(&fitted, measurement),
+        Vec::from_iter(result::warnings::of_sensor(
+            &fitted, measured, &equation, rows,
+        )),
     ];
     let [slider_force, crank_torque] = ForceRange::of_rows(&found.rows);
     let summary = InverseSummary {

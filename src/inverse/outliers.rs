@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::estimate::Estimate;
-use super::prior::KINEMATIC;
+use super::model::prior::KINEMATIC;
 use super::problem::Problem;
 use super::residual_tests::{FAR, NORMAL, deviate};
 use super::smoother::Smoothed;

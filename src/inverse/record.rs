@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use super::grid::Course;
 use super::measurement_model::{Scale, Sensor, Shown, Turning};
+use super::model::state_space::Observed;
+use super::model::tone::Tone;
 use super::quantised::{Codes, Interval};
 use super::residual_tests::{self, FAR};
-use super::state_space::Observed;
-use super::tone::Tone;
 use crate::mechanism::Linkage;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::scene::Measured;

@@ -1,19 +1,20 @@
 //! Preparation of samples for smoother and polynomial: record, nodes, outlier weights, motion without mechanics.
 
-use super::branch_tracking::CrankAngles;
 use super::condensed::{Blocks, Condensed};
+use super::first_path;
 use super::grid::{Course, Grid, Path};
+use super::intensity::span::Intensities;
 use super::measurement_model::{Scale, Sensor};
-use super::prior::KINEMATIC;
+use super::model::prior::KINEMATIC;
+use super::model::tone::{self, Carrier, Tone};
+use super::outliers;
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::record::{Record, SensorBeside};
 use super::residual_tests::repeats;
 use super::scales::root_mean_square;
 use super::smoother::Smoothed;
-use super::span::Intensities;
-use super::tone::{self, Carrier, Tone};
-use super::{first_path, outliers};
+use super::turns::branch_tracking::CrankAngles;
 use crate::mechanism::Equation;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::stop::Stop;

@@ -1,7 +1,7 @@
 //! Typical magnitudes along a record, and the noise parameters that are estimated in terms of them.
 
-use super::prior::{ORDERS, State};
-use super::spectrum::Spectrum;
+use super::model::prior::{ORDERS, State};
+use super::repeating::spectrum::Spectrum;
 use crate::numeric::ROUNDING_DEVIATION;
 
 /// Typical magnitudes along a record.

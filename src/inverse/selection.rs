@@ -3,8 +3,8 @@
 //! large as its error.
 
 use super::fitted::Fitted;
+use super::model::prior::WITHOUT_MECHANICS;
 use super::motion_estimate::MotionEstimate;
-use super::prior::WITHOUT_MECHANICS;
 use super::problem::Problem;
 use super::record::Record;
 use super::scales::Noise;

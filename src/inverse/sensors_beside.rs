@@ -5,8 +5,8 @@ use super::motion_estimate::MotionEstimate;
 use super::problem::Problem;
 use super::record::SensorBeside;
 use super::residual_tests::Whiteness;
+use super::result::summary::SensorSummary;
 use super::smoother::Smoothed;
-use super::summary::SensorSummary;
 
 /// Number of rounds that alternate between noise and path.
 const SENSOR_ROUNDS: usize = 4;

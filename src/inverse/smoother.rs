@@ -5,9 +5,9 @@ use super::estimate::Estimate;
 use super::grid::{Course, Grid, Path};
 use super::likelihood::Linear;
 use super::maximum::ENOUGH_RISE;
-use super::prior::{KINEMATIC, Prior, plain_state};
+use super::model::prior::{KINEMATIC, Prior, plain_state};
+use super::model::repeating::Repeating;
 use super::problem::Problem;
-use super::repeating::Repeating;
 use super::scales::{Noise, Scales};
 
 /// A smoothed motion with its prior and noise.

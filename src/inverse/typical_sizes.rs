@@ -1,7 +1,7 @@
 //! Typical magnitudes along a record: root mean squares over at most 1000 of its nodes.
 
 use super::grid::Path;
-use super::prior::{Prior, powers_of};
+use super::model::prior::{Prior, powers_of};
 use super::problem::Problem;
 use super::quantised::Codes;
 use super::scales::{Scales, root_mean_square};

@@ -5,14 +5,14 @@ mod with_repeating;
 use std::ops::Range;
 
 use super::grid::Path;
-use super::harmonics::{Increments, ways};
 use super::likelihood::Linear;
-use super::prior::{LADDERS, Prior};
+use super::model::harmonics::{Increments, ways};
+use super::model::prior::{LADDERS, Prior};
+use super::model::state_space::Stretch;
 use super::problem::Problem;
 use super::rotation::Rotation;
 use super::scales::{Noise, Scales};
 use super::smoother::Smoothed;
-use super::state_space::Stretch;
 use crate::numeric::parallel;
 
 /// A prior with its noise, about a path.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::super::likelihood::Linear;
 use super::super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE, better};
-use super::super::prior::{FOLLOWING, High, Prior, TORQUE};
+use super::super::model::prior::{FOLLOWING, High, Prior, TORQUE};
 use super::super::problem::Problem;
 use super::super::rotation::Rotation;
 use super::super::scales::Noise;

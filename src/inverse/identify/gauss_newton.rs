@@ -2,7 +2,7 @@
 
 use super::super::candidates::Candidate;
 use super::super::grid::Path;
-use super::super::prior::{TORQUE, plain_state};
+use super::super::model::prior::{TORQUE, plain_state};
 use super::super::problem::Problem;
 use super::super::scales::{Noise, Scales, root_mean_square};
 use super::super::smoother::{Correction, Smoothed};

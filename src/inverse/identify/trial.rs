@@ -1,14 +1,14 @@
 //! Linear model of a record for trial values of the scene, and its prediction errors.
 
 use super::super::grid::Path;
-use super::super::kalman;
 use super::super::likelihood::Linear;
 use super::super::maximum::ENOUGH_RISE;
-use super::super::prior::TORQUE;
+use super::super::model::kalman;
+use super::super::model::prior::TORQUE;
+use super::super::model::state_space::with_dimension;
 use super::super::problem::Problem;
 use super::super::residual_tests::Whiteness;
 use super::super::scales::{Noise, Scales};
-use super::super::state_space::with_dimension;
 use super::optimum::Optimum;
 use super::values::FreeValue;
 use crate::error::Error;

@@ -1,0 +1,115 @@
+//! The likeliest motion beside the tones that the samples show. A tone has three parameters, and is accepted where the likelihood
+//! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
+//! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
+
+use super::super::mean_length::{ByMeans, by_means};
+use super::super::model::prior::Prior;
+use super::super::model::tone::{Carrier, Tone};
+use super::super::samples;
+use super::super::smoother::Smoothed;
+use super::super::turns::branch_tracking::CrankAngles;
+use super::beside::{BesideTones, Less};
+use super::search::Corrected;
+use crate::mechanism::Equation;
+use crate::numeric::parallel;
+use crate::numeric::stop::Stop;
+use crate::scene::Measurement;
+
+/// What a motion is estimated from.
+#[derive(Clone, Copy)]
+pub(in crate::inverse) struct Given<'a, 'b> {
+    pub measurement: &'a Measurement,
+    pub angles: &'b CrankAngles<'a>,
+    pub equation: &'a Equation,
+    pub stop: Option<&'a Stop>,
+    /// Whether the noise may be correlated.
+    pub suspected: bool,
+}
+
+impl<'a> Given<'a, '_> {
+    /// The likeliest motion, beside the tones that gain what they cost.
+    pub fn likeliest(&self) -> BesideTones<'a> {
+        let finer =
+            |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
+        let of = |most| self.beside(&[], most, None);
+        let ByMeans {
+            found: mut best,
+            most,
+        } = by_means(self.measurement.len(), of, finer);
+        // A bound of the work, for a record of many lines.
+        while best.problem.record.tones.len() < 4 {
+            let known = &best.problem.record.tones;
+            let mut more = best.problem.another_tone(&best.smoothed);
+            // An encoder errs by no more than a count.
+            more.retain(|tone| tone.carrier == Carrier::Torque || !self.measurement.is_counted());
+            let near = &best.smoothed;
+            let with = |tone| {
+                let tones = known.iter().copied().chain([tone]).collect();
+                self.refined(tones, most, near)
+            };
+            let mut tried = parallel::map(more.into_iter(), with);
+            tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
+            let mut tried = tried.into_iter();
+            let least = best.likelihood() + best.problem.cost_of_tone();
+            let Some(mut next) = tried.next().filter(|next| next.likelihood() > least) else {
+                break;
+            };
+            let other = tried.next().map(|other| Less {
+                log_odds: next.log_probability() - other.log_probability(),
+                motion: Box::new(other),
+            });
+            if let Some(tone) = next.problem.record.tones.last_mut() {
+                let log_odds = other.as_ref().map(|other| other.log_odds);
+                tone.log_odds = log_odds.filter(|odds| odds.is_finite());
+            }
+            let rivals = best.rival.take().into_iter().chain(other);
+            next.rival = rivals.min_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
+            best = next;
+        }
+        best
+    }
+
+    /// The likeliest motion beside tones that are corrected about it until they come to rest.
+    fn refined(&self, tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
+        let mut found = self.beside(&tones, most, Some(near));
+        let mut before: Vec<(Prior, f64)> = Vec::new();
+        while let Some(Corrected { tones, square, .. }) =
+            found.problem.corrected_tones(&found.smoothed)
+        {
+            // The corrections beside a prior fall (natural monotonicity test); a third of a standard error is little.
+            let prior = found.smoothed.prior;
+            let falls = before
+                .iter()
+                .all(|(other, last)| *other != prior || square < *last);
+            if square < 1.0 / 9.0 || !falls {
+                break;
+            }
+            before.push((prior, square));
+            found = self.beside(&tones, most, Some(&found.smoothed));
+        }
+        found
+    }
+
+    /// The likeliest motion beside tones, by means of up to so many samples; it is near one beside others.
+    fn beside(&self, tones: &[Tone], most: usize, near: Option<&Smoothed>) -> BesideTones<'a> {
+        let Given {
+            measurement,
+            angles,
+            equation,
+            stop,
+            suspected,
+        } = *self;
+        let (mut problem, kinematic) =
+            samples::kinematic(measurement, angles, tones, most, equation, stop);
+        let near = near.filter(|near| near.estimates.len() == problem.grid.len());
+        let near = near.map(|near| kinematic.along(near));
+        let first = near.as_ref().unwrap_or(&kinematic);
+        let smoothed = problem.likeliest_with_intensities(&kinematic, first, suspected);
+        BesideTones {
+            problem,
+            kinematic,
+            smoothed,
+            rival: None,
+        }
+    }
+}

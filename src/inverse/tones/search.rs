@@ -1,0 +1,175 @@
+//! Search for a tone by the periodogram of the prediction errors.
+
+use std::f64::consts::TAU;
+
+use super::super::candidates::Candidate;
+use super::super::grid::{LONG, Path};
+use super::super::likelihood::Linear;
+use super::super::model::prior::{TORQUE, Unknown};
+use super::super::model::state_space::Stretch;
+use super::super::model::tone::{Carrier, Tone};
+use super::super::problem::{MOST_NODES, Problem};
+use super::super::repeating::periodogram::{Line, lines};
+use super::super::scales::Noise;
+use super::super::smoother::Smoothed;
+use super::sinusoid::Beside;
+
+/// Tones corrected by least squares.
+pub(in crate::inverse) struct Corrected {
+    pub tones: Vec<Tone>,
+    /// Mean square of the corrections, in standard errors.
+    pub square: f64,
+    /// ln of the determinant of their covariance.
+    pub log_unit: f64,
+}
+
+/// A linear model of one stretch about a path, with its likeliest noise.
+pub(in crate::inverse) struct BesideKnown {
+    pub linear: Linear,
+    pub noise: Noise,
+    pub path: Path,
+}
+
+impl Problem<'_> {
+    /// Returns the likeliest tone in what a smoothed motion leaves, once of the sensor and once of the torque; none if no line stands
+    /// out there, or if no tone gains what it costs. A very long record and one of codes or of several sensors have none.
+    pub fn another_tone(&self, smoothed: &Smoothed) -> Vec<Tone> {
+        let record = &self.record;
+        let may_have = record.codes.is_none() && record.beside.is_empty() && !self.is_computed();
+        // The likelihoods of stretches of means do not tell a tone.
+        let is_long = self.condensed.is_some() && self.sampled() != self.all();
+        if !may_have || is_long || self.grid.len() > LONG || self.is_stopped() {
+            return Vec::new();
+        }
+        let nodes = self.grid.times.iter().zip(&smoothed.estimates);
+        let errors = nodes.map(|(t, estimate)| [*t, estimate.innovation]);
+        let errors: Vec<[f64; 2]> = errors.filter(|[_, error]| error.is_finite()).collect();
+        let lines = lines(&errors, MOST_NODES);
+        if lines.is_empty() {
+            return Vec::new();
+        }
+        let known = self.beside_known(smoothed);
+        let noise = known.noise;
+        let least = noise.likelihood + self.cost_of_tone();
+        let at = |line: &Line| {
+            let near = line.highest(&errors);
+            let of = |carrier| self.beside(&known, carrier)?.likeliest(near, noise);
+            let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
+            let found = Vec::from_iter(carriers.filter_map(of));
+            let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
+            gains.then(|| found.into_iter().map(|(tone, _)| tone).collect())
+        };
+        lines.iter().find_map(at).unwrap_or_default()
+    }
+
+    /// The cost of a frequency and two amplitudes in ln of the likelihood.
+    pub fn cost_of_tone(&self) -> f64 {
+        self.cost(3.0)
+    }
+
+    /// Returns the tones of the record, corrected by what a smoothed motion beside them leaves; none where the samples do not tell
+    /// them.
+    pub fn corrected_tones(&self, smoothed: &Smoothed) -> Option<Corrected> {
+        let tones = &self.record.tones;
+        if tones.is_empty() {
+            return None;
+        }
+        let Candidate {
+            prior,
+            noise,
+            scales,
+        } = smoothed.candidate();
+        let nodes = 0..self.grid.len();
+        let linear = Linear {
+            stretches: [self.stretch(prior, &smoothed.path(), nodes, noise.sigma)].into(),
+            ..Linear::of(prior, scales)
+        };
+        linear.corrected(tones, &noise)
+    }
+
+    /// The place of a tone beside a linear model of one stretch; none without.
+    pub fn beside<'b>(&'b self, known: &'b BesideKnown, carrier: Carrier) -> Option<Beside<'b>> {
+        Some(Beside {
+            linear: &known.linear,
+            path: &known.path,
+            stretch: known.linear.stretches.first()?.clone(),
+            problem: self,
+            carrier,
+        })
+    }
+
+    /// The linear model of a torque about a smoothed motion, beside what repeats in it, and its likeliest noise.
+    pub fn beside_known(&self, smoothed: &Smoothed) -> BesideKnown {
+        let (prior, path) = match smoothed.prior.unknown {
+            Unknown::Torque => (smoothed.prior.beside_known(), smoothed.path()),
+            _ => (TORQUE, self.path_of(TORQUE, smoothed, self.all())),
+        };
+        let first = Noise {
+            spectrum: None,
+            ..smoothed.noise
+        };
+        let scales = self.scales(prior, &path, smoothed.scales.slope, first.sigma);
+        let linear = Linear {
+            stretches: [self.stretch(prior, &path, 0..self.grid.len(), first.sigma)].into(),
+            ..Linear::of(prior, scales)
+        };
+        let noise = linear.with_corner(linear.begun(first));
+        BesideKnown {
+            linear,
+            noise,
+            path,
+        }
+    }
+}
+
+impl Beside<'_> {
+    /// Returns a tone with its unit, corrected by what a stretch without it leaves; none where the samples do not tell it.
+    pub fn corrected(&self, without: &Stretch, tone: Tone, noise: &Noise) -> Option<Tone> {
+        let Linear { prior, .. } = *self.linear;
+        let states = &self.path.states;
+        let tones = (self.problem).regressors(&[tone], prior, 0..states.len(), states);
+        let stretch = Stretch {
+            tones: tones.into(),
+            ..without.clone()
+        };
+        let model = Linear {
+            stretches: [stretch].into(),
+            ..self.linear.clone()
+        };
+        let found = model.corrected(&[tone], noise)?;
+        found.tones.first().map(|tone| Tone {
+            log_unit: found.log_unit,
+            ..*tone
+        })
+    }
+}
+
+impl Linear {
+    /// Returns the tones of its regressors, corrected by least squares (Gauss-Newton); none where the samples do not tell them.
+    fn corrected(&self, tones: &[Tone], noise: &Noise) -> Option<Corrected> {
+        let equations = self.normal_equations(noise);
+        let mut beside = Vec::new();
+        if let Some(spectrum) = noise.spectrum {
+            let own = equations.clone().over_tones(0.0);
+            beside = own.solved(spectrum, &self.rest(&own.evidence))?.deviations;
+        }
+        let found = equations.tones(&beside)?;
+        let (count, variance) = (found.values.len(), noise.sigma.powi(2));
+        let corrections = found.values.as_slice().chunks_exact(3);
+        // A wave is linear in the frequency next to it alone.
+        let far = 2.0 * self.resolved_frequency();
+        let is_near = corrections.clone().all(|by| by[2].abs() < far);
+        let corrected = tones.iter().zip(corrections);
+        let corrected = corrected.map(|(tone, by)| tone.moved([by[0], by[1], by[2]]));
+        is_near.then(|| Corrected {
+            tones: corrected.collect(),
+            square: found.fall / (count as f64 * variance),
+            log_unit: count as f64 * variance.ln() - found.information.ln_determinant(),
+        })
+    }
+
+    /// Half the distance of two frequencies that the samples tell apart, rad/s.
+    pub fn resolved_frequency(&self) -> f64 {
+        0.5 * TAU / self.scales.duration
+    }
+}

@@ -1,0 +1,140 @@
+//! Hypothesis of a tracker: a path up to a sample, extended by the next one, kept or dropped.
+
+use std::f64::consts::TAU;
+
+use super::super::model::kalman::{Gaussian, Sample, Step};
+use super::links::{Link, Rival};
+
+/// Standard deviations beyond which a sample shows another motion.
+pub(in crate::inverse) const FAR: f64 = 5.0;
+
+/// Maximum number of hypotheses, mirror images among them, and ln of the likelihood ratio to the best beyond which one is dropped.
+const MOST_HYPOTHESES: usize = 12;
+pub(in crate::inverse) const DROPPED_LOG_RATIO: f64 = 50.0;
+
+/// Hypothesis: a path up to the current sample.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::inverse) struct Hypothesis {
+    pub state: Gaussian<3>,
+    pub score: f64,
+    /// Whether the sensor holds the value of the current sample.
+    pub held: bool,
+    /// Index of the last link in the list of all links.
+    pub last: usize,
+}
+
+/// Crank angle, rad, that a sample may stand for.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::inverse) struct Sight {
+    pub theta: f64,
+    pub variance: f64,
+    /// ln of the density of the measured value, per angle.
+    pub score: f64,
+}
+
+impl Hypothesis {
+    /// Returns the path at the next sample, before that is seen.
+    pub fn predicted(&self, step: &Step<3>) -> Hypothesis {
+        Hypothesis {
+            state: self.state.predicted(step),
+            ..*self
+        }
+    }
+
+    /// Goes on by a sample that the sensor holds, at the cost of a ln of odds.
+    pub fn held(&self, cost: f64, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
+        let held = Hypothesis {
+            score: self.score - cost,
+            held: true,
+            ..*self
+        };
+        held.push(links, list);
+    }
+
+    /// Extends the predicted path by a sample, in each turn of the crank that is possible. A value that repeats adds no density.
+    pub fn extend(
+        &self,
+        sight: &Sight,
+        repeats: bool,
+        links: &mut Vec<Link>,
+        list: &mut Vec<Hypothesis>,
+    ) {
+        let nearest = ((self.state.mean[0] - sight.theta) / TAU).round();
+        let spread = self.state.covariance[0][0] + sight.variance;
+        let reach = if spread.sqrt() > 0.1 * TAU { 1 } else { 0 };
+        for turn in -reach..=reach {
+            let theta = sight.theta + (nearest + f64::from(turn)) * TAU;
+            let mut found = Hypothesis {
+                held: false,
+                ..*self
+            };
+            let seen = found.state.update(&Sample {
+                value: theta,
+                is_second: false,
+                slope: 1.0,
+                is_correlated: false,
+                variance: sight.variance,
+            });
+            // Outliers are scored by the tails of Student's distribution with four degrees of freedom.
+            let spread = seen.variance;
+            let off = seen.error * seen.error / spread;
+            let tails = if off < 4.0 {
+                0.5 * off
+            } else {
+                2.0 + 2.5 * (1.0 + (off - 4.0) / 4.0).ln()
+            };
+            found.score -= tails;
+            if !repeats {
+                found.score += sight.score - 0.5 * spread.ln();
+            }
+            if off > FAR * FAR {
+                // An outlier moves the path no further than a sample at this distance.
+                let (before, there) = (self.state, found.state.mean);
+                let part = FAR / off.sqrt();
+                let between = |k: usize| before.mean[k] + part * (there[k] - before.mean[k]);
+                found.state = Gaussian {
+                    mean: std::array::from_fn(between),
+                    ..before
+                };
+            }
+            found.push(links, list);
+        }
+    }
+
+    /// Adds this hypothesis with its link to the one before.
+    fn push(mut self, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
+        links.push(Link {
+            theta: self.state.mean[0],
+            before: Some(self.last),
+            rival: None,
+        });
+        self.last = links.len() - 1;
+        list.push(self);
+    }
+}
+
+/// Keeps the likeliest hypotheses, and only the likeliest of those that agree, with its rival.
+pub(in crate::inverse) fn prune(list: &mut Vec<Hypothesis>, links: &mut [Link]) {
+    list.sort_by(|a, b| b.score.total_cmp(&a.score));
+    let mut kept: usize = 0;
+    for k in 0..list.len() {
+        let now = list[k];
+        let agrees = |other: &&Hypothesis| {
+            let off = |i: usize| other.state.mean[i] - now.state.mean[i];
+            now.held == other.held && (0..2).all(|i| off(i).powi(2) < now.state.covariance[i][i])
+        };
+        if let Some(other) = list[..kept].iter().find(agrees) {
+            links[other.last].rival.get_or_insert(Rival {
+                last: now.last,
+                loss: other.score - now.score,
+            });
+            continue;
+        }
+        let keep = now.score >= list[0].score - DROPPED_LOG_RATIO && kept < MOST_HYPOTHESES;
+        if keep && now.score.is_finite() {
+            list[kept] = now;
+            kept += 1;
+        }
+    }
+    list.truncate(kept);
+}
