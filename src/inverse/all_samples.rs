@@ -9,54 +9,13 @@ use super::likelihood::Linear;
 use super::linear_smoother::NODES_OF_A_THREAD;
 use super::maximum::{ENOUGH_RISE, better, vertex};
 use super::model::kalman::{self, Evidence, Gaussian};
-use super::model::prior::Prior;
-use super::model::sensitivity::Sensitivity;
-use super::model::state_space::{Deviations, with_dimension};
+use super::model::state_space::with_dimension;
 use super::problem::Problem;
-use super::repeating::regression::Regression;
 use super::scales::Noise;
 use crate::numeric::parallel;
 
 /// Maximum number of rounds that look beyond the corner frequencies already tried.
 const CORNER_ROUNDS: usize = 6;
-
-/// A filter along stretches one after the other.
-#[derive(Clone)]
-struct Filter<const N: usize> {
-    now: Option<Gaussian<N>>,
-    regression: Regression,
-    tones: Sensitivity<N>,
-}
-
-impl<const N: usize> Filter<N> {
-    /// The filter of a prior beside so many numbers of tones.
-    fn new(prior: Prior, numbers: usize) -> Self {
-        Filter {
-            now: None,
-            regression: Regression::new(prior, numbers),
-            tones: Sensitivity::new(numbers),
-        }
-    }
-
-    /// Goes along the next stretch.
-    fn run(&mut self, model: &Deviations<'_>) {
-        let now = kalman::run::<N>(model, self.now, |node, at| {
-            self.regression.evidence.add(at);
-            let errors = self.tones.filtered(&model.stretch.tones, node, at);
-            if let Some((_, found)) = at.sample.filter(|_| !errors.is_empty()) {
-                let per = 1.0 / found.variance.sqrt();
-                self.regression.take([&[], errors], found.error, per);
-            }
-        });
-        self.now = Some(now);
-    }
-
-    /// Returns the evidence over all values of the tones, whose density has this unit.
-    fn evidence(mut self, log_unit: f64) -> Evidence {
-        self.regression.multiply();
-        self.regression.over_tones(log_unit).evidence
-    }
-}
 
 impl Problem<'_> {
     /// Returns the noise with the likeliest corner frequency by all samples about a whole path, from a first noise.
@@ -122,28 +81,25 @@ impl Problem<'_> {
     ) -> Vec<Evidence> {
         let last = self.grid.len() - 1;
         let firsts: Vec<usize> = (0..last).step_by(NODES_OF_A_THREAD).collect();
-        let tones = self
-            .record
-            .tones
-            .iter()
-            .filter(|tone| tone.is_beside(linear.prior));
-        let first = Filter::<N>::new(linear.prior, 3 * tones.clone().count());
-        let mut filters = vec![first; noises.len()];
+        let mut filters: Vec<(Option<Gaussian<N>>, Evidence)> =
+            vec![Default::default(); noises.len()];
         for some in firsts.chunks(noises.len()) {
             // Each stretch begins at the node where the preceding one ends.
             let stretches = parallel::map(some.iter(), |first| {
                 let range = *first..last.min(first + NODES_OF_A_THREAD) + 1;
                 self.stretch(linear.prior, path, range, noises[0].sigma)
             });
-            filters = parallel::map(filters.into_iter().zip(noises), |(mut filter, noise)| {
-                for stretch in &stretches {
-                    filter.run(&linear.deviations(stretch, noise));
-                }
-                filter
-            });
+            filters = parallel::map(
+                filters.into_iter().zip(noises),
+                |((now, mut evidence), noise)| {
+                    let now = stretches.iter().fold(now, |now, stretch| {
+                        let model = linear.deviations(stretch, noise);
+                        Some(kalman::run::<N>(&model, now, |_, at| evidence.add(at)))
+                    });
+                    (now, evidence)
+                },
+            );
         }
-        let unit = tones.map(|tone| tone.log_unit).sum();
-        let found = filters.into_iter();
-        found.map(|filter| filter.evidence(unit)).collect()
+        filters.into_iter().map(|(_, evidence)| evidence).collect()
     }
 }

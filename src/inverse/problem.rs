@@ -13,6 +13,7 @@ use super::model::kalman;
 use super::model::linearised::{Motion, Node};
 use super::model::matrix::Matrix;
 use super::model::prior::Prior;
+use super::model::regressors::Regressors;
 use super::model::state_space::Stretch;
 use super::record::Record;
 use super::scales::{Noise, Scales};
@@ -181,7 +182,11 @@ impl<'a> Problem<'a> {
         let known = first.skip(prior.diffuse()).take(prior.powers);
         let pairs = constants.iter_mut().zip(known);
         pairs.for_each(|(constant, known)| *constant = *known);
-        let tones = self.regressors(&self.record.tones, prior, range.clone(), states);
+        // A part of the record does not tell a tone.
+        let tones = match range.len() == self.grid.len() {
+            true => self.regressors(&self.record.tones, prior, range.clone(), states),
+            false => Regressors::default(),
+        };
         Stretch {
             tones: tones.into(),
             steps: steps.into(),

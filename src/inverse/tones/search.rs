@@ -84,6 +84,11 @@ impl Problem<'_> {
             stretches: [self.stretch(prior, &smoothed.path(), nodes, noise.sigma)].into(),
             ..Linear::of(prior, scales)
         };
+        let noise = match self.sampled() == self.all() {
+            true => noise,
+            // That of parts of the record is beside tones that are held.
+            false => linear.renewed(noise),
+        };
         linear.corrected(tones, &noise)
     }
 
