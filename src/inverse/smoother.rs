@@ -91,7 +91,7 @@ impl Problem<'_> {
             ..found
         };
         let mut correction = Correction::default();
-        // The iteration before which the noise is estimated.
+        // The iteration before which the noise is estimated: about the second path, and about the one at rest if that is a later one.
         let mut judged = usize::from(!is_linear);
         for iteration in 0..ITERATIONS {
             if is_result && iteration == judged {
@@ -110,7 +110,6 @@ impl Problem<'_> {
             let change = correction.taken(&mut path, &whole.estimates);
             let is_at_rest = is_linear || iteration > 0 && change < PATH_AT_REST;
             if is_at_rest && is_result && iteration > judged {
-                // The path has moved since the noise was estimated about it.
                 judged = iteration + 1;
                 continue;
             }

@@ -76,7 +76,7 @@ impl Problem<'_> {
 
 impl Tone {
     /// Whether it is beside a prior: the motion without mechanics has the torques in it.
-    fn is_beside(&self, prior: Prior) -> bool {
+    pub fn is_beside(&self, prior: Prior) -> bool {
         self.carrier == Carrier::Sensor || prior.unknown != Unknown::Acceleration
     }
 

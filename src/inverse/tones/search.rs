@@ -71,14 +71,14 @@ impl Problem<'_> {
     /// them.
     pub fn corrected_tones(&self, smoothed: &Smoothed) -> Option<Corrected> {
         let tones = &self.record.tones;
-        if tones.is_empty() {
-            return None;
-        }
         let Candidate {
             prior,
             noise,
             scales,
         } = smoothed.candidate();
+        if tones.is_empty() || tones.iter().any(|tone| !tone.is_beside(prior)) {
+            return None;
+        }
         let nodes = 0..self.grid.len();
         let linear = Linear {
             stretches: [self.stretch(prior, &smoothed.path(), nodes, noise.sigma)].into(),
