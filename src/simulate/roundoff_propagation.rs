@@ -5,7 +5,7 @@ use super::state_transition::{AccelerationSlopes, StateTransition};
 use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::time::Method;
-use crate::engine::{Counted, Motion};
+use crate::engine::{Counted, Motion, NODES};
 use crate::mechanism::Equation;
 use crate::numeric::ROUNDING_DEVIATION;
 
@@ -52,7 +52,8 @@ impl RoundoffPropagation {
         self.covariance = self.covariance.plus_independent(angle, speed);
     }
 
-    /// Carries the covariance over a step of the crank angle; adds a unit of the end acceleration and the rounded angle.
+    /// Carries the covariance over a step of the crank angle; adds a unit of the end acceleration, the rounded angle
+    /// and the rounded times at which loads are evaluated.
     pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
         let slopes = AccelerationSlopes::of(motion, step);
         let transition = slopes.transition(step);
@@ -66,6 +67,7 @@ impl RoundoffPropagation {
             self.pass_jump(motion, step, before.alpha);
         }
         let place = ROUNDING_DEVIATION * end.theta.abs() * slopes.by_angle();
+        let clock = by_rounded_times(end.t, &slopes);
         let mut size = end.alpha.abs();
         // Angle change, rad, up to whose effect an acceleration may be a difference of larger terms. Half or twice as
         // much changes the stated errors of 200 random runs by 1 % at most.
@@ -79,8 +81,11 @@ impl RoundoffPropagation {
             size = size.max(correlation * terms / inertia);
         }
         let carried = self.covariance.propagated(&transition);
-        self.covariance =
-            carried.plus_acceleration_error(place.hypot(size), &transition, step.length());
+        self.covariance = carried.plus_acceleration_error(
+            place.hypot(size).hypot(clock),
+            &transition,
+            step.length(),
+        );
         if self.rounds_states {
             self.round(end.theta, end.omega);
         }
@@ -122,7 +127,9 @@ impl RoundoffPropagation {
         // Roundings of coordinate and acceleration, evaluated on the curve, in units of the last place.
         let (place_rounding, evaluation_rounding) = (4.0, 8.0);
         let place = place_rounding * end.theta.abs() * slopes.by_angle();
-        let within = place.abs() + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
+        let clock = by_rounded_times(end.t, &slopes);
+        let within =
+            place.abs() + clock + evaluation_rounding * start.alpha.abs().max(end.alpha.abs());
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
         let carried = self.covariance.propagated(&transition);
@@ -136,6 +143,13 @@ impl RoundoffPropagation {
             self.covariance = self.covariance.propagated(&saltation);
         }
     }
+}
+
+/// Returns the standard deviation of the mean acceleration of a step near the time t (s) by the rounded times of its
+/// nodes, and by the rounding of products with them, in units of the last place.
+fn by_rounded_times(t: f64, slopes: &AccelerationSlopes) -> f64 {
+    // Both are independent from node to node.
+    ROUNDING_DEVIATION * t.abs() * slopes.by_time() * (2.0 / NODES as f64).sqrt()
 }
 
 /// Standard deviations of angle (rad) and speed (rad/s) in units of the last place, as two independent perturbations

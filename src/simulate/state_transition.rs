@@ -85,6 +85,11 @@ impl AccelerationSlopes {
         mean(&self.by_angle)
     }
 
+    /// Returns the root mean square of the slope by the time, rad/s³.
+    pub fn by_time(&self) -> f64 {
+        mean(&self.by_time.map(|slope| slope.powi(2))).sqrt()
+    }
+
     /// Computes the transition over the step, from the slopes and, where exact enough, the motion a little later.
     pub fn transition(&self, step: &Step) -> StateTransition {
         let h = step.length();

@@ -82,8 +82,19 @@ impl Collocation<'_> {
         f64::EPSILON * (8.0 * size + of_angles) + self.by_time
     }
 
-    /// Estimates the rounding error of the accelerations of a step of length h (s) due to its rounded times, rad/s²: no
-    /// shorter step reduces it.
+    /// Returns [`Collocation::rounding_of_times`] for accelerations that vary in time only, without an evaluation.
+    pub(super) fn possible_rounding_of_times(
+        &self,
+        state: &State,
+        h: f64,
+        [_, coefficients @ ..]: &[f64; NODES],
+    ) -> f64 {
+        let variation = coefficients.iter().map(|c| c.abs()).sum::<f64>();
+        self.of_rounded_times(state.t + h, 2.0 * variation / h)
+    }
+
+    /// Bounds the error of the polynomial of the accelerations at the ends of a step of length h (s) due to its rounded
+    /// times, rad/s²: no shorter step reduces it.
     pub(super) fn rounding_of_times(&self, h: f64) -> f64 {
         // Time shift of the difference quotient of the acceleration: a small fraction of the step.
         let apart = 1e-3 * h;
@@ -93,7 +104,12 @@ impl Collocation<'_> {
         self.motion.fill(&mut later);
         let slope = |i: usize| ((later.alpha[i] - self.batch.alpha[i]) / apart).abs();
         let steepest = (0..NODES).map(slope).fold(0.0, f64::max);
-        f64::EPSILON * later.t[NODES - 1].abs() * steepest
+        self.of_rounded_times(later.t[NODES - 1], steepest)
+    }
+
+    /// Bounds the error of the polynomial of the accelerations, of this slope (rad/s³) at most, at rounded times near t.
+    fn of_rounded_times(&self, t: f64, slope: f64) -> f64 {
+        self.tableau.lebesgue * f64::EPSILON * t.abs() * slope
     }
 
     /// Returns the error due to a Legendre term (rad/s²) beyond the last, less the rounding error of accelerations.

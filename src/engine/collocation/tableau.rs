@@ -25,6 +25,8 @@ pub struct Tableau {
     pub legendre: [[f64; NODES]; NODES],
     /// Legendre polynomial k integrated twice from s = 0, in powers of x.
     pub powers: [[f64; TERMS]; NODES],
+    /// Lebesgue constant of the ends, Σ |ℓ_j(1)|: how much the polynomial there magnifies errors at the nodes.
+    pub lebesgue: f64,
 }
 
 impl Tableau {
@@ -43,6 +45,7 @@ impl Tableau {
                 (2 * k + 1) as f64 * weight * polynomials(s)[k]
             })
         });
+        let at_end = |j| (0..NODES).map(|k| legendre[k][j]).sum::<f64>();
         let of_values = |s: f64, integral: fn(&[f64; NODES + 3], f64, usize) -> f64| {
             let p = polynomials(s);
             std::array::from_fn(|j| {
@@ -57,6 +60,7 @@ impl Tableau {
             angle: transposed(rule.map(|(s, _)| of_values(s, twice))),
             end_speed: rule.map(|(_, weight)| weight),
             end_angle: rule.map(|(s, weight)| weight * (1.0 - s)),
+            lebesgue: (0..NODES).map(|j| at_end(j).abs()).sum(),
             legendre: transposed(legendre),
             powers: powers(),
         }
