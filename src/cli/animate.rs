@@ -12,7 +12,6 @@ use crate::report::{Output, Picture, Pose, Sketch, animation};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, simulate_rows};
 
-/// Arguments of `animate`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine

@@ -11,7 +11,6 @@ use crate::error::Error;
 use crate::plan;
 use crate::scene::{Measurement, Reading, load_table};
 
-/// Arguments of `check`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, or measured motion or the table of a load as a file ending in .csv; `-` for a scene from standard

@@ -11,7 +11,6 @@ use crate::report::{Comparison, Motion, Origin};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
-/// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene files, which are simulated, and CSV files: rows of `simulate` or `inverse`, or measured motions

@@ -6,7 +6,6 @@ use clap_complete::Shell;
 use super::watch::print;
 use crate::error::Error;
 
-/// Arguments of `completions`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Writes for this shell to standard output, or the man page

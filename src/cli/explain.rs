@@ -10,7 +10,6 @@ use crate::error::Error;
 use crate::plan::Method;
 use crate::report;
 
-/// Arguments of `explain`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine

@@ -11,7 +11,6 @@ use crate::inverse::identify::{FreeKey, identify_keys};
 use crate::report;
 use crate::scene::{Draft, Measurement};
 
-/// Arguments of `identify`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file; its values are those from which the search sets out

@@ -13,7 +13,6 @@ use crate::report::{self, InverseReport};
 use crate::scene::{Measurement, Reading};
 use crate::simulate::Stop;
 
-/// Arguments of `inverse`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file; without it the built-in Duarte engine

@@ -12,7 +12,6 @@ use crate::error::Error;
 use crate::kinematics::{Length, TurnOptions, one_turn, size_from_stroke};
 use crate::report::{self, Diagram, TurnReport};
 
-/// Arguments of `kinematics`.
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("analysis").args(["forces", "diagram"]).multiple(true)))]
 pub(super) struct Arguments {

@@ -13,7 +13,6 @@ use crate::scene::Varied;
 use crate::simulate::{Options, Stop};
 use crate::sweep::{Figure, Goal, SweepOptions};
 
-/// Arguments of `optimise`.
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("goal").required(true).args(["least", "most"])))]
 pub(super) struct Arguments {

@@ -35,10 +35,7 @@ pub(super) struct PlotOfRows {
 }
 
 impl Plot {
-    /// Opens the picture, if asked for.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if the extension is not one of a picture; [`Error::Write`].
+    /// Opens the picture, if asked for; its extension must be one of a picture.
     pub fn open(&self) -> Result<Option<Picture>, Error> {
         check_extension(self.plot.as_ref(), &EXTENSIONS)?;
         self.plot.as_deref().map(Picture::create).transpose()
@@ -85,9 +82,6 @@ impl Outputs {
     }
 
     /// Opens all requested outputs, before any is written.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if an extension means another format; [`Error::Write`].
     pub fn open(&self) -> Result<Targets, Error> {
         Ok(Targets {
             rows: create(self.out.as_ref())?,
@@ -108,9 +102,6 @@ pub(super) struct Targets {
 
 impl Targets {
     /// Writes picture, rows and page of a result, and shows the summary.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if a column is missing; [`Error::Write`].
     pub fn write(
         self,
         report: &impl Report,

@@ -14,7 +14,6 @@ use crate::precision::{Precision, PrecisionOptions};
 use crate::report;
 use crate::scene::Scene;
 
-/// Arguments of `precision`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene files, folders of scene files, `-` for standard input; without one the built-in Duarte engine

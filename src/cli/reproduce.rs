@@ -10,7 +10,6 @@ use crate::error::Error;
 use crate::report::{self, Output, ReproductionSummary};
 use crate::reproduce::{Paper, Reproduction, reproduce};
 
-/// Arguments of `reproduce`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// obaseki-alfred, gupta, ng or duarte; without it all four

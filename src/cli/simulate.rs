@@ -13,7 +13,6 @@ use crate::report::{PlotRows, Preview, RowWriter, RunReport};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, RowSink, Stop, simulate_rows, steady_state};
 
-/// Arguments of `simulate`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine

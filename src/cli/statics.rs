@@ -12,7 +12,6 @@ use crate::report::{self, StaticsReport};
 use crate::scene::unit::Quantity;
 use crate::statics::{StaticsOptions, calibrate, drum_torque, friction_from_tilt, statics};
 
-/// Arguments of `statics`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine, under 1 N m if no load is given

@@ -1,5 +1,6 @@
 //! Input and output files of a command: checks for conflicts, opening, and writing.
 
+use std::ffi::OsStr;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -18,10 +19,8 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Checks the outputs: rows to `rows`, a JSON summary to standard output if `json`, other results to `files`.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if two results have one target, or a result would overwrite an input.
+    /// Checks the outputs: rows to `rows`, a JSON summary to standard output if `json`, other results to `files`. Refuses
+    /// two results with one target, and a result that would overwrite an input.
     pub fn new(
         read: &[Option<&PathBuf>],
         rows: Option<&PathBuf>,
@@ -55,20 +54,14 @@ impl Streams {
         })
     }
 
-    /// Loads the scene of the command: a file, or the built-in engine.
-    ///
-    /// # Errors
-    /// Errors of the scene; [`Error::Refused`] if a result would overwrite a table of the scene.
+    /// Loads the scene of the command, whose tables no result may overwrite.
     pub fn scene(&self, file: Option<&PathBuf>) -> Result<Scene, Error> {
         let scene = scene(file)?;
         self.spare_tables(&scene)?;
         Ok(scene)
     }
 
-    /// Loads the text of a scene: a file, or the built-in engine.
-    ///
-    /// # Errors
-    /// [`Error::Read`]; [`Error::Refused`] if a result would overwrite a table of the scene.
+    /// Loads the text of the scene, whose tables no result may overwrite.
     pub fn draft(&self, file: Option<&PathBuf>) -> Result<Draft, Error> {
         let draft = draft(file)?;
         if let Ok(scene) = draft.scene() {
@@ -93,13 +86,13 @@ impl Streams {
         result: &impl Serialize,
         text: impl FnOnce() -> String,
     ) -> Result<(), Error> {
-        if self.json {
-            print(&report::json(result)?)
-        } else if self.rows_on_stdout {
-            say(text().trim_end());
-            Ok(())
-        } else {
-            print(&text())
+        match (self.json, self.rows_on_stdout) {
+            (true, _) => print(&report::json(result)?),
+            (false, false) => print(&text()),
+            (false, true) => {
+                say(text().trim_end());
+                Ok(())
+            }
         }
     }
 }
@@ -138,20 +131,20 @@ fn place(path: &Path) -> PathBuf {
 
 /// Refuses a path whose extension is not among the formats `written`.
 pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
-    let Some((path, ending)) = path.and_then(|path| Some((path, path.extension()?))) else {
+    let is_known = |ending: &OsStr| {
+        written
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known))
+    };
+    let Some(path) = path.filter(|path| path.extension().is_some_and(|ending| !is_known(ending)))
+    else {
         return Ok(());
     };
-    let is_known = |known: &&str| ending.eq_ignore_ascii_case(known);
-    if written.iter().any(is_known) {
-        return Ok(());
-    }
-    let (shown, format) = (path.display(), written[0]);
+    let (shown, format) = (path.display(), written[0].to_uppercase());
+    let other = path.with_extension(written[0]);
     Err(Error::refused(
-        format!(
-            "`{shown}` would hold {}, which its ending does not say",
-            format.to_uppercase()
-        ),
-        format!("write it to `{}`", path.with_extension(format).display()),
+        format!("`{shown}` would hold {format}, which its ending does not say"),
+        format!("write it to `{}`", other.display()),
     ))
 }
 
@@ -192,10 +185,7 @@ pub(super) fn draw(
     picture.map_or(Ok(()), |picture| picture.draw(&svg()?))
 }
 
-/// Opens an optional page.
-///
-/// # Errors
-/// [`Error::Refused`] if the extension is not one of a page; [`Error::Write`].
+/// Opens an optional page, whose extension must be one of a page.
 pub(super) fn page(path: Option<&PathBuf>) -> Result<Option<Output>, Error> {
     check_extension(path, &["html", "htm"])?;
     create(path)
@@ -234,8 +224,6 @@ pub(super) fn command_line() -> String {
     };
     let arguments = std::env::args_os().skip(1);
     let arguments = arguments.map(|argument| quoted(argument.to_string_lossy().into_owned()));
-    std::iter::once("slider-crank".to_owned())
-        .chain(arguments)
-        .collect::<Vec<_>>()
-        .join(" ")
+    let line = std::iter::once("slider-crank".to_owned()).chain(arguments);
+    line.collect::<Vec<_>>().join(" ")
 }

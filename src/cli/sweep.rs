@@ -14,7 +14,6 @@ use crate::scene::Varied;
 use crate::simulate::{Options, Stop};
 use crate::sweep::{Figure, Goal, LatinHypercube, Source, Sweep, SweepOptions};
 
-/// Arguments of `sweep`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine

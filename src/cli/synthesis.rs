@@ -10,7 +10,6 @@ use crate::error::Error;
 use crate::kinematics::{Choice, synthesis};
 use crate::report;
 
-/// Arguments of `synthesis`.
 #[derive(Debug, Args)]
 pub(super) struct Arguments {
     /// Wanted stroke, like "90 mm"

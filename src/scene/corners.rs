@@ -32,16 +32,13 @@ impl Load {
 
     /// Returns the corners between two crank angles, rad, of a periodic table out of step with the turns.
     pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
-        match self.is_out_of_step() {
-            true => self.corners_between(low, high),
-            false => Vec::new(),
-        }
+        let load = self.out_of_step();
+        load.map_or_else(Vec::new, |load| load.corners_between(low, high))
     }
 
     /// Returns the first corner out of step with the turns, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        let is_asked = self.is_out_of_step();
-        is_asked.then(|| self.row_on_way(from, to)).flatten()
+        self.out_of_step()?.row_on_way(from, to)
     }
 
     /// Returns the first row, rad, of a table over the crank angle after `from` towards `to`, in either direction.
@@ -70,10 +67,10 @@ impl Load {
         self.table().filter(|table| table.of() == Variable::Theta)
     }
 
-    /// Whether a table over the crank angle is periodic, but not in step with the turns.
-    fn is_out_of_step(&self) -> bool {
-        let out = |table: &Table| table.period().is_some() && turns_in_step(table).is_none();
-        self.angle_table().is_some_and(out)
+    /// Returns the load if its table over the crank angle is periodic, but not in step with the turns.
+    fn out_of_step(&self) -> Option<&Load> {
+        let table = self.angle_table()?;
+        (table.period().is_some() && turns_in_step(table).is_none()).then_some(self)
     }
 }
 

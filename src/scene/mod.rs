@@ -46,8 +46,6 @@ pub use parts::{
 };
 pub use period::{Period, Periodicity, WhyNot};
 pub use problem::{Places, Problem, Problems};
-pub use table::{Interpolation, Table, calibration_points};
-#[cfg(feature = "cli")]
-pub use table::{LoadTable, load_table};
+pub use table::{Interpolation, LoadTable, Table, calibration_points, load_table};
 pub(crate) use validate::{LEAST_RUN_TOLERANCE, MOST_OUTPUT_ROWS};
 pub use variable::{Instant, Variable, Variables};

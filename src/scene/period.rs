@@ -56,11 +56,10 @@ impl Period {
     /// Returns the fraction that a number of turns stands for, known to the relative error `relative`, and computed from
     /// exact numbers in a few steps.
     pub(super) fn near(turns: f64, relative: f64) -> Result<Period, WhyNot> {
-        if !(turns.is_finite() && turns > 0.0) {
-            return Err(WhyNot::Incommensurable);
-        }
+        let is_usable = turns.is_finite() && turns > 0.0;
         let off = relative.max(4.0 * f64::EPSILON) * turns;
-        let Some([whole, parts]) = simplest(turns - off, turns + off) else {
+        let fraction = is_usable.then(|| simplest(turns - off, turns + off));
+        let Some([whole, parts]) = fraction.flatten() else {
             return Err(WhyNot::Incommensurable);
         };
         // Bound of the number of fractions in a turn with at most this denominator; times `2 off`, the share near one.
@@ -70,13 +69,11 @@ impl Period {
         if whole < 1.0 || 2.0 * off * fractions > largest_chance {
             return Err(WhyNot::Incommensurable);
         }
-        match whole <= f64::from(LONGEST_CYCLE) && parts <= f64::from(u32::MAX) {
-            true => Ok(Period {
-                turns: whole as u32,
-                parts: parts as u32,
-            }),
-            false => Err(WhyNot::TooLong(whole)),
+        if whole > f64::from(LONGEST_CYCLE) || parts > f64::from(u32::MAX) {
+            return Err(WhyNot::TooLong(whole));
         }
+        let (turns, parts) = (whole as u32, parts as u32);
+        Ok(Period { turns, parts })
     }
 
     /// Returns the fraction of a turn that equals an angle (rad) up to rounding.
@@ -98,10 +95,9 @@ impl Period {
         if turns > LONGEST_CYCLE.into() {
             return Err(WhyNot::TooLong(turns as f64));
         }
-        Ok(Period {
-            turns: turns as u32,
-            parts: gcd(self.parts.into(), other.parts.into()) as u32,
-        })
+        let parts = gcd(self.parts.into(), other.parts.into()) as u32;
+        let turns = turns as u32;
+        Ok(Period { turns, parts })
     }
 }
 

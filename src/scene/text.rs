@@ -39,11 +39,8 @@ pub(super) fn decoded(bytes: Vec<u8>) -> Result<String, String> {
         return Ok(with_line_feeds(text));
     };
     let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-    let column = before
-        .rsplit(|byte| *byte == b'\n')
-        .next()
-        .map_or(0, <[u8]>::len)
-        + 1;
+    let in_line = before.iter().rev().take_while(|byte| **byte != b'\n');
+    let column = in_line.count() + 1;
     Err(match byte {
         0 => format!("line {line}: the file is not text, it has a zero byte"),
         byte => format!("line {line}, column {column}: the byte 0x{byte:02x} is not UTF-8 text"),

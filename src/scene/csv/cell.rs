@@ -16,23 +16,6 @@ pub(in crate::scene) fn with_point(cell: &str, decimal_comma: bool) -> Option<Co
 /// Remedy for a cell that lacks a value.
 pub(in crate::scene) const LACKS_VALUE: &str = "give a number, or take the row out";
 
-/// What cells without a value contain.
-#[derive(Clone, Debug)]
-pub(in crate::scene) struct Missing {
-    pub texts: Vec<String>,
-    pub decimal_comma: bool,
-}
-
-impl Missing {
-    /// Whether a cell has one of the texts, in any case, or the same number.
-    pub fn is_in(&self, cell: &str) -> bool {
-        let number = |text: &str| parse(text, self.decimal_comma).ok();
-        let is_same = |text: &str| number(text).is_some_and(|mark| number(cell) == Some(mark));
-        let mut texts = self.texts.iter();
-        texts.any(|text| text.eq_ignore_ascii_case(cell) || is_same(text))
-    }
-}
-
 /// Fault of a cell, and its remedy.
 pub(in crate::scene) struct NotANumber {
     pub what: String,
@@ -52,32 +35,29 @@ pub(in crate::scene) fn parse(cell: &str, decimal_comma: bool) -> Result<f64, No
 }
 
 fn not_a_number(cell: &str, decimal_comma: bool) -> NotANumber {
-    let is_number = |text: String| text.parse::<f64>().is_ok();
+    let is_number = |text: &str| text.parse::<f64>().is_ok();
     let separates = |c: char| matches!(c, ',' | '\'' | '_') || c.is_whitespace();
     let (what, help) = if cell.is_empty() {
-        ("the value is missing".to_owned(), LACKS_VALUE)
+        let what = "the value is missing".to_owned();
+        return NotANumber {
+            what,
+            help: LACKS_VALUE,
+        };
     } else if decimal_comma && cell.contains('.') {
-        (
-            format!("`{cell}` has a point where numbers have decimal commas"),
-            "write every number with a decimal comma and without separators of thousands",
-        )
-    } else if is_number(cell.to_owned()) {
-        (format!("`{cell}` is not a finite number"), LACKS_VALUE)
-    } else if is_number(cell.replacen(',', ".", 1)) {
-        (
-            format!("`{cell}` has a decimal comma where a point is expected"),
-            "write decimal points, or say so with --decimal comma if semicolons or tabs separate the columns",
-        )
-    } else if is_number(cell.replace(separates, "")) {
-        (
-            format!("`{cell}` is not a plain number"),
-            "write numbers without separators of thousands",
-        )
+        let help = "write every number with a decimal comma and without separators of thousands";
+        ("has a point where numbers have decimal commas", help)
+    } else if is_number(cell) {
+        ("is not a finite number", LACKS_VALUE)
+    } else if is_number(&cell.replacen(',', ".", 1)) {
+        let help = "write decimal points, or say so with --decimal comma if semicolons or tabs separate the columns";
+        ("has a decimal comma where a point is expected", help)
+    } else if is_number(&cell.replace(separates, "")) {
+        let help = "write numbers without separators of thousands";
+        ("is not a plain number", help)
     } else {
-        (
-            format!("`{cell}` is not a number"),
-            "write the number alone, as 12.5 or 1.25e1; units belong in the header, comments begin with #",
-        )
+        let help = "write the number alone, as 12.5 or 1.25e1; units belong in the header, comments begin with #";
+        ("is not a number", help)
     };
+    let what = format!("`{cell}` {what}");
     NotANumber { what, help }
 }

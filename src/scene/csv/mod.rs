@@ -23,6 +23,11 @@ impl Column {
         }
     }
 
+    /// Whether the numbers are counts of an encoder.
+    pub fn is_counts(&self) -> bool {
+        self.unit == "counts"
+    }
+
     /// Formats an SI value in the unit of the column.
     pub fn shown(&self, value: f64) -> String {
         with_unit(value / self.factor, &self.unit)

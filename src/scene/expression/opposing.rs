@@ -12,13 +12,11 @@ pub(crate) struct OpposingPart {
     pub magnitude: Expression,
 }
 
-/// Subexpression a + b sgn(w), of two operands in postfix order; none: zero.
-struct LinearInSign {
-    plain: Operand,
-    of_sign: Operand,
-}
-
+/// Operations in postfix order; none: zero.
 type Operand = Option<Vec<Op>>;
+
+/// Subexpression a + b sgn(w), as a and b.
+type LinearInSign = [Operand; 2];
 
 impl Expression {
     /// Splits the expression by the sign or step of a speed, omega or v; none if it is not linear in that sign, or if
@@ -27,7 +25,7 @@ impl Expression {
         if !self.reads.has(speed) {
             return None;
         }
-        let LinearInSign { plain, of_sign } = self.linear_in_sign(speed)?;
+        let [plain, of_sign] = self.linear_in_sign(speed)?;
         let magnitude = self.of(negated(of_sign)?)?;
         let at_rest = magnitude.enclose(|variable| match variable {
             Variable::Omega | Variable::V => Enclosed::point(0.0),
@@ -52,28 +50,22 @@ impl Expression {
         let mut stack: Vec<LinearInSign> = Vec::new();
         let mut ops = self.ops.iter().peekable();
         while let Some(op) = ops.next() {
+            let plain = [Some(vec![*op]), None];
             let part = match *op {
                 Op::Variable(variable) if variable == speed => {
                     let sign = ops.next_if(|next| sign_of(next).is_some());
-                    sign.and_then(sign_of)
-                        .unwrap_or_else(|| LinearInSign::plain(vec![*op]))
+                    sign.and_then(sign_of).unwrap_or(plain)
                 }
-                Op::Number(_) | Op::Variable(_) => LinearInSign::plain(vec![*op]),
-                Op::Negate => {
-                    let LinearInSign { plain, of_sign } = stack.pop()?;
-                    LinearInSign {
-                        plain: negated(plain),
-                        of_sign: negated(of_sign),
-                    }
-                }
+                Op::Number(_) | Op::Variable(_) => plain,
+                Op::Negate => stack.pop()?.map(negated),
                 Op::Call1(_) => {
-                    let mut argument = stack.pop()?.without_sign()?;
+                    let mut argument = without_sign(stack.pop()?)?;
                     argument.push(*op);
-                    LinearInSign::plain(argument)
+                    [Some(argument), None]
                 }
                 binary => {
                     let (right, left) = (stack.pop()?, stack.pop()?);
-                    left.with(binary, right)?
+                    combined(left, binary, right)?
                 }
             };
             stack.push(part);
@@ -86,63 +78,36 @@ impl Expression {
 fn sign_of(op: &Op) -> Option<LinearInSign> {
     let Op::Call1(function) = op else { return None };
     let number = |value| Some(vec![Op::Number(value)]);
-    Some(match FUNCTIONS_1[*function].0 {
-        "sign" => LinearInSign {
-            plain: None,
-            of_sign: number(1.0),
-        },
-        "step" => LinearInSign {
-            plain: number(0.5),
-            of_sign: number(0.5),
-        },
-        _ => return None,
-    })
+    match FUNCTIONS_1[*function].0 {
+        "sign" => Some([None, number(1.0)]),
+        "step" => Some([number(0.5), number(0.5)]),
+        _ => None,
+    }
 }
 
-impl LinearInSign {
-    fn plain(ops: Vec<Op>) -> LinearInSign {
-        LinearInSign {
-            plain: Some(ops),
-            of_sign: None,
+/// Returns a subexpression without the sign; none for others, and for zero.
+fn without_sign([plain, of_sign]: LinearInSign) -> Operand {
+    of_sign.is_none().then_some(plain)?
+}
+
+/// Returns the value of a binary operation; none if it is not linear in the sign.
+fn combined([a, b]: LinearInSign, op: Op, [c, d]: LinearInSign) -> Option<LinearInSign> {
+    Some(match op {
+        Op::Add | Op::Subtract => [sum(a, op, c), sum(b, op, d)],
+        // The square of a sign is one.
+        Op::Multiply => [
+            sum(product(&a, &c), Op::Add, product(&b, &d)),
+            sum(product(&a, &d), Op::Add, product(&b, &c)),
+        ],
+        Op::Divide => {
+            let divisor = Some(without_sign([c, d])?);
+            [a, b].map(|part| joined(&part, &divisor, op))
         }
-    }
-
-    fn without_sign(self) -> Option<Vec<Op>> {
-        self.of_sign.is_none().then_some(self.plain)?
-    }
-
-    fn with(self, op: Op, right: LinearInSign) -> Option<LinearInSign> {
-        let (a, b) = (self.plain, self.of_sign);
-        Some(match op {
-            Op::Add | Op::Subtract => LinearInSign {
-                plain: sum(a, op, right.plain),
-                of_sign: sum(b, op, right.of_sign),
-            },
-            // The square of a sign is one.
-            Op::Multiply => {
-                let (c, d) = (right.plain, right.of_sign);
-                LinearInSign {
-                    plain: sum(product(&a, &c), Op::Add, product(&b, &d)),
-                    of_sign: sum(product(&a, &d), Op::Add, product(&b, &c)),
-                }
-            }
-            Op::Divide => {
-                let divisor = Some(right.without_sign()?);
-                LinearInSign {
-                    plain: joined(&a, &divisor, op),
-                    of_sign: joined(&b, &divisor, op),
-                }
-            }
-            _ => {
-                let left = LinearInSign {
-                    plain: a,
-                    of_sign: b,
-                }
-                .without_sign();
-                LinearInSign::plain(joined(&left, &right.without_sign(), op)?)
-            }
-        })
-    }
+        _ => {
+            let value = joined(&without_sign([a, b]), &without_sign([c, d]), op)?;
+            [Some(value), None]
+        }
+    })
 }
 
 fn joined(left: &Operand, right: &Operand, op: Op) -> Operand {

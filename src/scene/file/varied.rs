@@ -65,13 +65,13 @@ impl Varied {
     pub fn len(&self) -> usize {
         match &self.values {
             Variation::Listed(list) => list.len(),
-            Variation::Uniform(_) | Variation::Normal(_) => 1,
+            _ => 1,
         }
     }
 
     /// Whether the values are a distribution.
     pub fn is_distribution(&self) -> bool {
-        matches!(self.values, Variation::Uniform(_) | Variation::Normal(_))
+        !matches!(self.values, Variation::Listed(_))
     }
 
     /// Returns the bounds of a uniform distribution, in SI units and radians.
@@ -113,7 +113,7 @@ impl Varied {
     pub fn value(&self, index: usize) -> VariedValue {
         match &self.values {
             Variation::Listed(list) => list[index].clone(),
-            Variation::Uniform(_) | Variation::Normal(_) => self.quantile(0.5),
+            _ => self.quantile(0.5),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Quantities measured over time, and options for reading a file of them.
 
+use crate::scene::csv::cell;
 use crate::scene::unit::Quantity;
 
 named! {
@@ -93,4 +94,14 @@ pub struct Reading {
     pub decimal_comma: bool,
     /// Texts or numbers in cells without a value, as `NaN`; `""` for empty cells. Without time or motion a row is a gap.
     pub missing: Vec<String>,
+}
+
+impl Reading {
+    /// Whether a cell has one of the texts of `missing`, in any case, or the same number.
+    pub(super) fn is_missing(&self, cell: &str) -> bool {
+        let number = |text: &str| cell::parse(text, self.decimal_comma).ok();
+        let is_same = |text: &str| number(text).is_some_and(|mark| number(cell) == Some(mark));
+        let mut texts = self.missing.iter();
+        texts.any(|text| text.eq_ignore_ascii_case(cell) || is_same(text))
+    }
 }

@@ -36,6 +36,9 @@ pub struct Measurement {
     period_uncertainty: f64,
     values: Vec<f64>,
     resolution: f64,
+    /// Units of times and values in messages.
+    time: Column,
+    value: Column,
     beside: Vec<BesideColumn>,
     notes: Vec<String>,
     source: Option<SampleFile>,
@@ -97,30 +100,18 @@ impl Measurement {
                 Beside::Torque => &mut scene.torques,
                 Beside::Force => &mut scene.forces,
             };
-            let table = Table::new(
-                Variable::T,
-                &self.times,
-                values,
-                Interpolation::Linear,
-                None,
-            );
-            list.push(Load::Table(table.map_err(|what| self.no_table(what))?));
+            let (times, interpolation) = (&self.times, Interpolation::Linear);
+            let table = Table::new(Variable::T, times, values, interpolation, None);
+            let table = table.map_err(|what| {
+                let falls = times.windows(2).position(|pair| pair[1] <= pair[0]);
+                let sample = falls.map_or(0, |before| before + 1);
+                let what = format!("a known torque or force is no function of these times: {what}");
+                let help = "times so far from zero are equal in double precision: let the time begin near 0";
+                self.refused(vec![self.problem(sample, 0, what, help.to_owned())])
+            });
+            list.push(Load::Table(table?));
         }
         Ok(scene)
-    }
-
-    /// Creates the problem of a known torque or force that makes no table, with the first time that does not rise.
-    fn no_table(&self, what: String) -> Problems {
-        let falls = self.times.windows(2).position(|pair| pair[1] <= pair[0]);
-        let what = format!("a known torque or force is no function of these times: {what}");
-        let help =
-            "times so far from zero are equal in double precision: let the time begin near 0";
-        self.refused(vec![self.problem(
-            falls.map_or(0, |before| before + 1),
-            0,
-            what,
-            help.to_owned(),
-        )])
     }
 
     /// Creates samples without checks.
@@ -133,6 +124,8 @@ impl Measurement {
             period_uncertainty: 0.0,
             values,
             resolution: 0.0,
+            time: Column::si("s"),
+            value: Column::si(measured.unit()),
             beside: Vec::new(),
             notes: Vec::new(),
             source: None,
@@ -221,8 +214,7 @@ impl Measurement {
 
     /// True if the values are counts of an encoder, whose step is the resolution.
     pub fn is_counted(&self) -> bool {
-        let source = self.source.as_ref();
-        source.is_some_and(|source| source.value.unit == "counts")
+        self.value.is_counts()
     }
 
     /// Returns notes for the user: choice of columns, encoding, gaps, replaced times, a record at rest.
@@ -246,10 +238,7 @@ impl Measurement {
 
     /// Formats a value in the unit of its column, with the unit.
     pub fn shown(&self, value: f64) -> String {
-        match &self.source {
-            Some(source) => source.value.shown(value),
-            None => Column::si(self.measured.unit()).shown(value),
-        }
+        self.value.shown(value)
     }
 
     /// Creates a problem with the time (column 0) or the value (1) of a sample (from 0).

@@ -8,7 +8,7 @@ use super::listed::Listed;
 use super::{Beside, BesideColumn, Measured, Measurement, Reading, SampleFile};
 use crate::numeric::parallel;
 use crate::scene::csv::Column;
-use crate::scene::csv::cell::{self, LACKS_VALUE, Missing, NotANumber};
+use crate::scene::csv::cell::{self, LACKS_VALUE, NotANumber};
 use crate::scene::csv::lines::{CLOSE_QUOTE, Dialect, OPEN_QUOTE, line_number, span};
 use crate::scene::digits::Digits;
 use crate::scene::number::counted;
@@ -42,26 +42,28 @@ pub(super) fn measurement(
         start: heading.start,
         ..dialect
     };
-    let missing = Missing {
-        texts: reading.missing.clone(),
-        decimal_comma: reading.decimal_comma,
-    };
     let rows = SampleRows {
         text: &text,
         dialect,
         columns: &columns,
         heading: &heading,
-        missing: &missing,
+        reading,
     };
     let samples = rows.samples();
-    let mut notes = columns.notes.clone();
-    notes.extend(samples.left_out.note(&text, columns.measured));
+    let mut notes = columns.notes;
+    if let Some(first) = samples.left_out.first() {
+        let rows = counted(samples.left_out.len(), "row");
+        let (name, line) = (columns.measured.name(), line_number(&text, &text[*first..]));
+        notes.push(format!(
+            "{rows} without time or {name} left out, the first in line {line}"
+        ));
+    }
     if let Some(list) = samples.wrong.refused(&text) {
         return Err(Problems::in_file(file, &text, list));
     }
-    let step = match columns.value.unit.as_str() {
-        "counts" => 1.0,
-        _ => samples.digits.step(&samples.columns[1]),
+    let step = match columns.value.is_counts() {
+        true => 1.0,
+        false => samples.digits.step(&samples.columns[1]),
     };
     let zero = |beside: Beside| match beside {
         Beside::Sensor(Measured::X) => reading.x_zero,
@@ -84,13 +86,13 @@ pub(super) fn measurement(
         resolution: columns.value.factor * step,
         beside: columns.beside.iter().map(of_beside).collect(),
         notes,
+        time: columns.time,
+        value: columns.value,
         source: Some(SampleFile {
             file: file.to_owned(),
             dialect,
             at: [columns.at[0], columns.at[1]],
-            time: columns.time,
-            value: columns.value,
-            missing,
+            reading: reading.clone(),
             text,
         }),
         ..Measurement::raw(columns.measured, times, values)
@@ -101,33 +103,9 @@ pub(super) fn measurement(
 struct Samples {
     columns: Vec<Vec<f64>>,
     digits: Digits,
-    left_out: LeftOut,
+    /// Begin in the text of each row without time or motion.
+    left_out: Vec<usize>,
     wrong: Listed,
-}
-
-/// Rows without time or motion.
-#[derive(Clone, Copy, Default)]
-struct LeftOut {
-    count: usize,
-    /// Begin of the first one in the text.
-    first: Option<usize>,
-}
-
-impl LeftOut {
-    fn add(&mut self, more: LeftOut) {
-        self.count += more.count;
-        self.first = self.first.or(more.first);
-    }
-
-    /// Returns a note if there are any.
-    fn note(&self, text: &str, measured: Measured) -> Option<String> {
-        let line = line_number(text, &text[self.first?..]);
-        let rows = counted(self.count, "row");
-        let name = measured.name();
-        Some(format!(
-            "{rows} without time or {name} left out, the first in line {line}"
-        ))
-    }
 }
 
 impl Samples {
@@ -135,7 +113,7 @@ impl Samples {
         Samples {
             columns: vec![Vec::with_capacity(count); columns],
             digits: Digits::EMPTY,
-            left_out: LeftOut::default(),
+            left_out: Vec::new(),
             wrong: Listed::default(),
         }
     }
@@ -147,7 +125,7 @@ struct SampleRows<'a> {
     dialect: Dialect,
     columns: &'a Columns,
     heading: &'a Heading<'a>,
-    missing: &'a Missing,
+    reading: &'a Reading,
 }
 
 impl SampleRows<'_> {
@@ -170,7 +148,7 @@ impl SampleRows<'_> {
                 all.extend(more);
             }
             all.digits = all.digits.or(found.digits);
-            all.left_out.add(found.left_out);
+            all.left_out.extend(found.left_out);
             all.wrong.join(found.wrong);
         }
         all
@@ -214,14 +192,13 @@ impl SampleRows<'_> {
             };
             return wrong("row", row, what, help);
         }
-        let is_missing = |cell: &&str| self.missing.is_in(cell);
+        let is_missing = |cell: &&str| self.reading.is_missing(cell);
         if found[..2].iter().any(is_missing) {
-            let first = Some(span(self.text, row).start);
-            return samples.left_out.add(LeftOut { count: 1, first });
+            return samples.left_out.push(span(self.text, row).start);
         }
         let mut numbers = [f64::NAN; MOST_COLUMNS];
         let mut is_right = true;
-        let decimal_comma = self.missing.decimal_comma;
+        let decimal_comma = self.reading.decimal_comma;
         for (k, cell) in found.iter().enumerate() {
             let parsed = match is_missing(cell) {
                 true if self.columns.is_sensor(k) => continue,

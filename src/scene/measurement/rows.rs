@@ -109,20 +109,15 @@ impl Measurement {
 
     /// Returns a time in the unit of its column.
     fn in_column(&self, time: f64) -> f64 {
-        time / self
-            .source
-            .as_ref()
-            .map_or(1.0, |source| source.time.factor)
+        time / self.time.factor
     }
 
     /// Returns a problem for too few samples, or for times so close to each other that their unit must be wrong.
     fn too_short(&self) -> Option<Problem> {
         let times = self.elapsed();
         if let Some(what) = too_few(times.len()) {
-            let end = self
-                .source
-                .as_ref()
-                .map(|source| source.text.trim_end().len());
+            let source = self.source.as_ref();
+            let end = source.map(|source| source.text.trim_end().len());
             let problem = Problem::new("samples", what, "give more of the motion");
             return Some(problem.at(end.map(|end| end..end)));
         }

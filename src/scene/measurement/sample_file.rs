@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::scene::csv::Column;
-use crate::scene::csv::cell::Missing;
+use super::Reading;
 use crate::scene::csv::lines::Dialect;
 
 /// File of the samples, in which messages find lines and cells.
@@ -15,9 +14,7 @@ pub(super) struct SampleFile {
     pub dialect: Dialect,
     /// Positions of time and value in a row, from 0.
     pub at: [usize; 2],
-    pub time: Column,
-    pub value: Column,
-    pub missing: Missing,
+    pub reading: Reading,
 }
 
 impl SampleFile {
@@ -31,8 +28,8 @@ impl SampleFile {
     fn has(&self, row: &str) -> bool {
         let lacks = |at: usize| {
             let cell = self.dialect.cells(row).nth(at);
-            cell.is_some_and(|cell| self.missing.is_in(cell))
+            cell.is_some_and(|cell| self.reading.is_missing(cell))
         };
-        self.missing.texts.is_empty() || !self.at.into_iter().any(lacks)
+        self.reading.missing.is_empty() || !self.at.into_iter().any(lacks)
     }
 }

@@ -60,7 +60,7 @@ impl Measurement {
         let mut since = |row: &str| {
             let time = Decimal::of(source.dialect.cells(row).nth(source.at[0])?)?;
             let first = *first.get_or_insert(time);
-            Some(time.since(first)? * source.time.factor)
+            Some(time.since(first)? * self.time.factor)
         };
         source.dialect.rows(&source.text).map(&mut since).collect()
     }

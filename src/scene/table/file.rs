@@ -2,20 +2,15 @@
 
 use std::path::Path;
 
-#[cfg(feature = "cli")]
-use super::{
-    Interpolation, Table,
-    rows::{TableRows, columns_error},
-};
+use super::rows::{TableRows, columns_error};
+use super::{Interpolation, Table};
 use crate::error::Error;
-#[cfg(feature = "cli")]
 use crate::scene::csv::Column;
 use crate::scene::csv::lines::{Dialect, OPEN_QUOTE, line_number};
 use crate::scene::csv::{cell, header};
 use crate::scene::number::counted;
 use crate::scene::text;
 use crate::scene::unit::Quantity;
-#[cfg(feature = "cli")]
 use crate::scene::{Problem, Variable};
 
 /// Text of two columns of numbers under a header; `name` is that of the file.
@@ -83,7 +78,6 @@ impl<'a> Pairs<'a> {
     }
 }
 
-#[cfg(feature = "cli")]
 impl Table {
     /// Reads a CSV file with a header that names both columns and their units; problems name the key of the load that
     /// must change.
@@ -123,7 +117,6 @@ impl Table {
 }
 
 /// Returns the units of the two columns.
-#[cfg(feature = "cli")]
 fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], String> {
     let of_name = of.name();
     let cells = pairs.header(&format!("{of_name} [unit],value [unit]"))?;
@@ -140,7 +133,6 @@ fn columns(pairs: &Pairs, of: Variable, value: Quantity) -> Result<[Column; 2], 
 }
 
 /// Table of a load in a file of its own.
-#[cfg(feature = "cli")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadTable {
     /// Variable of the first column.
@@ -156,7 +148,6 @@ pub struct LoadTable {
 ///
 /// # Errors
 /// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with the fault of the table.
-#[cfg(feature = "cli")]
 pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
     let Ok(text) = text::decoded(text::bytes(file)?) else {
         return Ok(None);

@@ -11,9 +11,7 @@ use super::{Period, Periodicity, Variable, WhyNot};
 use crate::numeric::enclosure::{Enclosed, Interval};
 pub use crate::numeric::interpolate::Interpolation;
 use crate::numeric::interpolate::TableInterpolant;
-pub use file::calibration_points;
-#[cfg(feature = "cli")]
-pub use file::{LoadTable, load_table};
+pub use file::{LoadTable, calibration_points, load_table};
 use rows::TableRows;
 
 /// Interpolated values over one variable, SI and radians.
@@ -46,12 +44,9 @@ impl Table {
         interpolation: Interpolation,
         period: Option<f64>,
     ) -> Result<Table, String> {
-        if arguments.len() != values.len() {
-            return Err(format!(
-                "{} arguments but {} values",
-                arguments.len(),
-                values.len()
-            ));
+        let (count, of_values) = (arguments.len(), values.len());
+        if count != of_values {
+            return Err(format!("{count} arguments but {of_values} values"));
         }
         let arguments = arguments.iter().copied();
         let rows = TableRows {
@@ -61,14 +56,9 @@ impl Table {
             whole: String::new(),
             place: &|point| format!("point {}: ", point + 1),
         };
-        let curve = rows
-            .curve(interpolation, period)
-            .map_err(|error| error.what)?;
-        Ok(Table {
-            of,
-            curve,
-            file: None,
-        })
+        let curve = rows.curve(interpolation, period);
+        let (curve, file) = (curve.map_err(|error| error.what)?, None);
+        Ok(Table { of, curve, file })
     }
 
     /// Returns the variable of the arguments.

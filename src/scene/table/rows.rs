@@ -93,26 +93,23 @@ impl TableRows<'_> {
         if span < period * (1.0 - last_digit) {
             return Ok(());
         }
+        let whole = &self.whole;
         let largest = self.points.iter().fold(0.0f64, |m, p| m.max(p.1.abs()));
-        let (what, help) = if (last.1 - first.1).abs() > last_digit * largest {
+        if (last.1 - first.1).abs() > last_digit * largest {
             let (last, first) = apart(last.1 / value.factor, first.1 / value.factor);
-            (
-                format!(
-                    "it spans one period, so its last value must be its first one again, but they are {last} and {first}"
-                ),
-                "let the last row repeat the first value, or leave that row out",
-            )
-        } else if self.points.len() < 3 {
-            (
-                "a repeating table needs at least 2 rows within its period".to_owned(),
-                "add rows between the first and the last",
-            )
-        } else {
-            self.points.pop();
-            return Ok(());
-        };
-        let what = format!("{}{what}", self.whole);
-        Err(Problem::new("file", what, help))
+            let what = format!(
+                "{whole}it spans one period, so its last value must be its first one again, but they are {last} and {first}"
+            );
+            let help = "let the last row repeat the first value, or leave that row out";
+            return Err(Problem::new("file", what, help));
+        }
+        if self.points.len() < 3 {
+            let what = format!("{whole}a repeating table needs at least 2 rows within its period");
+            let help = "add rows between the first and the last";
+            return Err(Problem::new("file", what, help));
+        }
+        self.points.pop();
+        Ok(())
     }
 }
 

@@ -146,19 +146,10 @@ impl NumberWithUnit<'_> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
             return Some(self.value);
         }
-        self.factor.of(quantity)?.apply(&self.digits)
-    }
-}
-
-impl Factor {
-    /// Returns the factor for this quantity: 1/min as an angular speed counts turns.
-    fn of(self, quantity: Quantity) -> Option<Factor> {
-        match quantity.accepts(self.dimension) {
-            true => Some(self),
-            false => self
-                .revolutions()
-                .filter(|_| quantity == Quantity::AngularSpeed),
-        }
+        // 1/min as an angular speed counts turns.
+        let turns = self.factor.revolutions();
+        let turns = turns.filter(|_| quantity == Quantity::AngularSpeed);
+        turns?.apply(&self.digits)
     }
 }
 

@@ -6,19 +6,13 @@ use crate::scene::{Clearance, ContactLaw};
 
 pub(super) fn clearance(check: &mut Check, clearance: &Clearance) {
     check.not_negative("clearance.radial", clearance.radial, "m");
+    let threshold = Some(clearance.friction_threshold);
+    let least_speed = Some(clearance.least_approach_speed);
     for (name, value, unit) in [
         ("bearing_radius", clearance.bearing_radius, "m"),
         ("young_modulus", clearance.young_modulus, "Pa"),
-        (
-            "friction_threshold",
-            Some(clearance.friction_threshold),
-            "m/s",
-        ),
-        (
-            "least_approach_speed",
-            Some(clearance.least_approach_speed),
-            "m/s",
-        ),
+        ("friction_threshold", threshold, "m/s"),
+        ("least_approach_speed", least_speed, "m/s"),
     ] {
         if let Some(value) = value {
             check.positive(format_args!("clearance.{name}"), value, unit);
@@ -54,13 +48,11 @@ fn journal_fits(check: &mut Check, clearance: &Clearance) {
         && check.has_no_problem(&["clearance.radial", "clearance.bearing_radius"])
     {
         let (radial, bearing) = apart(radial, bearing);
-        check.add(
-            "clearance.radial",
-            format!(
-                "a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"
-            ),
-            "make the clearance smaller than the radius of the bearing",
+        let what = format!(
+            "a clearance of {radial} m leaves no journal in a bearing of radius {bearing} m"
         );
+        let help = "make the clearance smaller than the radius of the bearing";
+        check.add("clearance.radial", what, help);
     }
     let Some(eccentricity) = clearance.eccentricity else {
         return;
@@ -70,22 +62,18 @@ fn journal_fits(check: &mut Check, clearance: &Clearance) {
     let impossible = eccentricity > radial || (linked && eccentricity != radial);
     if impossible && check.has_no_problem(&["clearance.radial", "clearance.eccentricity"]) {
         let (shown, radial) = apart(eccentricity, radial);
-        let (what, help) = if linked {
-            (
+        let [what, help] = match linked {
+            true => [
                 "a massless link keeps the journal at the radial clearance",
                 "leave out eccentricity, or give the radial clearance",
-            )
-        } else {
-            (
+            ],
+            false => [
                 "the journal would begin inside the bearing's wall, and its approach speed would not be known",
                 "give at most the radial clearance",
-            )
+            ],
         };
-        check.add(
-            "clearance.eccentricity",
-            format!("{what}: {shown} m, and the radial clearance is {radial} m"),
-            help,
-        );
+        let what = format!("{what}: {shown} m, and the radial clearance is {radial} m");
+        check.add("clearance.eccentricity", what, help);
     }
 }
 
@@ -93,24 +81,18 @@ fn journal_fits(check: &mut Check, clearance: &Clearance) {
 fn law_fits(check: &mut Check, clearance: &Clearance) {
     let friction = clearance.friction.unwrap_or(0.0);
     if clearance.law == ContactLaw::MasslessLink && friction > 0.0 {
-        check.add(
-            "clearance.friction",
-            format!(
-                "a massless link has no friction, but it is {}",
-                show(friction)
-            ),
-            "leave it out, or use another contact_law",
-        );
+        let friction = show(friction);
+        let what = format!("a massless link has no friction, but it is {friction}");
+        let help = "leave it out, or use another contact_law";
+        check.add("clearance.friction", what, help);
     }
     let divides = matches!(clearance.law, ContactLaw::Flores | ContactLaw::Gonthier);
     if divides && clearance.restitution == Some(0.0) {
-        check.add(
-            "clearance.restitution",
-            format!(
-                "the damping of the law \"{}\" grows without bound as the restitution nears 0",
-                clearance.law.name()
-            ),
-            "use contact_law = \"lankarani-nikravesh\" or \"hunt-crossley\", or a restitution above 0",
+        let law = clearance.law;
+        let what = format!(
+            "the damping of the law \"{law}\" grows without bound as the restitution nears 0"
         );
+        let help = "use contact_law = \"lankarani-nikravesh\" or \"hunt-crossley\", or a restitution above 0";
+        check.add("clearance.restitution", what, help);
     }
 }

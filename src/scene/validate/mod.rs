@@ -83,11 +83,9 @@ fn geometry(check: &mut Check, geometry: &Geometry) {
         } else {
             format!("is larger than crank plus rod by {} m", show(-reach))
         };
-        check.add(
-            "geometry.offset",
-            format!("the mechanism cannot be assembled: the offset {larger}"),
-            "make the offset smaller or the rod longer",
-        );
+        let what = format!("the mechanism cannot be assembled: the offset {larger}");
+        let help = "make the offset smaller or the rod longer";
+        check.add("geometry.offset", what, help);
     }
 }
 
@@ -127,22 +125,18 @@ fn rod(check: &mut Check, rod: &Rod, length: f64) {
         return;
     }
     if rod.cg_lateral != 0.0 && check.has_no_problem(&["rod.cg_lateral"]) {
-        check.add(
-            "rod.cg_lateral",
-            format!(
-                "two masses at the pins have no lateral centre of gravity, but it is {} m",
-                show(rod.cg_lateral)
-            ),
-            "leave out cg_lateral or use model = \"rigid\"",
+        let lateral = show(rod.cg_lateral);
+        let what = format!(
+            "two masses at the pins have no lateral centre of gravity, but it is {lateral} m"
         );
+        let help = "leave out cg_lateral or use model = \"rigid\"";
+        check.add("rod.cg_lateral", what, help);
     }
     if !(0.0..=length).contains(&rod.cg) && check.has_no_problem(&["geometry.rod", "rod.cg"]) {
         let (cg, length) = apart(rod.cg, length);
-        check.add(
-            "rod.cg",
-            format!("{cg} m is not between the pins, which are {length} m apart"),
-            "two masses at the pins need it between them; use model = \"rigid\" otherwise",
-        );
+        let what = format!("{cg} m is not between the pins, which are {length} m apart");
+        let help = "two masses at the pins need it between them; use model = \"rigid\" otherwise";
+        check.add("rod.cg", what, help);
     }
 }
 
@@ -154,11 +148,9 @@ fn friction(check: &mut Check, friction: &Friction) {
         && check.has_no_problem(&["friction.coefficient", "friction.static_coefficient"])
     {
         let (held, kinetic) = apart(held, kinetic);
-        check.add(
-            "friction.static_coefficient",
-            format!("the static coefficient {held} is below the kinetic one {kinetic}"),
-            "give one at least as large, or leave it out",
-        );
+        let what = format!("the static coefficient {held} is below the kinetic one {kinetic}");
+        let help = "give one at least as large, or leave it out";
+        check.add("friction.static_coefficient", what, help);
     }
 }
 
@@ -190,11 +182,9 @@ fn run(check: &mut Check, run: &Run, motion: &Motion) {
         None => {}
     }
     if check.has_no_problem(&["run.output_every"]) && rows(run, motion) > MOST_OUTPUT_ROWS {
-        check.add(
-            "run.output_every",
-            format!("more than {MOST_OUTPUT_ROWS} output rows would be written"),
-            "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows",
-        );
+        let what = format!("more than {MOST_OUTPUT_ROWS} output rows would be written");
+        let help = "give a larger step, like \"1 ms\" or \"1 deg\", or leave it out for 500 rows";
+        check.add("run.output_every", what, help);
     }
     let largest = 0.1;
     if !(LEAST_RUN_TOLERANCE..=largest).contains(&run.tolerance) {
@@ -233,18 +223,14 @@ fn start(check: &mut Check, geometry: &Geometry, motion: &Motion) {
     {
         return;
     }
-    let ranges: Vec<String> = ranges(geometry)
-        .iter()
-        .map(|[from, to]| format!("from {} to {} deg", computed(*from), computed(*to)))
-        .collect();
+    let ranges = ranges(geometry).into_iter();
+    let ranges = ranges.map(|range| range.map(computed));
+    let ranges = ranges.map(|[from, to]| format!("from {from} to {to} deg"));
+    let ranges: Vec<String> = ranges.collect();
+    let (angle, distance, rod) = (show(angle.to_degrees()), computed(distance), show(rod));
     check.add(
         "motion.angle",
-        format!(
-            "the mechanism has no position at a crank angle of {} deg: the crank pin is {} m from the guide, the rod {} m long",
-            show(angle.to_degrees()),
-            computed(distance),
-            show(rod)
-        ),
+        format!("the mechanism has no position at a crank angle of {angle} deg: the crank pin is {distance} m from the guide, the rod {rod} m long"),
         format!("give an angle {}", ranges.join(" or ")),
     );
 }
