@@ -13,7 +13,6 @@ pub(super) struct Arguments {
     reader: String,
 }
 
-/// Writes the completions for a shell, or the man page.
 pub(super) fn run(arguments: &Arguments, mut program: Command) -> Result<(), Error> {
     let Ok(shell) = arguments.reader.parse::<Shell>() else {
         return print(&man(program)?);

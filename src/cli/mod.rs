@@ -100,7 +100,7 @@ pub fn main() -> ExitCode {
         Command::Reproduce(arguments) => reproduce::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
-        Command::Schema => print_schema(),
+        Command::Schema => report::json(&scene::schema()).and_then(|text| print(&text)),
         Command::Completions(arguments) => completions::run(&arguments, program()),
     };
     watch::clear();
@@ -115,11 +115,6 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.exit_status())
         }
     }
-}
-
-/// Prints the JSON Schema of scene files.
-fn print_schema() -> Result<(), Error> {
-    print(&report::json(&scene::schema())?)
 }
 
 fn colour() -> bool {

@@ -64,15 +64,16 @@ impl Arguments {
         options
     }
 
+    /// Returns the files that are written.
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let files = [&self.out, &self.plot.plot, &self.report];
+        files.into_iter().flatten()
+    }
+
     /// Whether text goes to standard output: true if no other result does.
     fn text_on_stdout(&self) -> Result<bool, Error> {
-        let others = [
-            is_standard(self.out.as_ref()),
-            is_standard(self.plot.plot.as_ref()),
-            is_standard(self.report.as_ref()),
-            self.json,
-        ];
-        match others.into_iter().filter(|taken| *taken).count() {
+        let files = self.files().filter(|file| is_standard(Some(file)));
+        match files.count() + usize::from(self.json) {
             0 => Ok(true),
             1 => Ok(false),
             _ => Err(Error::refused(
@@ -96,8 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let scenes = scenes(&files)?;
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
-    let written = [&arguments.out, &arguments.plot.plot, &arguments.report];
-    let written: Vec<PathBuf> = written.into_iter().flatten().cloned().collect();
+    let written: Vec<PathBuf> = arguments.files().cloned().collect();
     check_files(&read, &written)?;
     let rows = create(arguments.out.as_ref())?;
     let plot = arguments.plot.open()?;

@@ -17,16 +17,16 @@ pub(super) struct Arguments {
     /// Scene file, `-` for standard input; without it the built-in Duarte engine, under 1 N m if no load is given
     scene: Option<PathBuf>,
     /// Crank torque in place of the scene's torques, like "0.26487 N m"; the slider force is sought
-    #[arg(long, value_name = "TORQUE", value_parser = torque, allow_hyphen_values = true, conflicts_with = "weight")]
+    #[arg(long, value_name = "TORQUE", value_parser = |text: &str| quantity(text, Quantity::Torque), allow_hyphen_values = true, conflicts_with = "weight")]
     torque: Option<f64>,
     /// Weight on a cord round a drum on the crank, like "9.81 N": gives the torque
-    #[arg(long, value_name = "FORCE", value_parser = force, requires = "drum_radius", allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| quantity(text, Quantity::Force), requires = "drum_radius", allow_hyphen_values = true)]
     weight: Option<f64>,
     /// Radius of the drum, like "27 mm"
     #[arg(long, value_name = "LENGTH", value_parser = length, requires = "weight", allow_hyphen_values = true)]
     drum_radius: Option<f64>,
     /// Slider force in place of the scene's forces, like "-200 N"; the crank torque is sought
-    #[arg(long, value_name = "FORCE", value_parser = force, allow_hyphen_values = true, conflicts_with_all = ["torque", "weight"])]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| quantity(text, Quantity::Force), allow_hyphen_values = true, conflicts_with_all = ["torque", "weight"])]
     force: Option<f64>,
     /// Static friction coefficient at the guide, in place of the scene's
     #[arg(
@@ -58,14 +58,6 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     reading: Vec<f64>,
-}
-
-fn torque(text: &str) -> Result<f64, String> {
-    quantity(text, Quantity::Torque)
-}
-
-fn force(text: &str) -> Result<f64, String> {
-    quantity(text, Quantity::Force)
 }
 
 fn tilt(text: &str) -> Result<f64, String> {

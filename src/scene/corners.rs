@@ -16,7 +16,7 @@ impl Load {
             (None, _) => table.rows().to_vec(),
             (_, Some(turns)) => {
                 let first = table.rows()[0];
-                let mut rows = table.rows_between(first, first + turns * TAU);
+                let mut rows = table.curve.points_between(first, first + turns * TAU);
                 rows.push(first);
                 rows
             }
@@ -27,7 +27,7 @@ impl Load {
     /// Returns the crank angles between two others, rad, at which a table over the crank angle is not smooth.
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let table = self.angle_table();
-        table.map_or_else(Vec::new, |table| table.rows_between(low, high))
+        table.map_or_else(Vec::new, |table| table.curve.points_between(low, high))
     }
 
     /// Returns the corners between two crank angles, rad, of a periodic table out of step with the turns.
@@ -49,7 +49,7 @@ impl Load {
         let far = table.period().map_or(way, |period| period.min(way));
         let reach = from + far * (to - from).signum();
         let (low, high) = (from.min(reach), from.max(reach));
-        let next = |row: &f64| Some(table.next_row(*row));
+        let next = |row: &f64| Some(table.curve.next_point(*row));
         let mut rows = successors(next(&low), next).take_while(|row| *row < high);
         if from < to { rows.next() } else { rows.last() }
     }
@@ -57,7 +57,7 @@ impl Load {
     /// Returns the next time after `t` (s) at which the load is not smooth in time; infinite if none is known.
     pub fn next_corner(&self, t: f64) -> f64 {
         match self {
-            Load::Table(table) if table.of() == Variable::T => table.next_row(t),
+            Load::Table(table) if table.of() == Variable::T => table.curve.next_point(t),
             Load::Dry(magnitude) => magnitude.next_corner(t),
             _ => f64::INFINITY,
         }

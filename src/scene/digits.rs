@@ -30,7 +30,6 @@ impl Digits {
         }
     }
 
-    /// Returns a unit of the last decimal.
     pub fn last_unit(self) -> f64 {
         10f64.powi(-self.decimals)
     }

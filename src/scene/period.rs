@@ -185,7 +185,6 @@ fn simplest(low: f64, high: f64) -> Option<[f64; 2]> {
     }
 }
 
-/// Returns the greatest common divisor.
 fn gcd(a: u64, b: u64) -> u64 {
     if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -5,7 +5,6 @@ use std::ops::Range;
 /// Division of a data file into rows and cells.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::scene) struct Dialect {
-    /// Separator of the cells of a line.
     pub delimiter: char,
     /// Byte at which the rows, header included, begin.
     pub start: usize,
@@ -91,7 +90,6 @@ impl Dialect {
         (row.matches('"').count() % 2 == 1).then(|| &row[at..=at])
     }
 
-    /// Returns the cells of a row.
     pub fn list(self, row: &str) -> Vec<&str> {
         self.cells(row).collect()
     }

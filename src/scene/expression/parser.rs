@@ -18,7 +18,6 @@ pub(super) struct Parser<'a> {
 pub(super) type Symbols<'a> = dyn Fn(&str) -> Option<Expression> + 'a;
 
 impl<'a> Parser<'a> {
-    /// Parses an expression into operations in postfix order.
     pub(super) fn parse(
         text: &'a str,
         symbols: &'a Symbols<'a>,

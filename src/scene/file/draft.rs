@@ -115,21 +115,17 @@ impl Draft {
         })?;
         for (varied, text) in values {
             self.takes(varied)?;
-            let KeyPath {
-                section,
-                index,
-                key,
-            } = varied.path;
-            let table = &mut document[section.name];
-            let table = match section.repeated {
-                true => &mut table[index],
+            let (path, key) = (varied.path, varied.path.key.name);
+            let table = &mut document[path.section.name];
+            let table = match path.section.repeated {
+                true => &mut table[path.index],
                 false => table,
             };
             let mut value = Value::from(text);
-            if let Some(old) = table.get(key.name).and_then(Item::as_value) {
+            if let Some(old) = table.get(key).and_then(Item::as_value) {
                 *value.decor_mut() = old.decor().clone();
             }
-            table[key.name] = Item::Value(value);
+            table[key] = Item::Value(value);
         }
         Ok(document.to_string())
     }

@@ -7,11 +7,8 @@ use Kind::{Choice, Formula, Kinds, Of, Text, TimeOrAngle};
 /// Kind of values that a key may have.
 #[derive(Clone, Copy, Debug)]
 pub enum Kind {
-    /// Quantity with its unit.
     Of(Quantity),
-    /// Time or crank angle.
     TimeOrAngle,
-    /// One of these words.
     Choice(&'static [&'static str]),
     /// One of these kinds of load or motion, each with its keys.
     Kinds(&'static [KindKeys]),
@@ -40,12 +37,9 @@ impl Kind {
     }
 }
 
-/// Key of a table.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Name in the file.
     pub name: &'static str,
-    /// Kind of its values.
     pub kind: Kind,
     /// Meaning, for the schema.
     pub meaning: &'static str,
@@ -66,14 +60,11 @@ impl Key {
     }
 }
 
-/// Table of the file.
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
-    /// Name in the file.
     pub name: &'static str,
     /// Whether the file may have any number of these tables, as `[[name]]`.
     pub repeated: bool,
-    /// Keys of the table.
     pub keys: &'static [Key],
     /// Names of the keys that must be present.
     pub required: &'static [&'static str],
@@ -82,7 +73,6 @@ pub struct Section {
 }
 
 impl Section {
-    /// Returns the key with this name.
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
     }
@@ -99,9 +89,7 @@ impl Section {
 /// Keys that a table of one kind takes beside `kind`; the first `required` must be present.
 #[derive(Clone, Copy, Debug)]
 pub struct KindKeys {
-    /// Name of the kind in the file.
     pub name: &'static str,
-    /// Names of the keys.
     pub keys: &'static [&'static str],
     /// Number of keys, from the first, that must be present.
     pub required: usize,
@@ -277,7 +265,6 @@ pub const SECTIONS: &[Section] = sections! {
     }
 };
 
-/// Returns the section with this name.
 pub fn section(name: &str) -> Option<&'static Section> {
     SECTIONS.iter().find(|section| section.name == name)
 }

@@ -50,11 +50,7 @@ pub(super) fn check_keys(check: &mut Check, values: &Values, kind: &str) -> Opti
         }
     }
     let required = &kind.keys[..kind.required];
-    for key in section
-        .keys
-        .iter()
-        .filter(|key| required.contains(&key.name))
-    {
+    for key in required.iter().filter_map(|name| section.key(name)) {
         check.missing(values, key.name, || {
             let what = format!("`{}` is missing for kind \"{}\"", key.name, kind.name);
             [what, format!("add {}", key.example())]
@@ -144,6 +140,7 @@ fn gas(check: &mut Check, values: &Values) -> Option<Load> {
 
 fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -> Option<Table> {
     let interpolation = values.choice("interpolation", Interpolation::named);
+    let interpolation = interpolation.unwrap_or_default();
     let period = match values.every("period") {
         Some(every) => Some(period(check, &values.field("period"), every, of)?),
         None => None,
@@ -151,15 +148,10 @@ fn table(check: &mut Check, values: &Values, of: Variable, quantity: Quantity) -
     let scene = check.places.0.as_ref().map(|source| source.file.as_path());
     let folder = scene.and_then(Path::parent).unwrap_or(Path::new(""));
     let file = folder.join(values.text("file")?);
-    Table::read(
-        &file,
-        of,
-        quantity,
-        interpolation.unwrap_or_default(),
-        period,
-    )
-    .map_err(|error| check.add(values.field(&error.field), error.what, error.help))
-    .ok()
+    let table = Table::read(&file, of, quantity, interpolation, period);
+    let table =
+        table.map_err(|error| check.add(values.field(&error.field), error.what, error.help));
+    table.ok()
 }
 
 /// Returns the period in the SI unit of the table's variable, if it fits the variable.

@@ -62,7 +62,6 @@ impl Values {
     pub fn text(&self, key: &str) -> Option<&str> {
         match self.get(key) {
             Some(Value::Text(text)) => Some(text),
-            Some(Value::Choice(word)) => Some(word),
             _ => None,
         }
     }
@@ -201,12 +200,9 @@ impl Contents {
             let values = Values::new(section, name.to_owned());
             self.tables.push(Arc::new(values));
         }
-        let mut tables = self.tables.iter_mut();
-        let found = tables
-            .by_ref()
-            .filter(|values| values.section.name == name)
-            .nth(path.index);
-        found.map(Arc::make_mut).ok_or_else(|| {
+        let tables = self.tables.iter_mut();
+        let mut tables = tables.filter(|values| values.section.name == name);
+        tables.nth(path.index).map(Arc::make_mut).ok_or_else(|| {
             let what = format!("`{path}` cannot be set: tables [[{name}]] in the scene: {count}");
             let help = format!("add a [[{name}]] with its kind to the scene");
             Problem::new(name, what, help)
@@ -276,15 +272,13 @@ impl Check<'_> {
 fn inside(source: &str, value: Range<usize>, text: &str, at: usize) -> Option<Range<usize>> {
     let end = value.end;
     let quoted = source.get(value)?;
-    let long = ["\"\"\"", "'''"]
-        .iter()
-        .find_map(|q| quoted.strip_prefix(q));
-    let body = match long {
+    let long = quoted.strip_prefix("\"\"\"");
+    let body = match long.or(quoted.strip_prefix("'''")) {
         // The newline right after the opening quotes does not belong to the text.
-        Some(body) => ["\n", "\r\n"]
-            .iter()
-            .find_map(|newline| body.strip_prefix(newline))
-            .unwrap_or(body),
+        Some(body) => {
+            let newline = body.strip_prefix('\n').or(body.strip_prefix("\r\n"));
+            newline.unwrap_or(body)
+        }
         None => quoted.strip_prefix(['"', '\''])?,
     };
     if !body.starts_with(text) {

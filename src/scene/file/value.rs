@@ -12,10 +12,10 @@ use crate::scene::unit::{self, Uncertain, UnitError};
 pub(super) enum Value {
     /// Quantity or number, SI.
     Number(Uncertain),
+    /// Text, or the word of a choice.
     Text(String),
     /// Digits without quotes where a quantity or a formula may stand; the kind of load decides which.
     Bare(String),
-    Choice(&'static str),
     Every(Every),
 }
 
@@ -43,19 +43,12 @@ pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
         DeValue::Float(number) => number.as_str().replace('_', ""),
         DeValue::Integer(number) if number.radix() == 10 => number.as_str().replace('_', ""),
         DeValue::Integer(number) => {
-            return wrong(format!(
-                "`{}` is a number to base {}",
-                key.name,
-                number.radix()
-            ));
+            let base = number.radix();
+            return wrong(format!("`{}` is a number to base {base}", key.name));
         }
         other => {
-            let noun = other.type_str();
-            let n = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) {
-                "n"
-            } else {
-                ""
-            };
+            let (noun, vowels) = (other.type_str(), ['a', 'e', 'i', 'o', 'u']);
+            let n = if noun.starts_with(vowels) { "n" } else { "" };
             return wrong(format!("`{}` is a{n} {noun}", key.name));
         }
     };
@@ -71,8 +64,8 @@ pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
 
 fn choice(key: &Key, text: &str) -> Result<Value, UnitError> {
     let words = key.kind.words();
-    if let Some(word) = words.iter().find(|word| **word == text) {
-        return Ok(Value::Choice(word));
+    if words.contains(&text) {
+        return Ok(Value::Text(text.to_owned()));
     }
     let help = match nearest(text, words.iter().copied()) {
         Some(near) => format!("did you mean \"{near}\"? It may be {}", quoted(&words)),

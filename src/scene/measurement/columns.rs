@@ -150,22 +150,16 @@ fn choose(
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
     pub measured: Measured,
-    /// Positions of time, value, and the columns beside them, from 0.
+    /// Positions of the time and the other columns, from 0.
     pub at: Vec<usize>,
     pub time: Column,
-    pub value: Column,
-    pub beside: Vec<(Beside, Column)>,
+    /// Motion, then the columns beside it.
+    pub others: Vec<(Beside, Column)>,
     /// Notes for the user.
     pub notes: Vec<String>,
 }
 
 impl Columns {
-    /// Whether the column with this index among those that are read is of a sensor beside the motion.
-    pub fn is_sensor(&self, column: usize) -> bool {
-        let beside = column.checked_sub(2).and_then(|k| self.beside.get(k));
-        beside.is_some_and(|(beside, _)| matches!(beside, Beside::Sensor(_)))
-    }
-
     /// Finds time and motion among the columns of a file.
     pub fn find(list: &[Named], reading: &Reading) -> Result<Columns, Problem> {
         let none = |what: String| {
@@ -194,55 +188,49 @@ impl Columns {
                 found.extend(choose(list, "--motion", reading.motion.as_deref(), is_it)?);
             }
         }
-        let [column, others @ ..] = &found[..] else {
+        let Some(column) = found.first() else {
             let wanted = reading.column.map(|wanted| format!("`{}`", wanted.name()));
             let wanted = wanted.unwrap_or("theta, gamma, x or omega".to_owned());
             return Err(none(format!("no column is called {wanted}")));
         };
-        let (measured, value) = motion(column, reading)?;
-        let mut at = vec![time.at, column.at];
-        let mut beside = Vec::new();
-        for other in others {
-            let (measured, unit) = motion(other, reading)?;
-            at.push(other.at);
-            beside.push((Beside::Sensor(measured), unit));
-        }
-        let is_x = |(beside, _): &(Beside, Column)| *beside == Beside::Sensor(Measured::X);
-        if reading.x_zero != 0.0 && measured != Measured::X && !beside.iter().any(is_x) {
-            let what = format!(
-                "--x-zero belongs to x, and the motion is {}",
-                measured.name()
-            );
+        let mut at = vec![time.at];
+        at.extend(found.iter().map(|sensor| sensor.at));
+        let sensors = found.iter().map(|sensor| motion(sensor, reading));
+        let sensors = sensors.collect::<Result<Vec<_>, _>>()?;
+        let measured = sensors[0].0;
+        if reading.x_zero != 0.0 && !sensors.iter().any(|sensor| sensor.0 == Measured::X) {
+            let what = format!("--x-zero belongs to x, and the motion is {measured}");
             return Err(column.wrong(what, "leave it out"));
         }
+        let sensors = sensors.into_iter();
+        let sensors = sensors.map(|(measured, unit)| (Beside::Sensor(measured), unit));
+        let mut others: Vec<_> = sensors.collect();
         for option in &reading.known {
             let Some(known) = choose(list, "--known", Some(option), |_| false)? else {
                 return Err(none("--known names no column".to_owned()));
             };
-            let unit = &known.header.unit;
-            let is_torque = unit::factor(unit, Quantity::Torque).is_ok();
+            let is_torque = unit::factor(&known.header.unit, Quantity::Torque).is_ok();
             let (kind, quantity) = match is_torque {
                 true => (Beside::Torque, Quantity::Torque),
                 false => (Beside::Force, Quantity::Force),
             };
             at.push(known.at);
-            beside.push((kind, known.column(quantity, "--known")?));
+            others.push((kind, known.column(quantity, "--known")?));
         }
         if at.len() > MOST_COLUMNS {
             let what = format!("{} columns are to be read", at.len());
             return Err(none(format!("{what}, and {MOST_COLUMNS} are the most")));
         }
         let mut notes = Vec::new();
-        if !others.is_empty() {
-            let others = others.iter().map(|other| other.header.name.as_str());
-            let others: Vec<&str> = others.collect();
+        let name = &column.header.name;
+        if found.len() > 1 {
+            let names = found[1..].iter().map(|other| other.header.name.as_str());
+            let names = names.collect::<Vec<_>>().join(" and ");
             notes.push(format!(
-                "the motion is taken from the column {}, and {} beside it by a noise of its own (--column takes one alone)",
-                column.header.name,
-                others.join(" and ")
+                "the motion is taken from the column {name}, and {names} beside it by a noise of its own (--column takes one alone)"
             ));
         }
-        if column.header.name != measured.name() {
+        if name != measured.name() {
             let meaning = measured.meaning();
             notes.push(format!("the column `{}` is taken as {meaning}", column.raw));
         }
@@ -250,8 +238,7 @@ impl Columns {
             measured,
             at,
             time: time.column(Quantity::Time, "--time")?,
-            value,
-            beside,
+            others,
             notes,
         })
     }

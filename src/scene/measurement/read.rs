@@ -61,33 +61,33 @@ pub(super) fn measurement(
     if let Some(list) = samples.wrong.refused(&text) {
         return Err(Problems::in_file(file, &text, list));
     }
-    let step = match columns.value.is_counts() {
+    let (_, value) = columns.others[0].clone();
+    let step = match value.is_counts() {
         true => 1.0,
         false => samples.digits.step(&samples.columns[1]),
     };
-    let zero = |beside: Beside| match beside {
-        Beside::Sensor(Measured::X) => reading.x_zero,
-        _ => 0.0,
-    };
     let mut lists = samples.columns.into_iter();
-    let mut next = |factor: f64, zero: f64| {
+    let mut next = |column: &Column, zero: f64| {
         let mut values = lists.next().unwrap_or_default();
-        values.iter_mut().for_each(|v| *v = *v * factor - zero);
+        values
+            .iter_mut()
+            .for_each(|v| *v = *v * column.factor - zero);
         values
     };
-    let times = next(columns.time.factor, 0.0);
-    let motion = Beside::Sensor(columns.measured);
-    let values = next(columns.value.factor, zero(motion));
-    let of_beside = |(beside, column): &(Beside, Column)| BesideColumn {
-        beside: *beside,
-        values: next(column.factor, zero(*beside)),
-    };
+    let times = next(&columns.time, 0.0);
+    let others = columns.others.into_iter().map(|(beside, column)| {
+        let is_x = beside == Beside::Sensor(Measured::X);
+        let values = next(&column, if is_x { reading.x_zero } else { 0.0 });
+        BesideColumn { beside, values }
+    });
+    let mut beside: Vec<BesideColumn> = others.collect();
+    let values = beside.remove(0).values;
     Ok(Measurement {
-        resolution: columns.value.factor * step,
-        beside: columns.beside.iter().map(of_beside).collect(),
+        resolution: value.factor * step,
+        beside,
         notes,
         time: columns.time,
-        value: columns.value,
+        value,
         source: Some(SampleFile {
             file: file.to_owned(),
             dialect,
@@ -119,7 +119,6 @@ impl Samples {
     }
 }
 
-/// Rows of numbers of a file.
 struct SampleRows<'a> {
     text: &'a str,
     dialect: Dialect,
@@ -201,7 +200,8 @@ impl SampleRows<'_> {
         let decimal_comma = self.reading.decimal_comma;
         for (k, cell) in found.iter().enumerate() {
             let parsed = match is_missing(cell) {
-                true if self.columns.is_sensor(k) => continue,
+                // Time and motion are there.
+                true if matches!(self.columns.others[k - 1].0, Beside::Sensor(_)) => continue,
                 true => Err(NotANumber {
                     what: "the value is missing".to_owned(),
                     help: "give a known torque or force in every row",

@@ -69,7 +69,6 @@ impl Measurement {
         Ok(())
     }
 
-    /// Checks the columns beside the motion.
     pub(super) fn check_beside(&self) -> Result<(), Problems> {
         for column in &self.beside {
             if let Beside::Sensor(other) = column.beside

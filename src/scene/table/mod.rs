@@ -18,7 +18,7 @@ use rows::TableRows;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     of: Variable,
-    curve: TableInterpolant,
+    pub(super) curve: TableInterpolant,
     /// File the table was read from; none for a table from code.
     file: Option<PathBuf>,
 }
@@ -100,16 +100,6 @@ impl Table {
     /// Returns the arguments of the rows.
     pub fn rows(&self) -> &[f64] {
         self.curve.points()
-    }
-
-    /// Returns the argument of the first row after `at`, in any period; infinite if there is none.
-    pub fn next_row(&self, at: f64) -> f64 {
-        self.curve.next_point(at)
-    }
-
-    /// Returns the arguments of the rows strictly between two arguments, in all periods.
-    pub fn rows_between(&self, low: f64, high: f64) -> Vec<f64> {
-        self.curve.points_between(low, high)
     }
 
     /// Returns the value farthest from zero, with its sign, SI.

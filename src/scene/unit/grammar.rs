@@ -107,35 +107,25 @@ fn symbols_of(name: &str) -> Option<[Factor; 2]> {
 fn exponent(rest: &mut &str) -> Result<i32, String> {
     let caret = rest.strip_prefix('^').or_else(|| rest.strip_prefix("**"));
     let text = caret.unwrap_or(rest);
-    let hyphen = |rest: &str| {
-        let after = rest.strip_prefix('-');
-        after.is_some_and(|after| !after.starts_with(|c: char| c.is_ascii_digit()))
+    let after_hyphen = text.strip_prefix('-');
+    let is_hyphen =
+        after_hyphen.is_some_and(|after| !after.starts_with(|c: char| c.is_ascii_digit()));
+    let plain = |(at, c)| match c {
+        '0'..='9' => Some(c),
+        '-' | '⁻' | MINUS if at == 0 => Some('-'),
+        '¹' => Some('1'),
+        '²' => Some('2'),
+        '³' => Some('3'),
+        '⁴' => Some('4'),
+        _ => None,
     };
-    if caret.is_none() && hyphen(text) {
+    let digits: String = text.char_indices().map_while(plain).collect();
+    if caret.is_none() && (digits.is_empty() || is_hyphen) {
         return Ok(1);
     }
-    let mut digits = String::new();
-    let mut length = 0;
-    for c in text.chars() {
-        let plain = match c {
-            '0'..='9' => c,
-            '-' | '⁻' | MINUS if digits.is_empty() => '-',
-            '¹' => '1',
-            '²' => '2',
-            '³' => '3',
-            '⁴' => '4',
-            _ => break,
-        };
-        digits.push(plain);
-        length += c.len_utf8();
-    }
-    if digits.is_empty() && caret.is_none() {
-        return Ok(1);
-    }
-    *rest = &text[length..];
-    digits
-        .parse::<i32>()
-        .ok()
-        .filter(|power| (-6..=6).contains(power))
-        .ok_or_else(|| format!("`^{digits}` is not a usable exponent of a unit"))
+    let end = text.char_indices().nth(digits.len());
+    *rest = &text[end.map_or(text.len(), |(at, _)| at)..];
+    let power = digits.parse().ok();
+    let power = power.filter(|power| (-6..=6).contains(power));
+    power.ok_or_else(|| format!("`^{digits}` is not a usable exponent of a unit"))
 }

@@ -69,7 +69,6 @@ impl Factor {
     }
 }
 
-/// Unit symbol and its factor.
 struct Unit {
     symbol: &'static str,
     factor: Factor,

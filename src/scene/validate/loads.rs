@@ -9,11 +9,9 @@ pub(super) fn load(check: &mut Check, field: &str, on_slider: bool, load: &Load)
     let wrong_place = matches!(load, Load::Motor { .. }) && on_slider
         || matches!(load, Load::Spring { .. } | Load::Gas { .. }) && !on_slider;
     if wrong_place {
-        check.add(
-            field,
-            format!("a load of kind \"{}\" cannot act here", load.kind()),
-            "motor lines turn the crank; springs and gas push the slider",
-        );
+        let what = format!("a load of kind \"{}\" cannot act here", load.kind());
+        let help = "motor lines turn the crank; springs and gas push the slider";
+        check.add(field, what, help);
     }
     match load {
         Load::Constant(value) => {
@@ -56,14 +54,13 @@ pub(super) fn load(check: &mut Check, field: &str, on_slider: bool, load: &Load)
         Load::Table(table) => {
             check.finite(key("file"), table.farthest_from_zero());
         }
-        Load::Dry(magnitude) => dry(check, field, on_slider, magnitude),
+        Load::Dry(magnitude) => dry(check, key, on_slider, magnitude),
         Load::Expression(_) | Load::Function { .. } => {}
     }
 }
 
 /// Rejects a magnitude that is negative, or neither a constant nor a table.
-fn dry(check: &mut Check, field: &str, on_slider: bool, magnitude: &Load) {
-    let key = |name: &str| format!("{field}.{name}");
+fn dry(check: &mut Check, key: impl Fn(&str) -> String, on_slider: bool, magnitude: &Load) {
     match magnitude {
         Load::Constant(value) => {
             check.not_negative(key("value"), *value, if on_slider { "N" } else { "N m" });
@@ -77,13 +74,10 @@ fn dry(check: &mut Check, field: &str, on_slider: bool, magnitude: &Load) {
                 );
             }
         }
-        other => check.add(
-            key("kind"),
-            format!(
-                "a load of kind \"{}\" is no magnitude of a dry one",
-                other.kind()
-            ),
-            "give a constant magnitude, or a table",
-        ),
+        other => {
+            let kind = other.kind();
+            let what = format!("a load of kind \"{kind}\" is no magnitude of a dry one");
+            check.add(key("kind"), what, "give a constant magnitude, or a table");
+        }
     }
 }
