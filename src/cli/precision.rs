@@ -52,16 +52,15 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 impl Arguments {
     fn options(&self) -> PrecisionOptions {
-        let mut options = PrecisionOptions {
+        PrecisionOptions {
+            tolerances: match self.tolerances.is_empty() {
+                true => PrecisionOptions::default().tolerances,
+                false => self.tolerances.clone(),
+            },
             repeats: self.repeats,
             most_s: self.most_time,
             max_evaluations: self.max_evaluations,
-            ..PrecisionOptions::default()
-        };
-        if !self.tolerances.is_empty() {
-            options.tolerances.clone_from(&self.tolerances);
         }
-        options
     }
 
     /// Returns the files that are written.
@@ -94,7 +93,10 @@ fn seconds(text: &str) -> Result<f64, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let text_on_stdout = arguments.text_on_stdout()?;
     let files = scene_files(&arguments.scenes)?;
-    let scenes = scenes(&files)?;
+    let scenes: Vec<Scene> = match &files[..] {
+        [] => vec![scene(None)?],
+        files => files.iter().map(titled).collect::<Result<_, _>>()?,
+    };
     let tables = scenes.iter().flat_map(Scene::table_files);
     let read: Vec<&Path> = files.iter().map(PathBuf::as_path).chain(tables).collect();
     let written: Vec<PathBuf> = arguments.files().cloned().collect();
@@ -150,14 +152,6 @@ fn compare(
         results.push(result);
     }
     Ok(results)
-}
-
-/// Loads the scenes of files; without files, the built-in one.
-fn scenes(files: &[PathBuf]) -> Result<Vec<Scene>, Error> {
-    match files {
-        [] => Ok(vec![scene(None)?]),
-        files => files.iter().map(titled).collect(),
-    }
 }
 
 /// Returns all named scene files; for a folder its files `*.toml`, sorted.

@@ -7,7 +7,15 @@ impl Load {
     /// Returns the loads that the load is the sum of: a formula with the sign of the speed of its body is a dry load,
     /// which holds at rest as well, beside the rest of the formula.
     pub(crate) fn parts(&self, on_slider: bool) -> Vec<Load> {
-        let Some(OpposingPart { rest, magnitude }) = self.opposing(on_slider) else {
+        let speed = match on_slider {
+            true => Variable::V,
+            false => Variable::Omega,
+        };
+        let opposing = match self {
+            Load::Expression(expression) => expression.opposing(speed),
+            _ => None,
+        };
+        let Some(OpposingPart { rest, magnitude }) = opposing else {
             return vec![self.clone()];
         };
         let magnitude = Load::Expression(magnitude);
@@ -17,16 +25,5 @@ impl Load {
         };
         let rest = rest.map(Load::Expression);
         rest.into_iter().chain([dry]).collect()
-    }
-
-    fn opposing(&self, on_slider: bool) -> Option<OpposingPart> {
-        let speed = match on_slider {
-            true => Variable::V,
-            false => Variable::Omega,
-        };
-        match self {
-            Load::Expression(expression) => expression.opposing(speed),
-            _ => None,
-        }
     }
 }

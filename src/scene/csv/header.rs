@@ -63,18 +63,14 @@ pub(in crate::scene) fn bare(unit: &str) -> &str {
 impl Header {
     /// Returns the column of the header, whose unit must be one of `quantity`.
     pub(in crate::scene) fn into_column(self, quantity: Quantity) -> Result<Column, String> {
-        if self.unit.is_empty() {
+        let Header { name, unit } = self;
+        if unit.is_empty() {
+            let usual = quantity.usual_unit();
             return Err(format!(
-                "the column `{}` has no unit: write it like `{} [{}]`",
-                self.name,
-                self.name,
-                quantity.usual_unit()
+                "the column `{name}` has no unit: write it like `{name} [{usual}]`"
             ));
         }
-        let factor = unit::factor(&self.unit, quantity).map_err(|e| e.to_string())?;
-        Ok(Column {
-            factor,
-            unit: self.unit,
-        })
+        let factor = unit::factor(&unit, quantity).map_err(|e| e.to_string())?;
+        Ok(Column { factor, unit })
     }
 }

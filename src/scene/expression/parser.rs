@@ -181,11 +181,9 @@ impl<'a> Parser<'a> {
     }
 
     fn name(&mut self) -> Result<(), ExpressionError> {
-        let rest = self.rest();
-        let end = rest.find(|c: char| !is_in_name(c)).unwrap_or(rest.len());
-        let name = &rest[..end];
-        let start = self.at;
-        self.at += end;
+        let (rest, start) = (self.rest(), self.at);
+        let name = &rest[..rest.find(|c| !is_in_name(c)).unwrap_or(rest.len())];
+        self.at += name.len();
         if name == "pi" {
             self.ops.push(Op::Number(std::f64::consts::PI));
             return Ok(());
@@ -218,11 +216,9 @@ impl<'a> Parser<'a> {
         self.at = start;
         let mut error = self.error(&format!("`{name}` is not known"));
         let known = FUNCTIONS_1.iter().map(|f| f.0);
-        let known: Vec<_> = known.chain(FUNCTIONS_2.iter().map(|f| f.0)).collect();
-        error.help = format!(
-            "use t, theta, omega, x, v, pi and the functions {}",
-            known.join(", ")
-        );
+        let known = known.chain(FUNCTIONS_2.iter().map(|f| f.0));
+        let known = known.collect::<Vec<_>>().join(", ");
+        error.help = format!("use t, theta, omega, x, v, pi and the functions {known}");
         Err(error)
     }
 }

@@ -9,8 +9,8 @@ const BOX: [&str; 4] = ["density", "length", "width", "depth"];
 
 /// Mass of a body, and the inertia of its box.
 struct Solid {
-    /// Mass, kg.
-    mass: Option<f64>,
+    /// Mass, kg; 0 if none is given.
+    mass: f64,
     /// Moment of inertia of the box about its centre, kg m².
     box_inertia: Option<f64>,
     /// Whether a key of the box is given, readable or not.
@@ -20,7 +20,7 @@ struct Solid {
 fn solid(check: &mut Check, values: &Values) -> Solid {
     let stated = values.number("mass");
     let mut solid = Solid {
-        mass: stated,
+        mass: stated.unwrap_or(0.0),
         box_inertia: None,
         boxed: BOX.iter().any(|key| check.is_present(values, key)),
     };
@@ -41,9 +41,8 @@ fn solid(check: &mut Check, values: &Values) -> Solid {
     if let [Some(density), Some(length), Some(width), Some(depth)] = sizes {
         let from_box = density * length * width * depth;
         agree(check, values, "mass", from_box, "kg");
-        let mass = stated.unwrap_or(from_box);
-        solid.mass = Some(mass);
-        solid.box_inertia = Some(mass * (length * length + width * width) / 12.0);
+        solid.mass = stated.unwrap_or(from_box);
+        solid.box_inertia = Some(solid.mass * (length * length + width * width) / 12.0);
     }
     solid
 }
@@ -65,7 +64,7 @@ impl Solid {
     /// Requires a mass if one of these keys is not zero; always, without keys.
     fn needs_mass(&self, check: &mut Check, values: &Values, keys: &[&str], why: &str) {
         let is_given = |key: &&str| values.number(key).is_some_and(|value| value != 0.0);
-        if self.mass.is_none() && !self.boxed && (keys.is_empty() || keys.iter().any(is_given)) {
+        if !self.boxed && (keys.is_empty() || keys.iter().any(is_given)) {
             check.missing(values, "mass", || {
                 let help = "add mass = \"0.5 kg\", or density, length, width and depth";
                 [format!("`mass` is missing{why}"), help.to_owned()]
@@ -75,10 +74,10 @@ impl Solid {
 
     /// Requires a key of a body that has a mass and no box.
     fn needs(&self, check: &mut Check, values: &Values, body: &str, key: &str, help: &str) {
-        let mass = self.mass.unwrap_or(0.0);
-        if mass != 0.0 && !self.boxed {
+        if self.mass != 0.0 && !self.boxed {
             check.missing(values, key, || {
-                let what = format!("the {body} has a mass of {} kg but no `{key}`", show(mass));
+                let mass = show(self.mass);
+                let what = format!("the {body} has a mass of {mass} kg but no `{key}`");
                 [what, help.to_owned()]
             });
         }
@@ -87,7 +86,7 @@ impl Solid {
     /// Returns the stated inertia, or that of the box about a point at the squared distance `squared` (m²) from it.
     fn inertia(&self, check: &mut Check, values: &Values, squared: f64) -> f64 {
         let central = self.box_inertia;
-        let from_box = central.map(|central| central + self.mass.unwrap_or(0.0) * squared);
+        let from_box = central.map(|central| central + self.mass * squared);
         if let Some(from_box) = from_box {
             agree(check, values, "inertia", from_box, "kg m2");
         }
@@ -98,9 +97,7 @@ impl Solid {
 pub(super) fn slider(check: &mut Check, values: &Values) -> Slider {
     let body = solid(check, values);
     body.needs_mass(check, values, &[], "");
-    Slider {
-        mass: body.mass.unwrap_or(0.0),
-    }
+    Slider { mass: body.mass }
 }
 
 pub(super) fn crank(check: &mut Check, values: &Values) -> Crank {
@@ -113,7 +110,7 @@ pub(super) fn crank(check: &mut Check, values: &Values) -> Crank {
     let help = "add inertia = \"... kg mm^2\" about O, or density, length, width and depth";
     body.needs(check, values, "body", "inertia", help);
     Crank {
-        mass: body.mass.unwrap_or(0.0),
+        mass: body.mass,
         cg,
         cg_lateral,
         inertia,
@@ -145,7 +142,7 @@ pub(super) fn rod(check: &mut Check, values: &Values, length: f64) -> Rod {
     }
     Rod {
         model,
-        mass: body.mass.unwrap_or(0.0),
+        mass: body.mass,
         cg,
         cg_lateral,
         inertia,

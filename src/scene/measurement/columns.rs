@@ -196,15 +196,14 @@ impl Columns {
         let mut at = vec![time.at];
         at.extend(found.iter().map(|sensor| sensor.at));
         let sensors = found.iter().map(|sensor| motion(sensor, reading));
-        let sensors = sensors.collect::<Result<Vec<_>, _>>()?;
+        let sensors: Vec<(Measured, Column)> = sensors.collect::<Result<_, _>>()?;
         let measured = sensors[0].0;
         if reading.x_zero != 0.0 && !sensors.iter().any(|sensor| sensor.0 == Measured::X) {
             let what = format!("--x-zero belongs to x, and the motion is {measured}");
             return Err(column.wrong(what, "leave it out"));
         }
-        let sensors = sensors.into_iter();
-        let sensors = sensors.map(|(measured, unit)| (Beside::Sensor(measured), unit));
-        let mut others: Vec<_> = sensors.collect();
+        let beside = |(measured, unit)| (Beside::Sensor(measured), unit);
+        let mut others: Vec<(Beside, Column)> = sensors.into_iter().map(beside).collect();
         for option in &reading.known {
             let Some(known) = choose(list, "--known", Some(option), |_| false)? else {
                 return Err(none("--known names no column".to_owned()));

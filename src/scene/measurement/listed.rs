@@ -40,10 +40,9 @@ impl Listed {
 
     pub fn join(&mut self, other: Listed) {
         self.count += other.count;
-        other
-            .list
-            .into_iter()
-            .for_each(|problem| self.list(problem));
+        for problem in other.list {
+            self.list(problem);
+        }
     }
 
     /// Returns the listed problems, then the number of the others at the end of the text; none if there is no problem.

@@ -135,14 +135,18 @@ impl SampleRows<'_> {
         let mut all = Samples::with_room_for(rest.len() / 16, self.columns.at.len());
         let pieces = std::iter::from_fn(|| {
             let from = rest.len().min(piece_bytes);
-            let end = rest.as_bytes()[from..]
-                .iter()
-                .position(|byte| *byte == b'\n');
+            let end = rest.bytes().skip(from).position(|byte| byte == b'\n');
             let (piece, after) = rest.split_at(end.map_or(rest.len(), |at| from + at + 1));
             rest = after;
             (!piece.is_empty()).then_some(piece)
         });
-        for found in parallel::map(pieces, |piece| self.samples_of(piece)) {
+        let samples_of = |piece: &str| {
+            let mut samples = Samples::with_room_for(0, self.columns.at.len());
+            let rows = self.dialect.rows_of(piece);
+            rows.for_each(|row| self.read(row, &mut samples));
+            samples
+        };
+        for found in parallel::map(pieces, samples_of) {
             for (all, more) in all.columns.iter_mut().zip(found.columns) {
                 all.extend(more);
             }
@@ -151,14 +155,6 @@ impl SampleRows<'_> {
             all.wrong.join(found.wrong);
         }
         all
-    }
-
-    fn samples_of(&self, piece: &str) -> Samples {
-        let mut samples = Samples::with_room_for(0, self.columns.at.len());
-        for row in self.dialect.rows_of(piece) {
-            self.read(row, &mut samples);
-        }
-        samples
     }
 
     fn read(&self, row: &str, samples: &mut Samples) {

@@ -40,9 +40,9 @@ pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
         if let Some(after) = rest.strip_prefix('/') {
             (rest, power, product.divided) = (after.trim_start(), -1, true);
         } else if !first && product.divided {
+            let text = product.text;
             return Err(format!(
-                "`{}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`",
-                product.text
+                "`{text}` can be read in two ways: put what is divided by in brackets, as in `kg/(m s)`"
             ));
         } else if !first && let Some(after) = rest.strip_prefix(['*', '·', '⋅', '×', '.', '-'])
         {
@@ -55,13 +55,11 @@ pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
             product.total = product.total.times(factor_of(&mut rest)?, power);
         }
     }
-    match rest {
-        "" => Ok(product.total),
-        _ => Err(format!(
-            "`{rest}` in the unit `{}` is not understood",
-            text.trim()
-        )),
+    if rest.is_empty() {
+        return Ok(product.total);
     }
+    let text = text.trim();
+    Err(format!("`{rest}` in the unit `{text}` is not understood"))
 }
 
 /// Returns the unit without the 1 of `1/min`.
@@ -71,10 +69,8 @@ fn without_one(text: &str) -> &str {
 }
 
 fn factor_of(rest: &mut &str) -> Result<Factor, String> {
-    let end = rest
-        .find(|c: char| !(c.is_alphabetic() || c == '°'))
-        .unwrap_or(rest.len());
-    let name = &rest[..end];
+    let end = rest.find(|c: char| !(c.is_alphabetic() || c == '°'));
+    let (name, after) = rest.split_at(end.unwrap_or(rest.len()));
     let [before, last] = symbols_of(name).ok_or_else(|| {
         let shown = if name.is_empty() { *rest } else { name };
         let small = name.to_lowercase();
@@ -83,7 +79,7 @@ fn factor_of(rest: &mut &str) -> Result<Factor, String> {
             None => format!("`{shown}` is not a known unit"),
         }
     })?;
-    *rest = &rest[end..];
+    *rest = after;
     let power = exponent(rest)?;
     Ok(before.times(last, power))
 }
