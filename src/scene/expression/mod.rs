@@ -69,9 +69,6 @@ impl Expression {
     }
 
     /// Parses an expression in which names stand for other expressions, given by `symbols`.
-    ///
-    /// # Errors
-    /// The errors of [`Self::parse`].
     pub(crate) fn parse_with(
         text: &str,
         symbols: &dyn Fn(&str) -> Option<Expression>,

@@ -108,6 +108,7 @@ fn friction(values: &Values) -> Option<Friction> {
 fn clearance(values: &Values) -> Option<Clearance> {
     let joint = values.choice("joint", Joint::named)?;
     let default = Clearance::new(joint, values.number("radial")?);
+    let law = values.choice("contact_law", ContactLaw::named);
     let number = |key: &str, default: f64| values.number(key).unwrap_or(default);
     Some(Clearance {
         bearing_radius: values.number("bearing_radius"),
@@ -115,9 +116,7 @@ fn clearance(values: &Values) -> Option<Clearance> {
         poisson_ratio: values.number("poisson_ratio"),
         restitution: values.number("restitution"),
         friction: values.number("friction"),
-        law: values
-            .choice("contact_law", ContactLaw::named)
-            .unwrap_or_default(),
+        law: law.unwrap_or_default(),
         friction_threshold: number("friction_threshold", default.friction_threshold),
         least_approach_speed: number("least_approach_speed", default.least_approach_speed),
         eccentricity: values.number("eccentricity"),
@@ -140,17 +139,13 @@ fn run(check: &mut Check, values: &Values) -> Run {
     let duration = values.number("duration").map(Extent::Duration);
     let revolutions = values.number("revolutions").map(Extent::Revolutions);
     if duration.is_some() && revolutions.is_some() {
-        check.add(
-            values.field("revolutions"),
-            "the run has both `duration` and `revolutions`",
-            "keep one of them",
-        );
+        let what = "the run has both `duration` and `revolutions`";
+        check.add(values.field("revolutions"), what, "keep one of them");
     }
+    let tolerance = values.number("tolerance");
     Run {
         extent: duration.or(revolutions),
         output_every: values.every("output_every"),
-        tolerance: values
-            .number("tolerance")
-            .unwrap_or(Run::default().tolerance),
+        tolerance: tolerance.unwrap_or(Run::default().tolerance),
     }
 }

@@ -189,10 +189,7 @@ impl Contents {
         tables.filter(move |values| values.section.name == section.name)
     }
 
-    /// Returns the table of a key; adds it to a section that has one table only.
-    ///
-    /// # Errors
-    /// [`Problem`] if the scene has fewer tables of this name.
+    /// Returns the table of a key; adds it to a section that has one table only, and refuses one of a list that is absent.
     pub fn table(&mut self, path: &KeyPath) -> Result<&mut Values, Problem> {
         let (section, name) = (path.section, path.section.name);
         let count = self.of_section(section).count();

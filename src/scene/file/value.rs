@@ -5,7 +5,7 @@ use toml::de::DeValue;
 use super::key_path::nearest;
 use super::keys::{Key, Kind};
 use crate::scene::Every;
-use crate::scene::unit::{self, Uncertain, UnitError};
+use crate::scene::unit::{self, Quantity, Uncertain, UnitError};
 
 /// Value as read from a scene file.
 #[derive(Clone, Debug)]
@@ -57,9 +57,23 @@ pub(super) fn read(key: &Key, value: &DeValue<'_>) -> Result<Value, UnitError> {
         Kind::Text => wrong(format!("`{text}` is a number")),
         Kind::Formula(_) => Ok(Value::Bare(text)),
         Kind::Of(quantity) => unit::uncertain(&text, quantity).map(Value::Number),
-        Kind::TimeOrAngle => unit::time_or_angle(&text).map(Value::Every),
+        Kind::TimeOrAngle => time_or_angle(&text).map(Value::Every),
         Kind::Choice(_) | Kind::Kinds(_) => choice(key, &text),
     }
+}
+
+/// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
+fn time_or_angle(text: &str) -> Result<Every, UnitError> {
+    let every = unit::number_with_unit(text).and_then(|number| {
+        let time = number.of(Quantity::Time).map(Every::Time);
+        let angle = || number.of(Quantity::Angle).map(Every::Angle);
+        time.or_else(angle).ok_or_else(|| match number.unit {
+            "" => format!("`{text}` has no unit"),
+            _ => format!("`{text}` is neither a time nor an angle"),
+        })
+    });
+    let help = "write for example \"1 ms\" or \"1 deg\"".to_owned();
+    every.map_err(|what| UnitError { what, help })
 }
 
 fn choice(key: &Key, text: &str) -> Result<Value, UnitError> {

@@ -19,15 +19,15 @@ enum NamedBy {
 
 /// Heading of a data file.
 pub(super) struct Heading<'a> {
-    text: &'a str,
+    pub text: &'a str,
+    /// Division of the text into cells, and the beginning of the rows of numbers.
+    pub dialect: Dialect,
     pub names: Vec<&'a str>,
     /// Units in a row below the names; empty without that row.
     units: Vec<&'a str>,
     by: NamedBy,
     /// Row of the names, or the first row.
     row: &'a str,
-    /// Byte at which the rows of numbers begin.
-    pub start: usize,
 }
 
 impl<'a> Heading<'a> {
@@ -45,17 +45,18 @@ impl<'a> Heading<'a> {
         let is_number =
             |cell: &&str| cell::parse(cell, false).is_ok() || cell::parse(cell, true).is_ok();
         let number = cells.iter().copied().find(is_number);
-        let heading = Heading {
+        let start = span(text, row).start;
+        let mut heading = Heading {
             text,
+            dialect: Dialect { start, ..dialect },
             names: cells,
             units: Vec::new(),
             by: NamedBy::Header,
             row,
-            start: span(text, row).start,
         };
         match (&reading.columns, number) {
-            (None, None) => Ok(heading.in_rows(dialect)),
-            (None, Some(number)) => heading.above_numbers(number, dialect, reading),
+            (None, None) => Ok(heading.in_rows()),
+            (None, Some(number)) => heading.above_numbers(number, reading),
             (Some(_), None) => {
                 let help = "leave --columns out: it is for files without header";
                 Err(Problem::new("", "the file has a header", help))
@@ -63,18 +64,15 @@ impl<'a> Heading<'a> {
             (Some(given), Some(_)) => {
                 let separator = [';', '\t'].into_iter().find(|c| given.contains(*c));
                 let names = given.split(separator.unwrap_or(',')).map(str::trim);
-                Ok(Heading {
-                    names: names.collect(),
-                    by: NamedBy::Option,
-                    ..heading
-                })
+                (heading.names, heading.by) = (names.collect(), NamedBy::Option);
+                Ok(heading)
             }
         }
     }
 
     /// Reads a row of names, and a row of units below it where the names have none.
-    fn in_rows(mut self, dialect: Dialect) -> Heading<'a> {
-        let text = self.text;
+    fn in_rows(mut self) -> Heading<'a> {
+        let (text, dialect) = (self.text, self.dialect);
         let mut rows = dialect.rows(text).skip(1).peekable();
         while self.names.len() > 1 && self.names.last().is_some_and(|name| name.is_empty()) {
             self.names.pop();
@@ -87,19 +85,15 @@ impl<'a> Heading<'a> {
         let are_bare = self.names.iter().all(is_bare);
         let units = rows.next_if(|row| are_bare && dialect.list(row).iter().all(is_unit));
         self.units = units.map_or_else(Vec::new, |row| dialect.list(row));
-        self.start = rows.peek().map_or(text.len(), |row| span(text, row).start);
+        let start = rows.peek().map(|row| span(text, row).start);
+        self.dialect.start = start.unwrap_or(text.len());
         self
     }
 
     /// Reads a header in a comment above the numbers (numpy, MATLAB), or goes without where options name the columns.
-    fn above_numbers(
-        mut self,
-        number: &str,
-        dialect: Dialect,
-        reading: &Reading,
-    ) -> Result<Heading<'a>, Problem> {
-        let count = self.names.len();
-        let mut above = self.text[..self.start].lines().rev();
+    fn above_numbers(mut self, number: &str, reading: &Reading) -> Result<Heading<'a>, Problem> {
+        let (count, dialect) = (self.names.len(), self.dialect);
+        let mut above = self.text[..dialect.start].lines().rev();
         let comment = above.find(|line| !line.trim().is_empty());
         let comment = comment.filter(|line| dialect.is_comment(line));
         self.names = comment.map_or_else(Vec::new, |line| {
@@ -109,11 +103,8 @@ impl<'a> Heading<'a> {
             return Ok(self);
         }
         if reading.time.is_some() && reading.motion.is_some() {
-            return Ok(Heading {
-                names: vec![""; count],
-                by: NamedBy::Number,
-                ..self
-            });
+            (self.names, self.by) = (vec![""; count], NamedBy::Number);
+            return Ok(self);
         }
         let what = format!("there is no header: `{number}` is a number");
         let help = "put a header above the numbers, as `t [s],theta [deg]`, or say what the columns are: --columns \"t [s],theta [deg]\", or --time \"1[s]\" --motion \"2[deg]\"";

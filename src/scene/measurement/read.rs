@@ -38,15 +38,10 @@ pub(super) fn measurement(
     }
     let heading = Heading::of(&text, dialect, reading).map_err(failed)?;
     let columns = heading.columns(reading).map_err(failed)?;
-    let dialect = Dialect {
-        start: heading.start,
-        ..dialect
-    };
+    let dialect = heading.dialect;
     let rows = SampleRows {
-        text: &text,
-        dialect,
-        columns: &columns,
         heading: &heading,
+        columns: &columns,
         reading,
     };
     let samples = rows.samples();
@@ -120,10 +115,8 @@ impl Samples {
 }
 
 struct SampleRows<'a> {
-    text: &'a str,
-    dialect: Dialect,
-    columns: &'a Columns,
     heading: &'a Heading<'a>,
+    columns: &'a Columns,
     reading: &'a Reading,
 }
 
@@ -131,7 +124,8 @@ impl SampleRows<'_> {
     /// Reads the samples of all rows, in pieces of whole lines in parallel.
     fn samples(&self) -> Samples {
         let piece_bytes = 1 << 18;
-        let mut rest = &self.text[self.dialect.start..];
+        let Heading { text, dialect, .. } = self.heading;
+        let mut rest = &text[dialect.start..];
         let mut all = Samples::with_room_for(rest.len() / 16, self.columns.at.len());
         let pieces = std::iter::from_fn(|| {
             let from = rest.len().min(piece_bytes);
@@ -142,7 +136,7 @@ impl SampleRows<'_> {
         });
         let samples_of = |piece: &str| {
             let mut samples = Samples::with_room_for(0, self.columns.at.len());
-            let rows = self.dialect.rows_of(piece);
+            let rows = dialect.rows_of(piece);
             rows.for_each(|row| self.read(row, &mut samples));
             samples
         };
@@ -160,8 +154,9 @@ impl SampleRows<'_> {
     fn read(&self, row: &str, samples: &mut Samples) {
         let (mut found, mut count, mut excess) = ([""; MOST_COLUMNS], 0, false);
         let (wanted, expected) = (&self.columns.at, self.heading.names.len());
+        let Heading { text, dialect, .. } = self.heading;
         let found = &mut found[..wanted.len()];
-        for (at, cell) in self.dialect.cells(row).enumerate() {
+        for (at, cell) in dialect.cells(row).enumerate() {
             for (mine, wanted) in found.iter_mut().zip(wanted) {
                 if at == *wanted {
                     *mine = cell;
@@ -171,7 +166,7 @@ impl SampleRows<'_> {
             excess |= count > expected && !cell.is_empty();
         }
         let mut wrong = |field: &str, part: &str, what: String, help: &str| {
-            let problem = Problem::new(field, what, help).at(span(self.text, part));
+            let problem = Problem::new(field, what, help).at(span(text, part));
             samples.wrong.push(problem);
         };
         if let Some(quote) = Dialect::open_quote(row) {
@@ -180,7 +175,7 @@ impl SampleRows<'_> {
         if count < expected || excess {
             let values = counted(count, "value");
             let what = format!("{values} where {}", self.heading.counted());
-            let help = if excess && self.dialect.delimiter == ',' {
+            let help = if excess && dialect.delimiter == ',' {
                 "give one value for each column; where numbers have decimal commas, separate the columns by semicolon or tab"
             } else {
                 "give one value for each column; leave no quote open"
@@ -189,7 +184,7 @@ impl SampleRows<'_> {
         }
         let is_missing = |cell: &&str| self.reading.is_missing(cell);
         if found[..2].iter().any(is_missing) {
-            return samples.left_out.push(span(self.text, row).start);
+            return samples.left_out.push(span(text, row).start);
         }
         let mut numbers = [f64::NAN; MOST_COLUMNS];
         let mut is_right = true;

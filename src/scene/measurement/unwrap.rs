@@ -98,9 +98,6 @@ impl Measurement {
     }
 
     /// Continues angles that were reduced to a period, rad.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] where the samples do not say how far the crank went.
     fn continued(&self, period: f64) -> Result<Continued, Error> {
         let steps = 1..self.len();
         let usual = median(steps.clone().map(|i| self.duration(i))).unwrap_or(0.0);

@@ -6,8 +6,6 @@ mod pattern;
 mod quantity;
 mod symbol;
 
-#[cfg(feature = "cli")]
-use super::Every;
 use super::number;
 #[cfg(feature = "cli")]
 pub(super) use pattern::pattern;
@@ -104,23 +102,6 @@ pub fn uncertain(text: &str, quantity: Quantity) -> Result<Uncertain, UnitError>
     Ok(found)
 }
 
-/// Reads `text` as a time (s) or an angle (rad); a bare 0 is a time.
-#[cfg(feature = "cli")]
-pub(super) fn time_or_angle(text: &str) -> Result<Every, UnitError> {
-    let measured = number_with_unit(text).and_then(|measured| {
-        let time = measured.of(Quantity::Time).map(Every::Time);
-        let angle = || measured.of(Quantity::Angle).map(Every::Angle);
-        time.or_else(angle).ok_or_else(|| match measured.unit {
-            "" => format!("`{text}` has no unit"),
-            _ => format!("`{text}` is neither a time nor an angle"),
-        })
-    });
-    measured.map_err(|what| UnitError {
-        what,
-        help: "write for example \"1 ms\" or \"1 deg\"".to_owned(),
-    })
-}
-
 /// Creates an error with examples of the quantity and, if `with_units`, the unit symbols of its dimension.
 fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
     let mut help = format!("write {} like {}", quantity.name(), quantity.examples());
@@ -132,17 +113,17 @@ fn wrong(what: String, quantity: Quantity, with_units: bool) -> UnitError {
 }
 
 /// Number with a unit.
-struct NumberWithUnit<'a> {
+pub(super) struct NumberWithUnit<'a> {
     digits: String,
     /// Value, SI.
     value: f64,
     factor: Factor,
-    unit: &'a str,
+    pub unit: &'a str,
 }
 
 impl NumberWithUnit<'_> {
     /// Returns the value, SI, if it is one of this quantity; a bare zero is one of every quantity.
-    fn of(&self, quantity: Quantity) -> Option<f64> {
+    pub fn of(&self, quantity: Quantity) -> Option<f64> {
         if self.unit.is_empty() && self.value == 0.0 || quantity.accepts(self.factor.dimension) {
             return Some(self.value);
         }
@@ -153,7 +134,7 @@ impl NumberWithUnit<'_> {
     }
 }
 
-fn number_with_unit(text: &str) -> Result<NumberWithUnit<'_>, String> {
+pub(super) fn number_with_unit(text: &str) -> Result<NumberWithUnit<'_>, String> {
     let (digits, unit) = split(text)?;
     let factor = grammar::unit_factor(unit)?;
     let value = factor
