@@ -35,33 +35,18 @@ enum Element {
     Circle([f64; 2], f64),
 }
 
-/// DXF layer and SVG style of an element.
-type Layer = (&'static str, &'static str);
-/// Guide, path of the crank pin, slider at the dead centres.
-const GROUND: Layer = (
-    "GROUND",
-    "fill=\"none\" stroke=\"#999\" stroke-width=\"1\" stroke-dasharray=\"5 4\"",
-);
-const ROD: Layer = (
-    "ROD",
-    "stroke=\"#0072b2\" stroke-width=\"5\" stroke-linecap=\"round\"",
-);
-const CRANK: Layer = (
-    "CRANK",
-    "stroke=\"#333\" stroke-width=\"7\" stroke-linecap=\"round\"",
-);
-const SLIDER: Layer = (
-    "SLIDER",
-    "stroke=\"#333\" stroke-width=\"2\" stroke-linecap=\"round\"",
-);
-const JOINT: Layer = (
-    "JOINTS",
-    "fill=\"white\" stroke=\"#333\" stroke-width=\"2\"",
-);
-const CENTRE_OF_GRAVITY: Layer = (
-    "CENTRES_OF_GRAVITY",
-    "fill=\"#d55e00\" stroke=\"#333\" stroke-width=\"1\"",
-);
+/// Returns the SVG style of a DXF layer; the ground is the guide, the path of the crank pin, and the slider at the dead
+/// centres.
+fn style(layer: &str) -> &'static str {
+    match layer {
+        "ROD" => r##"stroke="#0072b2" stroke-width="5" stroke-linecap="round""##,
+        "CRANK" => r##"stroke="#333" stroke-width="7" stroke-linecap="round""##,
+        "SLIDER" => r##"stroke="#333" stroke-width="2" stroke-linecap="round""##,
+        "JOINTS" => r##"fill="white" stroke="#333" stroke-width="2""##,
+        "CENTRES_OF_GRAVITY" => r##"fill="#d55e00" stroke="#333" stroke-width="1""##,
+        _ => r##"fill="none" stroke="#999" stroke-width="1" stroke-dasharray="5 4""##,
+    }
+}
 
 /// Visible rectangle of the plane, m.
 #[derive(Clone, Copy)]
@@ -117,8 +102,8 @@ impl Sketch {
         }
     }
 
-    /// Returns the graphic elements of a pose, in drawing order from back to front.
-    fn elements(&self, pose: Pose, window: Window) -> Vec<(Layer, Element)> {
+    /// Returns the graphic elements of a pose with their DXF layers, in drawing order from back to front.
+    fn elements(&self, pose: Pose, window: Window) -> Vec<(&'static str, Element)> {
         let Dimensions {
             crank, rod, offset, ..
         } = self.dimensions;
@@ -134,19 +119,19 @@ impl Sketch {
             (0..4).map(move |k| (layer, Element::Line(corner(k), corner(k + 1))))
         };
         let guide = Element::Line([window.left, -offset], [window.right, -offset]);
-        let mut elements = vec![(GROUND, guide), (GROUND, Element::Circle(pivot, crank))];
+        let mut elements = vec![("GROUND", guide), ("GROUND", Element::Circle(pivot, crank))];
         let centres = self.dead_centres.iter();
-        elements.extend(centres.flat_map(|x| square(*x, GROUND)));
-        elements.push((ROD, Element::Line(pin, wrist)));
-        elements.push((CRANK, Element::Line(pivot, pin)));
-        elements.extend(square(pose.x, SLIDER));
-        elements.extend([pivot, pin, wrist].map(|at| (JOINT, Element::Circle(at, 0.35 * size))));
+        elements.extend(centres.flat_map(|x| square(*x, "GROUND")));
+        elements.push(("ROD", Element::Line(pin, wrist)));
+        elements.push(("CRANK", Element::Line(pivot, pin)));
+        elements.extend(square(pose.x, "SLIDER"));
+        elements.extend([pivot, pin, wrist].map(|at| ("JOINTS", Element::Circle(at, 0.35 * size))));
         let along = [(wrist[0] - pin[0]) / rod, (wrist[1] - pin[1]) / rod];
         let (crank_cg, rod_cg) = (self.dimensions.crank_cg, self.dimensions.rod_cg);
         let crank_cg = crank_cg.map(|cg| placed(pivot, [cos, sin], cg));
         let rod_cg = rod_cg.map(|cg| placed(pin, along, cg));
         let marks = crank_cg.into_iter().chain(rod_cg);
-        elements.extend(marks.map(|at| (CENTRE_OF_GRAVITY, Element::Circle(at, 0.25 * size))));
+        elements.extend(marks.map(|at| ("CENTRES_OF_GRAVITY", Element::Circle(at, 0.25 * size))));
         elements
     }
 
@@ -164,7 +149,8 @@ impl Sketch {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
              role=\"img\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
         );
-        for ((_, look), element) in self.elements(pose, window) {
+        for (layer, element) in self.elements(pose, window) {
+            let look = style(layer);
             let _ = match element {
                 Element::Line(from, to) => {
                     let ((x1, y1), (x2, y2)) = (at(from), at(to));
@@ -198,7 +184,7 @@ impl Sketch {
         );
         let mm = |[x, y]: [f64; 2]| [1e3 * x, 1e3 * y];
         let window = self.window([pose].into_iter());
-        for ((layer, _), element) in self.elements(pose, window) {
+        for (layer, element) in self.elements(pose, window) {
             let _ = match element {
                 Element::Line(from, to) => {
                     let ([x1, y1], [x2, y2]) = (mm(from), mm(to));
@@ -227,9 +213,6 @@ fn placed(origin: [f64; 2], along: [f64; 2], at: [f64; 2]) -> [f64; 2] {
 
 /// Writes the mechanism in motion as an endless GIF: one frame per pose, with a note below, shown for `hundredths` of
 /// a second.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn animation(
     sketch: &Sketch,
     frames: &[(Pose, String)],
