@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::default_view::DefaultView;
 use super::figure::{Axis, Figure, Shape, Sheet};
 use super::key_values::rounded;
-use super::quantity::{Curve, Quantity, base, curves, split};
+use super::quantity::{Quantity, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
 
@@ -31,8 +31,10 @@ impl View {
         for text in &self.show {
             curves(&names, text)?;
         }
-        let mut over = self.over.iter();
-        over.try_for_each(|over| base(&names, over).map(|_| ()))
+        match &self.over {
+            Some(over) => base(&names, over).map(|_| ()),
+            None => Ok(()),
+        }
     }
 
     /// Whether neither columns nor horizontal axis are chosen.
@@ -47,32 +49,28 @@ impl View {
         default: &DefaultView<'_>,
     ) -> Result<Vec<Figure>, Error> {
         let names: Vec<&str> = table.names().collect();
-        let own = if default.over.is_empty() {
-            "theta"
-        } else {
-            default.over
-        };
-        let over = base(&names, self.over.as_deref().unwrap_or(own))?;
+        let over = base(&names, self.over.as_deref().unwrap_or(default.over))?;
         let mut chosen = Vec::new();
         for text in &self.show {
             chosen.extend(curves(&names, text)?);
         }
         if self.show.is_empty() {
             // Default columns may be missing from the rows.
-            let found = default.show.iter();
+            let found = default.show.split(',');
             let found = found.filter_map(|text| curves(&names, text).ok());
             chosen.extend(found.flatten());
         }
-        let mut panels: Vec<Vec<Curve>> = Vec::new();
+        let mut panels: Vec<Vec<Quantity>> = Vec::new();
         for curve in chosen {
-            let key = |curve: &Curve| (curve.quantity.group.clone(), curve.quantity.unit.clone());
-            let alike = |panel: &&mut Vec<Curve>| key(&panel[0]) == key(&curve);
+            let alike = |panel: &&mut Vec<Quantity>| {
+                panel[0].group == curve.group && panel[0].unit == curve.unit
+            };
             match panels.iter_mut().find(alike) {
                 Some(panel) => panel.push(curve),
                 None => panels.push(vec![curve]),
             }
         }
-        let drawn = |curves: &Vec<Curve>| panel(table, &over, curves, default);
+        let drawn = |curves: &Vec<Quantity>| panel(table, &over, curves, default);
         Ok(panels.iter().map(drawn).collect())
     }
 
@@ -101,10 +99,10 @@ impl View {
     }
 }
 
-impl Curve {
+impl Quantity {
     /// Returns the values in the displayed unit.
     pub fn values<'a>(&self, table: &'a Table) -> impl Iterator<Item = f64> + use<'a> {
-        let factor = self.quantity.factor;
+        let factor = self.factor;
         let values = table.numbers(&self.name).unwrap_or_default();
         values.iter().map(move |value| factor * value)
     }
@@ -128,9 +126,9 @@ pub(super) fn axis(words: &str, unit: &str) -> Axis {
 }
 
 /// Draws columns of one quantity, with their bands, over the column `over`.
-fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_>) -> Figure {
+fn panel(table: &Table, over: &Quantity, curves: &[Quantity], default: &DefaultView<'_>) -> Figure {
     let x: Vec<f64> = over.values(table).collect();
-    let first = &curves[0].quantity;
+    let first = &curves[0];
     let is_alone = curves.len() == 1;
     let words = if is_alone { &first.label } else { &first.group };
     let mut up = axis(words, &first.unit).or(labelled("", &first.unit).trim());
@@ -140,12 +138,12 @@ fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_
         up.label.push_str(", peaks cut off");
         up = up.range(low, high);
     }
-    let across = axis(&over.quantity.label, &over.quantity.unit);
+    let across = axis(&over.label, &over.unit);
     let mut figure = Figure::new("", across, up);
     for curve in curves {
         let mut label = match is_alone {
             true => String::new(),
-            false => curve.quantity.label.clone(),
+            false => curve.label.clone(),
         };
         if let Some((told, edges)) = band(table, curve, default.band) {
             figure = figure.band(&told, outlined_band(&x, &edges));
@@ -159,11 +157,10 @@ fn panel(table: &Table, over: &Curve, curves: &[Curve], default: &DefaultView<'_
 
 /// Returns the label of a curve with a band, and lower and upper edge at each row: columns `min` and `max`, or
 /// +-`factor` standard errors (column `se`). The label tells the median half-width of an error, often too narrow to see.
-fn band(table: &Table, curve: &Curve, factor: f64) -> Option<(String, Vec<[f64; 2]>)> {
+fn band(table: &Table, curve: &Quantity, factor: f64) -> Option<(String, Vec<[f64; 2]>)> {
     let (name, unit) = split(&curve.name);
     let beside = |word: &str| table.numbers(&format!("{name}_{word}{unit}"));
-    let Quantity { label, unit, .. } = &curve.quantity;
-    let scale = curve.quantity.factor;
+    let (label, scale) = (&curve.label, curve.factor);
     if let Some((low, high)) = beside("min").zip(beside("max")) {
         let edges = low.iter().zip(high).map(|(a, b)| [a * scale, b * scale]);
         return Some((label.clone(), edges.collect()));
@@ -175,8 +172,9 @@ fn band(table: &Table, curve: &Curve, factor: f64) -> Option<(String, Vec<[f64; 
     sorted.sort_unstable_by(f64::total_cmp);
     let label = match sorted.get(sorted.len() / 2) {
         Some(half) => format!(
-            "{label}, band +- {} {unit} at the median",
-            rounded(*half, 2)
+            "{label}, band +- {} {} at the median",
+            rounded(*half, 2),
+            curve.unit
         ),
         None => label.clone(),
     };

@@ -11,9 +11,9 @@ use crate::simulate::Summary;
 pub struct DefaultView<'a> {
     /// Title above a picture.
     pub(super) title: &'a str,
-    /// Columns drawn in a picture.
-    pub(super) show: &'a [&'a str],
-    /// Column of the horizontal axis; the crank angle if empty.
+    /// Columns drawn in a picture, separated by commas.
+    pub(super) show: &'a str,
+    /// Column of the horizontal axis.
     pub(super) over: &'a str,
     /// Number of panels side by side in a picture.
     pub(super) columns: usize,

@@ -64,36 +64,25 @@ pub(super) fn facts(facts: &mut Facts, diagrams: &Diagrams) {
     let moment = &diagrams.turning_moment;
     let (mean, work) = (six(moment.mean_nm), six(moment.work_j));
     let fluctuation = six(moment.fluctuation_j);
-    let text = format!("{mean} N m, {work} J a cycle; energy fluctuates by {fluctuation} J");
-    facts.add("mean torque", text);
+    fact!(facts, "mean torque" => "{mean} N m, {work} J a cycle; energy fluctuates by {fluctuation} J");
     if let Some(indicated) = &diagrams.indicated {
         let (work, power) = (six(indicated.work_j), six(indicated.power_w));
         let pressure = six(1e-5 * indicated.mean_effective_pressure_pa);
         let volume = six(1e6 * indicated.swept_volume_m3);
-        fact!(
-            facts,
-            "indicated work",
-            "{work} J a cycle, {power} W; mean effective pressure {pressure} bar over {volume} cm3"
-        );
+        fact!(facts, "indicated work" =>
+            "{work} J a cycle, {power} W; mean effective pressure {pressure} bar over {volume} cm3");
     }
     let balance = &diagrams.balance;
     let (moment, angle) = (six(balance.counterweight_kg_m), degrees(balance.angle_rad));
     let part = balance.part;
-    fact!(
-        facts,
-        "counterweight",
-        "{moment} kg m at {angle} deg from the crank, for {part} of the reciprocating mass"
-    );
+    fact!(facts, "counterweight" =>
+        "{moment} kg m at {angle} deg from the crank, for {part} of the reciprocating mass");
     let [before, after] = [balance.largest_n, balance.largest_left_n].map(six);
     let [forward, left] = [balance.forward_n, balance.forward_left_n].map(six);
     let backward = six(balance.backward_n);
-    let text = format!("at most {before} N, with it {after} N");
-    facts.add("  shaking force", text);
-    fact!(
-        facts,
-        "  first order",
-        "{forward} N with the crank, {left} N with the counterweight; {backward} N against it"
-    );
+    fact!(facts, "  shaking force" => "at most {before} N, with it {after} N");
+    fact!(facts, "  first order" =>
+        "{forward} N with the crank, {left} N with the counterweight; {backward} N against it");
 }
 
 fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {

@@ -38,9 +38,9 @@ fn computation(result: &Explanation) -> Facts {
     let plan = &result.plan;
     let mut facts = Facts::of("");
     let (engine, reason) = (plan.engine.name(), &plan.reason);
-    fact!(facts, "  engine", "{engine}: {reason}");
+    fact!(facts, "  engine" => "{engine}: {reason}");
     for then in &plan.then {
-        fact!(facts, "  then", "{}: {}", then.engine.name(), then.reason);
+        fact!(facts, "  then" => "{}: {}", then.engine.name(), then.reason);
     }
     if let Some(stepper) = plan.stepper {
         facts.add("  stepper", stepper.name());
@@ -59,7 +59,7 @@ fn computation(result: &Explanation) -> Facts {
     };
     facts.add("  cycle of the loads", cycle);
     for load in &plan.cycle.loads {
-        fact!(facts, "", "{} repeats {}", load.name, load.repeats);
+        fact!(facts, "" => "{} repeats {}", load.name, load.repeats);
         if let Some(what) = load.between_nodes {
             facts.add("", what);
         }
@@ -86,7 +86,7 @@ fn terms_at(at: &TermsAt) -> String {
         let _ = writeln!(text, "  Q of {} = {} N m", load.name, six(load.q_nm));
     }
     let mut facts = Facts::of("");
-    fact!(facts, "  Q", "{} N m", six(at.q_nm));
+    fact!(facts, "  Q" => "{} N m", six(at.q_nm));
     let alpha = match at.alpha_rad_per_s2 {
         Some(alpha) => format!("{} rad/s2", six(alpha)),
         None => "not determined: no inertia here, or the guide jams".to_owned(),
@@ -94,8 +94,7 @@ fn terms_at(at: &TermsAt) -> String {
     facts.add("  theta..", alpha);
     let without = at.friction.map_or("", |_| ", without friction");
     let torque = six(at.holding_torque_nm);
-    let torque = format!("{torque} N m (torque that keeps this speed{without})");
-    facts.add("  holding torque", torque);
+    fact!(facts, "  holding torque" => "{torque} N m (torque that keeps this speed{without})");
     if let Some(friction) = &at.friction {
         facts.add("  with friction", holding(friction));
     }

@@ -60,9 +60,19 @@ pub(super) fn aligned<C: AsRef<str>>(
     text + "\n"
 }
 
-/// Adds a fact with a formatted value.
+/// Returns a table of a header, its cells separated by commas, and rows, in columns as of [`aligned`].
+pub(super) fn text_table<R: IntoIterator<Item = String>>(
+    widths: &[isize],
+    header: &str,
+    rows: impl IntoIterator<Item = R>,
+) -> String {
+    let lines = rows.into_iter().map(|row| aligned(widths, row));
+    aligned(widths, header.split(',')) + &lines.collect::<String>()
+}
+
+/// Adds a fact: its name, and its value as a format string with arguments.
 macro_rules! fact {
-    ($facts:expr, $name:expr, $($value:tt)+) => {
+    ($facts:expr, $name:expr => $($value:tt)+) => {
         $facts.add($name, format_args!($($value)+))
     };
 }

@@ -119,7 +119,7 @@ impl Report for RunReport<'_> {
         let short = self.rows().last().is_some_and(|row| row.t < 0.5);
         let default = DefaultView {
             title: &self.summary.scene,
-            show: &["x", "v", "a", "omega"],
+            show: "x,v,a,omega",
             over: if short { "t:ms" } else { "t" },
             columns: 2,
             scene: Some(self.scene),
@@ -130,16 +130,7 @@ impl Report for RunReport<'_> {
             return default;
         };
         DefaultView {
-            show: &[
-                "x",
-                "x_ideal",
-                "v",
-                "v_ideal",
-                "a",
-                "a_ideal",
-                "contact_force",
-                "slider_deviation",
-            ],
+            show: "x,x_ideal,v,v_ideal,a,a_ideal,contact_force,slider_deviation",
             extra_figures: vec![self.orbit(1e3 * joint.radial_m)],
             ..default
         }

@@ -100,22 +100,13 @@ impl Report for TurnReport<'_> {
 
     /// Returns the plot of slider motion, also with changed lengths, and driving torque, exact and first-order.
     fn default_view(&self) -> DefaultView<'_> {
-        let show: &[&str] = match self.moves() {
-            true => &[
-                "x",
-                "x_changed",
-                "v",
-                "v_changed",
-                "a",
-                "a_changed",
-                "crank_torque",
-                "crank_torque_first_order",
-            ],
-            false => &["x", "x_changed", "dx", "dx_changed", "d2x", "d2x_changed"],
-        };
         DefaultView {
             title: &self.result.kinematics.scene,
-            show,
+            show: match self.moves() {
+                true => "x,x_changed,v,v_changed,a,a_changed,crank_torque,crank_torque_first_order",
+                false => "x,x_changed,dx,dx_changed,d2x,d2x_changed",
+            },
+            over: "theta",
             scene: Some(self.scene),
             ..DefaultView::default()
         }
@@ -195,19 +186,17 @@ fn forces(facts: &mut Facts, result: &OneTurn) {
     };
     let masses = &analysis.masses;
     let [rotating, reciprocating] = [masses.rotating_kg, masses.reciprocating_kg].map(six);
-    fact!(facts, "rotating mass", "{rotating} kg at the crank pin");
-    let text = format!("{reciprocating} kg at the wrist pin");
-    facts.add("reciprocating mass", text);
+    fact!(facts, "rotating mass" => "{rotating} kg at the crank pin");
+    fact!(facts, "reciprocating mass" => "{reciprocating} kg at the wrist pin");
     let turns = analysis.cycle_turns;
     if turns > 1 {
-        let text = format!("over {turns} turns, the cycle of the loads");
-        facts.add("forces", text);
+        fact!(facts, "forces" => "over {turns} turns, the cycle of the loads");
     }
     for (name, stroke) in [("outward", analysis.outward), ("inward", analysis.inward)] {
         if let Some(StrokeTorque { max, min }) = stroke {
             let [min, max] = [min, max].map(|found| extreme(&found, "N m"));
             let name = format!("torque, {name} stroke");
-            fact!(facts, name, "{min} to {max}");
+            fact!(facts, name => "{min} to {max}");
         }
     }
 }

@@ -16,14 +16,10 @@ pub fn optimum(found: &Optimum) -> String {
         facts.add("subject", subject(one));
     }
     let agreeing = found.starts.iter().filter(|start| start.agrees).count();
-    fact!(
-        facts,
-        "local searches",
-        "{agreeing} of {} end there, to {AGREEMENT:.0e} of the figure's spread",
-        found.starts.len()
-    );
+    fact!(facts, "local searches" => "{agreeing} of {} end there, to {AGREEMENT:.0e} of the figure's spread",
+        found.starts.len());
     facts.add("proof", proof(found));
-    fact!(facts, "cost", "{} designs", found.designs);
+    fact!(facts, "cost" => "{} designs", found.designs);
     facts.warnings(&found.notes);
     facts.lines(22)
 }

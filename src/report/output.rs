@@ -84,9 +84,6 @@ impl Write for Stream {
 
 impl Output {
     /// Opens the target; `-` is standard output. A target that cannot be written fails here, before any computation.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Output, Error> {
         if is_standard_output(path) {
             return Ok(Output::standard());

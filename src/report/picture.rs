@@ -22,9 +22,6 @@ pub struct Picture {
 
 impl Picture {
     /// Opens the file; extension `png` or `pdf` selects the format, which is SVG otherwise and on standard output.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn create(path: &Path) -> Result<Picture, Error> {
         let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
         Ok(Picture {
@@ -34,9 +31,6 @@ impl Picture {
     }
 
     /// Draws a figure given as SVG.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn draw(mut self, svg: &str) -> Result<(), Error> {
         let bytes = match self.ending.as_str() {
             // Two pixels per pixel of the figure are sharp in print and on high-resolution screens.

@@ -3,7 +3,7 @@
 use super::csv::{self, CsvCell};
 use super::default_view::{DefaultView, Scatter};
 use super::figure::{Axis, Figure, Shape, Sheet};
-use super::key_values::{Facts, aligned, fact, six};
+use super::key_values::{Facts, fact, six, text_table};
 use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
@@ -29,9 +29,6 @@ fn cells(scenes: &[Precision]) -> impl Iterator<Item = Vec<CsvCell>> {
 }
 
 /// Returns the comparison as one page: error against time, one scene at a time.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, Error> {
     let mut facts = Facts::of(match scenes {
         [only] => &only.scene,
@@ -66,43 +63,38 @@ pub fn precision_page(scenes: &[Precision], origin: &Origin) -> Result<String, E
     page::html(origin, &facts, &table, &default)
 }
 
-/// Widths of the columns of the table, characters; negative for left-aligned.
-const COLUMN_WIDTHS: [isize; 9] = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
-
 /// Returns the comparison of one scene as text.
 pub fn precision(scene: &Precision) -> String {
     let mut facts = Facts::of(&scene.scene);
-    fact!(facts, "end", "t = {} s", six(scene.t_s));
+    fact!(facts, "end" => "t = {} s", six(scene.t_s));
     facts.add("reference", &scene.reference);
     if let (Some(theta), Some(omega)) = (
         scene.reference_error_theta_rad,
         scene.reference_error_omega_rad_per_s,
     ) {
-        let text = format!("{theta:.1e} rad, {omega:.1e} rad/s or less");
-        facts.add("its error", text);
+        fact!(facts, "its error" => "{theta:.1e} rad, {omega:.1e} rad/s or less");
     }
     let header = "method,tolerance,error [rad],error [rad/s],stated [rad],least [us],median,evaluations,steps";
-    let mut text = facts.lines(10) + "\n" + &aligned(&COLUMN_WIDTHS, header.split(','));
-    for row in &scene.rows {
-        text += &line(row);
-    }
-    for note in precision_notes(scene) {
-        text += &format!("note: {note}\n");
-    }
-    text
+    let widths = [-12, 9, 12, 14, 13, 10, 10, 11, 8];
+    let table = text_table(&widths, header, scene.rows.iter().map(shown));
+    let notes = precision_notes(scene).into_iter();
+    let notes = notes.map(|note| format!("note: {note}\n"));
+    facts.lines(10) + "\n" + &table + &notes.collect::<String>()
 }
 
-fn line(row: &PrecisionRow) -> String {
-    let name = [row.method.clone(), format!("{:.0e}", row.tolerance)].into_iter();
+/// Returns the cells of a row of the text; those of a failure end early.
+fn shown(row: &PrecisionRow) -> Vec<String> {
+    let mut cells = vec![row.method.clone(), format!("{:.0e}", row.tolerance)];
     if row.failure.is_some() && row.error_theta_rad.is_none() {
-        return aligned(&COLUMN_WIDTHS, name.chain(["failed".to_owned()]));
+        cells.push("failed".to_owned());
+        return cells;
     }
     let bound = if row.error_is_bound { "<= " } else { "" };
     let or_none = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
     let error = |value: Option<f64>, bound| or_none(value.map(|v| format!("{bound}{v:.1e}")));
     let micro = |value: Option<f64>| or_none(value.map(|v| format!("{:.1}", 1e6 * v)));
     let count = |value: Option<u64>| or_none(value.map(|v| v.to_string()));
-    let cells = [
+    cells.extend([
         error(row.error_theta_rad, bound),
         error(row.error_omega_rad_per_s, bound),
         error(row.estimate_theta_rad, ""),
@@ -110,8 +102,8 @@ fn line(row: &PrecisionRow) -> String {
         micro(row.wall_median_s),
         count(row.evaluations),
         count(row.steps),
-    ];
-    aligned(&COLUMN_WIDTHS, name.chain(cells))
+    ]);
+    cells
 }
 
 /// Returns notes on the rows: methods left out, bounds, failures, other references.

@@ -23,9 +23,6 @@ pub trait Report {
     fn default_view(&self) -> DefaultView<'_>;
 
     /// Writes the rows as CSV.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     fn csv(&self, output: Output) -> Result<(), Error> {
         self.table().csv(output)
     }
@@ -39,9 +36,6 @@ pub trait Report {
     }
 
     /// Returns the result as one HTML page.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     fn page(&self, origin: &Origin) -> Result<String, Error> {
         page::html(origin, &self.facts(), &self.table(), &self.default_view())
     }

@@ -15,9 +15,11 @@ pub(super) fn split(column: &str) -> (&str, &str) {
     column.split_at(column.len() - ending.map_or(0, |(ending, ..)| ending.len()))
 }
 
-/// Label, displayed unit and panel of a column.
+/// Column with its label, displayed unit and panel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Quantity {
+    /// Name of the column, with the SI unit.
+    pub name: String,
     /// Name and symbol.
     pub label: String,
     /// Displayed unit; empty if dimensionless.
@@ -90,24 +92,24 @@ const VARIANTS: [&str; 6] = [
 impl Quantity {
     /// Derives label, unit and panel from the name of a column.
     pub fn of(column: &str) -> Quantity {
-        let (name, ending) = split(column);
+        let (base, ending) = split(column);
         let unit = UNITS.iter().find(|(known, ..)| *known == ending);
         let (_, unit, factor) = unit.copied().unwrap_or(("", "", 1.0));
         // Errors stay in radians, far smaller than a degree.
-        let (unit, factor) = match name.starts_with("error") || name.starts_with("estimate") {
+        let (unit, factor) = match base.starts_with("error") || base.starts_with("estimate") {
             true if ending == "_rad" => ("rad", 1.0),
             _ => (unit, factor),
         };
-        let (name, of) = match name.rsplit_once("_of_") {
-            Some((name, number)) if number.parse::<u32>().is_ok() => (name, Some(number)),
-            _ => (name, None),
+        let (base, of) = match base.rsplit_once("_of_") {
+            Some((base, number)) if number.parse::<u32>().is_ok() => (base, Some(number)),
+            _ => (base, None),
         };
         let beside = VARIANTS.iter().find_map(|more| {
-            let (first, last) = (name.strip_prefix(more), name.strip_suffix(more));
+            let (first, last) = (base.strip_prefix(more), base.strip_suffix(more));
             let rest = first.or(last)?.trim_matches('_');
             Some((rest, more.replace('_', " ")))
         });
-        let (base, more) = beside.unwrap_or((name, String::new()));
+        let (base, more) = beside.unwrap_or((base, String::new()));
         let known = KNOWN.iter().find(|(known, ..)| *known == base);
         let (words, group) = match known {
             Some((_, words, group)) => ((*words).to_owned(), (*group).to_owned()),
@@ -120,6 +122,7 @@ impl Quantity {
             format!("{words}, {more}")
         };
         Quantity {
+            name: column.to_owned(),
             label,
             unit: Cow::Borrowed(unit),
             factor,
@@ -140,24 +143,15 @@ fn group(name: &str, unit: &str) -> String {
     }
 }
 
-/// Column with its displayed unit.
-#[derive(Clone, Debug)]
-pub(super) struct Curve {
-    pub name: String,
-    pub quantity: Quantity,
-}
-
 /// Finds the column of the horizontal axis; refuses a text that names several.
-pub(super) fn base(names: &[&str], text: &str) -> Result<Curve, Error> {
-    let mut found = curves(names, text)?;
-    match found.len() {
-        1 => Ok(found.remove(0)),
-        _ => Err(no_column(names, text)),
-    }
+pub(super) fn base(names: &[&str], text: &str) -> Result<Quantity, Error> {
+    let [found] =
+        <[Quantity; 1]>::try_from(curves(names, text)?).map_err(|_| no_column(names, text))?;
+    Ok(found)
 }
 
 /// Finds the columns that a text names, fully or by first or last words; a unit may follow a colon.
-pub(super) fn curves(names: &[&str], text: &str) -> Result<Vec<Curve>, Error> {
+pub(super) fn curves(names: &[&str], text: &str) -> Result<Vec<Quantity>, Error> {
     let (wanted, in_unit) = match text.split_once(':') {
         Some((wanted, unit)) => (wanted.trim(), Some(unit.trim())),
         None => (text.trim(), None),
@@ -179,7 +173,7 @@ pub(super) fn curves(names: &[&str], text: &str) -> Result<Vec<Curve>, Error> {
     found.into_iter().map(|name| curve(name, in_unit)).collect()
 }
 
-fn curve(name: &str, in_unit: Option<&str>) -> Result<Curve, Error> {
+fn curve(name: &str, in_unit: Option<&str>) -> Result<Quantity, Error> {
     let mut quantity = Quantity::of(name);
     if let Some(unit) = in_unit {
         let ratio = unit::ratio(&quantity.unit, unit)
@@ -187,10 +181,7 @@ fn curve(name: &str, in_unit: Option<&str>) -> Result<Curve, Error> {
         quantity.factor *= ratio;
         quantity.unit = unit.to_owned().into();
     }
-    Ok(Curve {
-        name: name.to_owned(),
-        quantity,
-    })
+    Ok(quantity)
 }
 
 fn no_column(names: &[&str], text: &str) -> Error {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::diagrams::stems;
-use super::key_values::{Facts, aligned, fact, given, in_turn, six, with_error};
+use super::key_values::{Facts, fact, given, in_turn, six, text_table, with_error};
 use crate::error::Error;
 use crate::simulate::{
     ClearanceSummary, ContactStatistics, Estimated, Flywheel, Row, SpeedExtreme, SpeedOrder,
@@ -17,25 +17,22 @@ pub(super) fn run(summary: &Summary) -> Facts {
     end(&mut facts, summary);
     if let Some(torque) = &summary.driving_torque {
         let [least, most, mean] = [torque.min_nm, torque.max_nm, torque.mean_nm].map(six);
-        let text = format!("{least} to {most} N m, mean {mean} N m");
-        facts.add("driving torque", text);
+        fact!(facts, "driving torque" => "{least} to {most} N m, mean {mean} N m");
     }
     for (name, peak) in summary.peaks.iter().flat_map(|peaks| peaks.named()) {
         let (value, t, angle) = (six(peak.value_n), six(peak.t_s), in_turn(peak.theta_rad));
-        fact!(facts, name, "at most {value} N, at t = {t} s, {angle} deg");
+        fact!(facts, name => "at most {value} N, at t = {t} s, {angle} deg");
     }
     let (relative, residual) = (summary.energy_residual, summary.energy_residual_j);
     if relative.is_finite() {
-        let text = format!("{relative:.1e} of the largest energy ({residual:.1e} J)");
-        facts.add("energy residual", text);
+        fact!(facts, "energy residual" => "{relative:.1e} of the largest energy ({residual:.1e} J)");
     }
     let (evaluations, steps) = (summary.evaluations, summary.steps);
     let time = seconds(summary.wall_s);
-    let text = format!("{evaluations} evaluations, {steps} steps, {time}");
-    facts.add("cost", text);
+    fact!(facts, "cost" => "{evaluations} evaluations, {steps} steps, {time}");
     if let Some(cost) = &summary.estimate_cost {
         let (count, time) = (cost.evaluations, seconds(cost.wall_s));
-        fact!(facts, "  of the estimate", "{count} evaluations, {time}");
+        fact!(facts, "  of the estimate" => "{count} evaluations, {time}");
     }
     facts.add("events", events(summary));
     if let Some(joint) = &summary.clearance {
@@ -62,19 +59,18 @@ fn shown(value: f64, error: Option<f64>, unit: &str, none: &str) -> String {
 /// Adds the final state with errors, and the range of the crank speed.
 fn end(facts: &mut Facts, summary: &Summary) {
     let (last, error) = (&summary.last, summary.error_estimate);
-    fact!(facts, "end", "t = {} s", six(last.t_s));
+    fact!(facts, "end" => "t = {} s", six(last.t_s));
     let [theta, omega] = [error.map(|e| e.theta_rad), error.map(|e| e.omega_rad_per_s)];
-    let angle = shown(last.theta_rad, theta, "rad", "estimated");
-    facts.add("  crank angle", angle);
-    let speed = shown(last.omega_rad_per_s, omega, "rad/s", "estimated");
-    facts.add("  crank speed", speed);
+    let shown = |value, error, unit| shown(value, error, unit, "estimated");
+    facts.add("  crank angle", shown(last.theta_rad, theta, "rad"));
+    facts.add("  crank speed", shown(last.omega_rad_per_s, omega, "rad/s"));
     facts.add("turns", six(summary.revolutions));
     let bound = |speed: f64| match speed.is_finite() {
         true => six(speed),
         false => "no bound".to_owned(),
     };
     let [least, largest] = [summary.omega_min, summary.omega_max].map(bound);
-    fact!(facts, "crank speed", "{least} to {largest} rad/s");
+    fact!(facts, "crank speed" => "{least} to {largest} rad/s");
 }
 
 fn events(summary: &Summary) -> String {
@@ -86,14 +82,7 @@ fn events(summary: &Summary) -> String {
         return format!("{total} in all");
     }
     let mut said = Vec::new();
-    for kind in [
-        "dead-centre",
-        "turning-point",
-        "limit",
-        "stick",
-        "slip",
-        "rest",
-    ] {
+    for kind in "dead-centre,turning-point,limit,stick,slip,rest".split(',') {
         let noun = kind.replace('-', " ");
         let number = summary.events.iter().filter(|e| e.kind == kind).count();
         let plural = if number == 1 { "" } else { "s" };
@@ -114,12 +103,10 @@ fn seconds(value: f64) -> String {
 
 /// Returns rows as a table with aligned columns.
 pub(super) fn table(rows: &[Row]) -> String {
-    const COLUMN_WIDTHS: [isize; 6] = [12, 10, 11, 14, 11, 11];
     let header = "t [s],turns,theta [deg],omega [rad/s],x [mm],v [m/s]";
-    let mut text = aligned(&COLUMN_WIDTHS, header.split(','));
-    for row in rows {
+    let cells = rows.iter().map(|row| {
         let turns = (row.theta / TAU).floor();
-        let cells = [
+        [
             format!("{:.6}", row.t),
             turns.to_string(),
             format!("{:.4}", (row.theta - turns * TAU).to_degrees()),
@@ -127,37 +114,32 @@ pub(super) fn table(rows: &[Row]) -> String {
             format!("{:.4}", row.x * 1e3),
             // Minus zero prints as zero.
             format!("{:.5}", row.v + 0.0),
-        ];
-        text += &aligned(&COLUMN_WIDTHS, cells);
-    }
-    text
+        ]
+    });
+    text_table(&[12, 10, 11, 14, 11, 11], header, cells)
 }
 
 /// Adds the facts of the loose joint.
 fn clearance(facts: &mut Facts, joint: &ClearanceSummary) {
     let (name, radial, law) = (joint.joint, given(joint.radial_m), joint.contact_law);
-    let text = format!("{name}, {radial} m radial clearance, {law}");
-    facts.add("loose joint", text);
+    fact!(facts, "loose joint" => "{name}, {radial} m radial clearance, {law}");
     let share = 100.0 * joint.contact_share;
     let [peak, mean] = [joint.force_peak_n, joint.force_mean_n].map(six);
     let contact = format!("{} impacts, {share:.2} % of the time", joint.impacts);
-    let text = format!("{contact}, peak {peak} N, mean {mean} N");
-    facts.add("  contact", text);
+    fact!(facts, "  contact" => "{contact}, peak {peak} N, mean {mean} N");
     let [lost, work] = [joint.dissipated_j, joint.work_j.abs()].map(six);
     let way = if joint.work_j < 0.0 { "out of" } else { "into" };
     let brought = format!("the loads and the drive bring {work} J {way} the mechanism");
     let text = format!("{lost} J in contact and guide; {brought}");
     facts.add("  energy lost", text);
     let last = &joint.last;
-    let slider = shown(last.x_m, last.error_x_m, "m", "stated");
-    facts.add("  slider", slider);
-    let rod = shown(last.phi_rad, last.error_phi_rad, "rad", "stated");
-    facts.add("  rod", rod);
+    let shown = |value, error, unit| shown(value, error, unit, "stated");
+    facts.add("  slider", shown(last.x_m, last.error_x_m, "m"));
+    facts.add("  rod", shown(last.phi_rad, last.error_phi_rad, "rad"));
     if let Some(horizon) = &joint.horizon {
         let until = if horizon.whole_run { "the end, " } else { "" };
         let (t, turns) = (six(horizon.t_s), horizon.revolutions);
-        let text = format!("to {until}t = {t} s, {turns:.3} turns");
-        facts.add("  reproducible", text);
+        fact!(facts, "  reproducible" => "to {until}t = {t} s, {turns:.3} turns");
         if let Some(beyond) = &horizon.beyond {
             facts.add("  beyond", statistics(&beyond.run));
             facts.add("  at tol./1000", statistics(&beyond.tighter));
@@ -187,7 +169,7 @@ fn steady_state(facts: &mut Facts, steady: &SteadyState) {
         turns => (format!(" ({turns} turns)"), "cycle"),
     };
     let period = estimated(steady.period_s, "s");
-    fact!(facts, "steady state", "period {period}{of_turns}");
+    fact!(facts, "steady state" => "period {period}{of_turns}");
     let mean = estimated(steady.omega_mean_rad_per_s, "rad/s");
     facts.add("  mean speed", mean);
     facts.add("  slowest", extreme(&steady.slowest));
@@ -229,9 +211,6 @@ fn speed_orders(orders: &[SpeedOrder]) -> Option<String> {
 }
 
 /// Returns the amplitudes of the speed orders as SVG.
-///
-/// # Errors
-/// [`Error::Write`], a defect of the program.
 pub(super) fn speed_figure(steady: &SteadyState) -> Result<String, Error> {
     let orders = steady.speed_orders.iter();
     let ends = orders.map(|order| (order.order, order.amplitude_rad_per_s.value));

@@ -1,7 +1,7 @@
 //! Reports of static equilibrium over a turn, and of the calibration of a force sensor.
 
 use super::curves::CURVE_STEP;
-use super::key_values::{Facts, aligned, fact, given, six, with_error};
+use super::key_values::{Facts, fact, given, six, text_table, with_error};
 use super::text::{NAME_WIDTH, extreme, place};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
@@ -37,7 +37,7 @@ impl Report for StaticsReport<'_> {
         let (what, unit) = self.sought();
         let mut facts = Facts::of(&result.scene);
         facts.add("class", result.class);
-        fact!(facts, "sought", "{what} beside the other loads");
+        fact!(facts, "sought" => "{what} beside the other loads");
         facts.add("friction coefficient", given(result.friction));
         for found in &result.least {
             facts.add("least", extreme(found, unit));
@@ -54,13 +54,10 @@ impl Report for StaticsReport<'_> {
 
     /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
-        const COLUMN_WIDTHS: [isize; 6] = [11, 18, 14, 14, 16, 19];
         let (what, unit) = self.sought();
-        let sought = format!("{what} [{unit}]");
-        let [thrust, transmission] = ["side thrust [N]", "transmission [deg]"];
-        let header = ["theta [deg]", &sought, "from", "to", thrust, transmission];
-        let mut text = self.facts().lines(NAME_WIDTH) + "\n" + &aligned(&COLUMN_WIDTHS, header);
-        for row in self.result.rows(15f64.to_radians()) {
+        let header =
+            format!("theta [deg],{what} [{unit}],from,to,side thrust [N],transmission [deg]");
+        let rows = self.result.rows(15f64.to_radians()).map(|row| {
             let [_, value, min, max, thrust, transmission, ..] = cells(&row);
             let degrees = transmission.to_degrees();
             let shown = [value, min, max, thrust, degrees].map(|value| match value.is_finite() {
@@ -68,9 +65,10 @@ impl Report for StaticsReport<'_> {
                 false => "-".to_owned(),
             });
             let theta = format!("{:.0}", row.theta.to_degrees());
-            text += &aligned(&COLUMN_WIDTHS, [theta].into_iter().chain(shown));
-        }
-        text
+            [theta].into_iter().chain(shown)
+        });
+        let table = text_table(&[11, 18, 14, 14, 16, 19], &header, rows);
+        self.facts().lines(NAME_WIDTH) + "\n" + &table
     }
 
     fn table(&self) -> Table {
@@ -91,7 +89,8 @@ impl Report for StaticsReport<'_> {
     fn default_view(&self) -> DefaultView<'_> {
         DefaultView {
             title: &self.result.scene,
-            show: &["slider_force", "crank_torque", "side_thrust"],
+            show: "slider_force,crank_torque,side_thrust",
+            over: "theta",
             has_poles: true,
             scene: Some(self.scene),
             ..DefaultView::default()
@@ -133,7 +132,7 @@ pub fn calibration(result: &Calibration) -> String {
     };
     facts.add("points", fit.points);
     let slope = shown(fit.slope, fit.slope_se);
-    fact!(facts, "slope", "{slope} per N");
+    fact!(facts, "slope" => "{slope} per N");
     facts.add("intercept", shown(fit.intercept, fit.intercept_se));
     if let Some(r_squared) = fit.r_squared {
         facts.add("R squared", given(r_squared));
@@ -141,7 +140,7 @@ pub fn calibration(result: &Calibration) -> String {
     for measured in &result.forces {
         let force = shown(measured.force_n, measured.force_se_n);
         let reading = given(measured.reading);
-        fact!(facts, "force", "{force} N for a reading of {reading}");
+        fact!(facts, "force" => "{force} N for a reading of {reading}");
     }
     facts.warnings(&result.warnings);
     facts.lines(12)

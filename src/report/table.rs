@@ -107,9 +107,6 @@ impl Table {
     }
 
     /// Writes the columns of numbers as CSV, without those that only pictures and pages use.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
     pub fn csv(self, output: Output) -> Result<(), Error> {
         let table = self.without_plot_columns();
         let header: Vec<&str> = table.names().collect();
@@ -156,7 +153,6 @@ impl Column {
             Cells::Words(words) => (None, Some(&words[..])),
         };
         Shown {
-            name: &self.name,
             quantity: Quantity::of(&self.name),
             data,
             words,
@@ -167,7 +163,6 @@ impl Column {
 /// Column encoded for the page.
 #[derive(Serialize)]
 pub(super) struct Shown<'a> {
-    name: &'a str,
     #[serde(flatten)]
     quantity: Quantity,
     /// Numbers as little-endian 64-bit floats in base 64, equal to those of the CSV file.

@@ -24,22 +24,22 @@ pub(super) fn extreme(found: &Located, unit: &str) -> String {
 pub(super) fn kinematics(result: &Kinematics) -> Facts {
     let mut facts = Facts::of(&result.scene);
     facts.add("class", result.class);
-    fact!(facts, "stroke", "{} m", six(result.stroke_m));
+    fact!(facts, "stroke" => "{} m", six(result.stroke_m));
     for dead_centre in &result.dead_centres {
         let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
         let name = format!("{} dead centre", dead_centre.kind);
-        fact!(facts, name, "{angle} deg, x = {x} m");
+        fact!(facts, name => "{angle} deg, x = {x} m");
     }
     if let (Some(advance), Some(back), Some(ratio)) =
         (result.advance_rad, result.return_rad, result.time_ratio)
     {
-        fact!(facts, "outward stroke", "{} deg", degrees(advance));
-        fact!(facts, "inward stroke", "{} deg", degrees(back));
+        fact!(facts, "outward stroke" => "{} deg", degrees(advance));
+        fact!(facts, "inward stroke" => "{} deg", degrees(back));
         facts.add("time ratio", six(ratio));
     }
     for reach in &result.reach_rad {
         let [from, to] = reach.map(degrees);
-        fact!(facts, "reachable crank angles", "{from} to {to} deg");
+        fact!(facts, "reachable crank angles" => "{from} to {to} deg");
     }
     for position in &result.positions {
         if position.kind != "dead-centre" {
@@ -47,7 +47,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
         }
     }
     let transmission = degrees(result.transmission_min_rad);
-    fact!(facts, "least transmission", "{transmission} deg");
+    fact!(facts, "least transmission" => "{transmission} deg");
     let units = match result.speed_rad_per_s {
         Some(_) => ["m/s", "m/s2"],
         None => ["m/rad", "m/rad2"],
@@ -70,7 +70,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
 pub fn synthesis(found: &Synthesis) -> String {
     let mut facts = kinematics(&found.turn);
     for (name, value) in lengths(found) {
-        fact!(facts, name, "{} m", given(value));
+        fact!(facts, name => "{} m", given(value));
     }
     facts.lines(22)
 }

@@ -136,7 +136,7 @@ impl Report for Comparison {
         for (number, name) in (1..).zip(&self.motions) {
             facts.add(format_args!("motion {number}"), name);
         }
-        fact!(facts, "compared", "at {}", self.compared);
+        fact!(facts, "compared" => "at {}", self.compared);
         for found in &self.differences {
             let quantity = Quantity::of(&found.column);
             let shown = |value: f64| six(quantity.factor * value);
@@ -147,7 +147,7 @@ impl Report for Comparison {
                 _ => format!("{} {}", found.motion, quantity.label),
             };
             let most = format!("differs by at most {largest} {unit} at {at} s");
-            fact!(facts, name, "{most}, rms {rms}, at last {last}");
+            fact!(facts, name => "{most}, rms {rms}, at last {last}");
         }
         facts.warnings(&self.warnings);
         facts
@@ -165,16 +165,7 @@ impl Report for Comparison {
     fn default_view(&self) -> DefaultView<'_> {
         DefaultView {
             title: &self.title,
-            show: &[
-                "theta_of",
-                "theta_difference",
-                "omega_of",
-                "omega_difference",
-                "x_of",
-                "x_difference",
-                "v_of",
-                "v_difference",
-            ],
+            show: "theta_of,theta_difference,omega_of,omega_difference,x_of,x_difference,v_of,v_difference",
             over: "t",
             columns: 2,
             ..DefaultView::default()

@@ -45,12 +45,7 @@ impl Report for InverseReport<'_> {
         let mut pairs = self.result.rows.windows(2);
         DefaultView {
             title: &self.result.summary.scene,
-            show: &[
-                "slider_force",
-                "spin_only_force",
-                "duarte_9_force",
-                "crank_torque",
-            ],
+            show: "slider_force,spin_only_force,duarte_9_force,crank_torque",
             over: "t",
             band: self.result.summary.band_factor,
             has_poles: pairs.any(|pair| outward(&pair[0]) != outward(&pair[1])),

@@ -1,7 +1,7 @@
 //! Text report of inverse dynamics: data, fit, force and torque ranges, error budget, and some rows.
 
 use crate::inverse::{AsPrinted, DataSummary, DeadCentreBand, FitSummary, ForceRange, Inverse};
-use crate::report::key_values::{Facts, aligned, fact, six};
+use crate::report::key_values::{Facts, fact, six, text_table};
 
 /// Returns the facts and some rows, with the forces printed by Duarte et al. if given.
 pub(super) fn text(result: &Inverse, printed: Option<&AsPrinted>) -> String {
@@ -16,16 +16,8 @@ pub(super) fn facts(result: &Inverse) -> Facts {
     let summary = &result.summary;
     let mut facts = Facts::of(&summary.scene);
     let data = &summary.data;
-    fact!(
-        facts,
-        "data",
-        "{} samples of {} from {} to {} s, {:.4} turns",
-        data.rows,
-        data.column,
-        data.from_s,
-        data.to_s,
-        data.revolutions
-    );
+    fact!(facts, "data" => "{} samples of {} from {} to {} s, {:.4} turns",
+        data.rows, data.column, data.from_s, data.to_s, data.revolutions);
     fit(&mut facts, &summary.fit, data);
     match &summary.slider_force {
         Some(force) => facts.add("slider force", range(force, "N")),
@@ -33,7 +25,7 @@ pub(super) fn facts(result: &Inverse) -> Facts {
     }
     facts.add("crank torque", range(&summary.crank_torque, "N m"));
     let factor = summary.band_factor;
-    fact!(facts, "95 % band", "+- {factor:.4} standard errors");
+    fact!(facts, "95 % band" => "+- {factor:.4} standard errors");
     let budget = summary.error_budget.iter().map(|part| {
         let percent = 100.0 * part.share;
         format!("{} {:.2e} N ({percent:.0} %)", part.source, part.force_se_n)
@@ -49,7 +41,7 @@ pub(super) fn facts(result: &Inverse) -> Facts {
     let (shown, more) = summary.warnings.split_at(listed);
     facts.warnings(shown);
     if !more.is_empty() {
-        fact!(facts, "warning", "{} more: --json has all", more.len());
+        fact!(facts, "warning" => "{} more: --json has all", more.len());
     }
     facts
 }
@@ -66,16 +58,12 @@ fn without_force(facts: &mut Facts, bands: &[DeadCentreBand], rows: usize) {
                 1 => ("1 stretch".to_owned(), ""),
                 more => (format!("{more} stretches"), "the longest "),
             };
-            fact!(
-                facts,
-                "no slider force",
-                "{stretches}, {:.1} % of the rows, {the}from t = {} to {} s, theta = {:.2} to {:.2} deg: {reason}",
-                100.0 * count as f64 / rows as f64,
-                longest.from_s,
-                longest.to_s,
-                longest.from_theta_rad.to_degrees(),
-                longest.to_theta_rad.to_degrees()
-            );
+            let percent = 100.0 * count as f64 / rows as f64;
+            let (from, to) = (longest.from_s, longest.to_s);
+            let angles = [longest.from_theta_rad, longest.to_theta_rad];
+            let [first, last] = angles.map(f64::to_degrees);
+            fact!(facts, "no slider force" => "{stretches}, {percent:.1} % of the rows, \
+                {the}from t = {from} to {to} s, theta = {first:.2} to {last:.2} deg: {reason}");
         }
         rest = others;
     }
@@ -85,14 +73,9 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     let unit = data.unit;
     let (kind, reason) = (fit.kind, &fit.reason);
     match kind {
-        "polynomial" => fact!(facts, "fit", "{kind}, degree {}: {reason}", fit.degree),
-        _ => fact!(
-            facts,
-            "fit",
-            "{kind}, {}: {reason}; worth {:.1} parameters",
-            fit.prior,
-            fit.parameters
-        ),
+        "polynomial" => fact!(facts, "fit" => "{kind}, degree {}: {reason}", fit.degree),
+        _ => fact!(facts, "fit" => "{kind}, {}: {reason}; worth {:.1} parameters",
+            fit.prior, fit.parameters),
     }
     let errors = fit.standard_errors.iter();
     let coefficients = fit.coefficients.iter().zip(errors).enumerate();
@@ -106,19 +89,13 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
     }
     let more = fit.coefficients.len().saturating_sub(most_coefficients);
     if more > 0 {
-        fact!(facts, "  coefficients", "{more} more: --json has all");
+        fact!(facts, "  coefficients" => "{more} more: --json has all");
     }
-    fact!(facts, "  R^2", "{:.9}", fit.r_squared);
-    fact!(
-        facts,
-        "  residuals",
-        "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
-        fit.rms,
-        fit.sigma,
-        fit.sigma_error
-    );
+    fact!(facts, "  R^2" => "{:.9}", fit.r_squared);
+    fact!(facts, "  residuals" => "rms {:.6e} {unit}, noise {:.4e} +- {:.1e} {unit}",
+        fit.rms, fit.sigma, fit.sigma_error);
     if let Some(condition) = fit.condition {
-        fact!(facts, "  condition", "{condition:.3e}");
+        fact!(facts, "  condition" => "{condition:.3e}");
     }
     if let [first, more @ ..] = &fit.intensities[..] {
         let [from, to, factor] = [first.from_s, first.to_s, first.factor].map(six);
@@ -126,14 +103,11 @@ fn fit(facts: &mut Facts, fit: &FitSummary, data: &DataSummary) {
             0 => String::new(),
             more => format!(", and {more} more stretches with others"),
         };
-        fact!(
-            facts,
-            "  intensity",
-            "of the noise of the process from {from} to {to} s {factor} times the usual{more}"
-        );
+        fact!(facts, "  intensity" =>
+            "of the noise of the process from {from} to {to} s {factor} times the usual{more}");
     }
     if let Some(time) = fit.noise_correlation_s {
-        fact!(facts, "  noise", "correlated over {time:.3e} s");
+        fact!(facts, "  noise" => "correlated over {time:.3e} s");
     }
 }
 
@@ -148,41 +122,31 @@ fn range(range: &ForceRange, unit: &str) -> String {
 }
 
 fn table(result: &Inverse, printed: Option<&AsPrinted>, rows: usize) -> String {
-    const COLUMN_WIDTHS: [isize; 10] = [12, 12, 13, 13, 13, 13, 13, 10, 13, 13];
-    let mut header = vec![
-        "t [s]",
-        "theta [deg]",
-        "omega [rad/s]",
-        "alpha [1/s2]",
-        "force [N]",
-        "std error [N]",
-        "torque [N m]",
-        "std error",
-    ];
+    let mut header = "t [s],theta [deg],omega [rad/s],alpha [1/s2],force [N],std error [N],torque [N m],std error".to_owned();
     if printed.is_some() {
-        header.extend(["spin-only [N]", "their (9) [N]"]);
+        header += ",spin-only [N],their (9) [N]";
     }
-    let mut text = "\n".to_owned() + &aligned(&COLUMN_WIDTHS, header);
-    let none = || "-".to_owned();
-    let cell = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.5}"));
-    let torque = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.6}"));
-    let error = |value: Option<f64>| value.map_or_else(none, |v| format!("{v:.2e}"));
-    for row in result.rows.iter().step_by(result.rows.len().div_ceil(rows)) {
+    let or_none = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+    let cell = |value: Option<f64>, places| or_none(value.map(|v| format!("{v:.places$}")));
+    let error = |value: Option<f64>| or_none(value.map(|v| format!("{v:.2e}")));
+    let stride = result.rows.len().div_ceil(rows);
+    let rows = result.rows.iter().step_by(stride).map(|row| {
         let mut cells = vec![
             format!("{:.6}", row.t),
             format!("{:.4}", row.theta.to_degrees()),
             format!("{:.6}", row.omega),
             format!("{:.6}", row.alpha),
-            cell(row.slider_force),
+            cell(row.slider_force, 5),
             error(row.slider_force_se),
-            torque(row.crank_torque),
+            cell(row.crank_torque, 6),
             error(row.crank_torque_se),
         ];
         if let Some(printed) = printed {
             let forces = printed.forces(row);
-            cells.extend([0, 1].map(|which| cell(forces.map(|f| f[which]))));
+            cells.extend([0, 1].map(|which| cell(forces.map(|f| f[which]), 5)));
         }
-        text += &aligned(&COLUMN_WIDTHS, cells);
-    }
-    text
+        cells
+    });
+    let widths = [12, 12, 13, 13, 13, 13, 13, 10, 13, 13];
+    "\n".to_owned() + &text_table(&widths, &header, rows)
 }

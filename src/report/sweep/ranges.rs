@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::report::default_view::{DefaultView, Scatter};
-use crate::report::key_values::{Facts, aligned, fact, six};
+use crate::report::key_values::{Facts, fact, six, text_table};
 use crate::report::page::{self, Origin};
 use crate::report::table::Table;
 
@@ -126,15 +126,12 @@ impl SweepSummary {
 }
 
 /// Returns a sweep as one page: scatter plots of any column over any other.
-///
-/// # Errors
-/// [`Error::Write`].
 pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Result<String, Error> {
     let mut facts = facts(summary);
     for range in &summary.figures {
         let of = |end: &SweepExtreme| format!("{} (design {})", six(end.value), end.design);
         let (low, high) = (of(&range.min), of(&range.max));
-        fact!(facts, &range.column, "{low} to {high}");
+        fact!(facts, &range.column => "{low} to {high}");
     }
     let keys = summary.varied.len();
     let column = |place: usize| table.names().nth(place).unwrap_or_default().to_owned();
@@ -166,8 +163,8 @@ fn facts(summary: &SweepSummary) -> Facts {
     for varied in &summary.varied {
         let (key, first, last) = (&varied.key, &varied.first, &varied.last);
         match varied.count {
-            1 => fact!(facts, "varied", "{key}: {}", varied.values),
-            count => fact!(facts, "varied", "{key}: {first} to {last}, {count} values"),
+            1 => fact!(facts, "varied" => "{key}: {}", varied.values),
+            count => fact!(facts, "varied" => "{key}: {first} to {last}, {count} values"),
         }
     }
     let [from, to] = summary.part;
@@ -176,40 +173,37 @@ fn facts(summary: &SweepSummary) -> Facts {
         count if count == summary.designs => String::new(),
         _ => format!(", of these {from} to {to}"),
     };
-    fact!(facts, "designs", "{}{part}", summary.designs);
+    fact!(facts, "designs" => "{}{part}", summary.designs);
     for (status, count) in &summary.status {
         facts.add(format_args!("  {status}"), count);
     }
     if summary.taken_up > 0 {
         facts.add("  there already", summary.taken_up);
     }
-    fact!(facts, "time", "{:.3} s", summary.wall_s);
+    fact!(facts, "time" => "{:.3} s", summary.wall_s);
     facts
 }
 
 /// Returns a sweep as text: facts, ranges, percentiles and Pareto front.
 pub fn sweep_text(summary: &SweepSummary) -> String {
-    const RANGES: [isize; 5] = [-26, 12, 10, 12, 10];
-    let header = ["", "least", "in design", "largest", "in design"];
-    let mut text = facts(summary).lines(17) + "\n" + &aligned(&RANGES, header);
-    for range in &summary.figures {
+    let ranges = summary.figures.iter().map(|range| {
         let of = |end: &SweepExtreme| [six(end.value), end.design.to_string()];
-        let ends = of(&range.min).into_iter().chain(of(&range.max));
-        text += &aligned(&RANGES, [range.column.clone()].into_iter().chain(ends));
-    }
-    const SPREADS: [isize; 6] = [-26, 12, 12, 12, 12, 12];
-    let spreads = summary.figures.iter();
-    let spreads = spreads.filter_map(|one| Some((&one.column, one.spread?)));
-    for (number, (column, spread)) in spreads.enumerate() {
-        if number == 0 {
-            let header = ["", "mean", "deviation", "2.5 %", "median", "97.5 %"];
-            text += &("\n".to_owned() + &aligned(&SPREADS, header));
-        }
-        let Spread {
-            p2_5, p50, p97_5, ..
-        } = spread;
-        let values = [spread.mean, spread.standard_deviation, p2_5, p50, p97_5].map(six);
-        text += &aligned(&SPREADS, [column.clone()].into_iter().chain(values));
+        let ends = [&range.min, &range.max].into_iter().flat_map(of);
+        [range.column.clone()].into_iter().chain(ends)
+    });
+    let header = ",least,in design,largest,in design";
+    let mut text = facts(summary).lines(17) + "\n";
+    text += &text_table(&[-26, 12, 10, 12, 10], header, ranges);
+    let spreads = summary.figures.iter().filter_map(|one| {
+        let of = one.spread?;
+        let values = [of.mean, of.standard_deviation, of.p2_5, of.p50, of.p97_5].map(six);
+        Some([one.column.clone()].into_iter().chain(values))
+    });
+    let mut spreads = spreads.peekable();
+    if spreads.peek().is_some() {
+        let header = ",mean,deviation,2.5 %,median,97.5 %";
+        text += "\n";
+        text += &text_table(&[-26, 12, 12, 12, 12, 12], header, spreads);
     }
     text + &front(&summary.pareto_front)
 }
@@ -226,13 +220,15 @@ fn front(front: &[FrontDesign]) -> String {
     };
     let mut widths = vec![26; 1 + first.figures.len()];
     widths[0] = -15;
-    let names = first.figures.keys().map(String::as_str);
-    let mut text = "\n".to_owned() + &aligned(&widths, [title].into_iter().chain(names));
-    for one in front.iter().take(DESIGNS_SHOWN) {
-        let name = format!("  design {}", one.design);
+    let names = first.figures.keys().map(|name| format!(",{name}"));
+    let header = title.to_owned() + &names.collect::<String>();
+    let rows = front.iter().take(DESIGNS_SHOWN).map(|one| {
         let values = one.figures.values().map(|value| six(*value));
-        text += &aligned(&widths, [name].into_iter().chain(values));
-    }
+        [format!("  design {}", one.design)]
+            .into_iter()
+            .chain(values)
+    });
+    let mut text = "\n".to_owned() + &text_table(&widths, &header, rows);
     if front.len() > DESIGNS_SHOWN {
         text += &format!("  and {} more\n", front.len() - DESIGNS_SHOWN);
     }
