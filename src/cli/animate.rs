@@ -93,7 +93,7 @@ fn animate(arguments: &Arguments, scene: &Scene) -> Result<(), Error> {
 
 fn draw(arguments: &Arguments, scene: &Scene, as_dxf: bool) -> Result<(), Error> {
     let theta = arguments.at.unwrap_or(scene.motion.angle);
-    let row = crate::kinematics::kinematics(scene)?.row(theta);
+    let row = crate::kinematics::kinematics(scene)?.row(theta).pose;
     let degrees = theta.to_degrees();
     if !row.x.is_finite() {
         return Err(Error::refused(

@@ -148,12 +148,7 @@ fn terms_at(scene: &Scene, equation: &Equation, theta: f64) -> Result<TermsAt, E
 /// Returns the equation and its parts with numbers, without parts that the scene does not have.
 fn written_out(scene: &Scene) -> Vec<String> {
     let geometry = &scene.geometry;
-    let (r, l, e, s) = (
-        geometry.crank,
-        geometry.rod,
-        geometry.offset,
-        geometry.branch.sign(),
-    );
+    let (r, l, e) = (geometry.crank, geometry.rod, geometry.offset);
     let mut lines = vec!["M theta.. + 1/2 M' theta.^2 + V' = Q".to_owned()];
     let mut inertia = Vec::new();
     let mut potential = Vec::new();
@@ -208,6 +203,7 @@ fn written_out(scene: &Scene) -> Vec<String> {
     let arm = |of: &LoadOf<'_>| if of.key.on_slider { " x'" } else { "" };
     let work = scene.loads().map(|of| format!("[{}]{}", of.load, arm(&of)));
     lines.push(format!("Q = {}", joined(&work.collect::<Vec<_>>())));
+    let s = geometry.branch.sign();
     lines.push(format!("r = {r}, l = {l}, e = {e}, s = {s:+}"));
     lines
 }

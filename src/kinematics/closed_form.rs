@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use crate::error::Error;
-pub use crate::mechanism::NamedPosition;
-use crate::mechanism::{Class, Extreme, Extremes, Limits, Linkage};
-use crate::numeric::angle;
+use crate::mechanism::{Class, Extremes, Limits, Linkage, Pose};
+pub use crate::mechanism::{Located, NamedPosition};
 use crate::scene::Scene;
 
 /// Kinematics of a scene, from its lengths and speed.
@@ -58,34 +57,13 @@ pub struct DeadCentre {
     pub kind: &'static str,
 }
 
-/// Value and its crank angle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Located {
-    /// Value, in SI units.
-    pub value: f64,
-    /// Crank angle, rad.
-    pub theta_rad: f64,
-}
-
 /// Position at one crank angle; values that do not exist there are not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KinematicsRow {
     /// Crank angle θ, rad.
     pub theta: f64,
-    /// Slider position x, m.
-    pub x: f64,
-    /// x', m/rad.
-    pub dx: f64,
-    /// x'', m/rad².
-    pub d2x: f64,
-    /// Rod inclination φ, rad.
-    pub phi: f64,
-    /// φ'
-    pub dphi: f64,
-    /// φ''
-    pub d2phi: f64,
-    /// Transmission angle, rad.
-    pub transmission: f64,
+    /// Position and its derivatives by the crank angle.
+    pub pose: Pose,
     /// Velocity (m/s) and acceleration (m/s²) of the slider, angular speed (rad/s, counter-clockwise) and acceleration
     /// (rad/s²) of the rod, at the scene's speed; none without a speed.
     pub rates: Option<[f64; 4]>,
@@ -114,15 +92,15 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
     let limits = Limits::new(&linkage, speed);
     let extremes = Extremes::new(&linkage);
     let rate = if speed == 0.0 { 1.0 } else { speed };
-    let locate = |extreme: Extreme, factor: f64| Located {
+    let scaled = |extreme: Located, factor: f64| Located {
         value: extreme.value * factor,
-        theta_rad: extreme.theta,
+        ..extreme
     };
     let velocities = extremes.map(|e| {
-        let pair = [locate(e.velocity_min, rate), locate(e.velocity_max, rate)];
+        let pair = [scaled(e.velocity_min, rate), scaled(e.velocity_max, rate)];
         if rate < 0.0 { [pair[1], pair[0]] } else { pair }
     });
-    let acceleration = |extreme| locate(extreme, rate * rate);
+    let acceleration = |extreme| scaled(extreme, rate * rate);
     let dead_centres = limits.dead_centres.iter().map(|centre| DeadCentre {
         theta_rad: centre.theta,
         x_m: centre.x,
@@ -174,13 +152,7 @@ impl Kinematics {
         let s = self.linkage.s;
         KinematicsRow {
             theta,
-            x: pose.x,
-            dx: pose.dx,
-            d2x: pose.d2x,
-            phi: pose.phi(),
-            dphi: pose.dphi,
-            d2phi: pose.d2phi,
-            transmission: pose.transmission(),
+            pose,
             rates: self.speed_rad_per_s.map(|speed| {
                 [
                     pose.dx * speed,
@@ -190,10 +162,5 @@ impl Kinematics {
                 ]
             }),
         }
-    }
-
-    /// Iterates over the rows of one turn, from 0 to 360 degrees inclusive, every `step` (rad).
-    pub fn rows(&self, step: f64) -> impl Iterator<Item = KinematicsRow> + '_ {
-        angle::turn(step).map(|theta| self.row(theta))
     }
 }

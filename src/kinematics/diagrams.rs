@@ -105,23 +105,19 @@ impl ForceAnalysis {
 
     /// Computes the work of all pressures of the scene.
     fn indicated(&self, scene: &Scene) -> Option<Indicated> {
-        let area = |load: &Load| match load {
-            Load::Gas { area, .. } => Some(*area),
+        let gases = scene.forces.iter().filter_map(|load| match load {
+            Load::Gas { area, .. } => Some((load, *area)),
             _ => None,
-        };
-        let forces = scene.forces.iter();
-        let gases: Vec<_> = forces.filter(|load| area(load).is_some()).collect();
-        let area = gases
-            .iter()
-            .filter_map(|load| area(load))
-            .reduce(f64::max)?;
+        });
+        let gases: Vec<(&Load, f64)> = gases.collect();
+        let area = gases.iter().map(|(_, area)| *area).reduce(f64::max)?;
         let linkage = self.linkage();
         let scene_stroke = Limits::new(linkage, self.speed_rad_per_s).stroke;
         let power = |theta: f64| {
             let pose = linkage.pose(theta);
             let now = pose.instant(0.0, theta, 0.0);
-            let force: f64 = gases.iter().map(|load| single(load, true, &now)).sum();
-            force * pose.dx
+            let forces = gases.iter().map(|(load, _)| single(load, true, &now));
+            forces.sum::<f64>() * pose.dx
         };
         let pieces = self.pieces();
         let work_between = areas(&power, &pieces);

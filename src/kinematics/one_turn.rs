@@ -151,8 +151,8 @@ impl OneTurn {
     pub fn row(&self, theta: f64) -> TurnRow {
         let kinematics = self.kinematics.row(theta);
         let motion = |row: &KinematicsRow| match row.rates {
-            Some([v, a, ..]) => [row.x, v, a],
-            None => [row.x, row.dx, row.d2x],
+            Some([v, a, ..]) => [row.pose.x, v, a],
+            None => [row.pose.x, row.pose.dx, row.pose.d2x],
         };
         TurnRow {
             forces: self.forces.as_ref().map(|forces| forces.row(theta)),

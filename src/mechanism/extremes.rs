@@ -4,32 +4,34 @@ use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use multiversion::multiversion;
+use serde::Serialize;
 
 use super::{Class, Linkage, Pose};
 use crate::numeric::angle::{distinct, in_turn, in_turns};
 use crate::numeric::root;
 use crate::numeric::trigonometry::sin_cos;
 
-/// Extreme value and its crank angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
-    /// Value of x' (m/rad) or x'' (m/rad²); times speed, or speed squared, it is the velocity or acceleration.
+/// Value and its crank angle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Located {
+    /// Value, in SI units.
     pub value: f64,
-    /// Crank angle in [0, 2 pi), rad.
-    pub theta: f64,
+    /// Crank angle, rad.
+    pub theta_rad: f64,
 }
 
-/// Extremes over one turn of a crank that turns fully.
+/// Extremes of x' (m/rad) and x'' (m/rad²) over one turn of a crank that turns fully, at angles in [0, 2 pi); times
+/// speed, or speed squared, they are velocity and acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremes {
     /// Largest x'.
-    pub velocity_max: Extreme,
+    pub velocity_max: Located,
     /// Smallest x'.
-    pub velocity_min: Extreme,
+    pub velocity_min: Located,
     /// Largest x''.
-    pub acceleration_max: Extreme,
+    pub acceleration_max: Located,
     /// Smallest x''.
-    pub acceleration_min: Extreme,
+    pub acceleration_min: Located,
 }
 
 impl Extremes {
@@ -92,8 +94,8 @@ fn range(
     at: impl Fn(usize) -> f64,
     slope: impl Fn(f64) -> f64,
     value: impl Fn(f64) -> f64,
-) -> Option<(Extreme, Extreme)> {
-    let mut found: Option<(Extreme, Extreme)> = None;
+) -> Option<(Located, Located)> {
+    let mut found: Option<(Located, Located)> = None;
     for i in 1..grid.len() {
         let (before, after) = (at(i - 1), at(i));
         if before.signum() == after.signum() && before != 0.0 && after != 0.0 {
@@ -104,9 +106,9 @@ fn range(
         let Ok(Some(theta)) = root::between(known, ends, 0.0) else {
             continue;
         };
-        let here = Extreme {
+        let here = Located {
             value: value(theta),
-            theta: in_turn(theta),
+            theta_rad: in_turn(theta),
         };
         let (low, high) = found.get_or_insert((here, here));
         if here.value < low.value {

@@ -45,7 +45,7 @@ pub use curve_equation::{CurveEquation, CurveTerms};
 pub use curve_pose::CurvePose;
 pub use enclosed_state::{EnclosedState, SliderUse, UnitLoadEffects};
 pub use equivalent::EquivalentMasses;
-pub use extremes::{Extreme, Extremes};
+pub use extremes::{Extremes, Located};
 pub use first_order::FirstOrder;
 pub use friction::{Free, FromRest, GuideForces, Jam};
 pub use guide_force::Normal;

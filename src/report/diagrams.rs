@@ -106,7 +106,7 @@ fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
 
 /// Returns one indicator diagram per gas load of the scene.
 fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
-    let distances = rows.iter().map(|row| row.kinematics.x.abs());
+    let distances = rows.iter().map(|row| row.kinematics.pose.x.abs());
     let far = distances.fold(0.0, f64::max);
     let gases = scene.forces.iter().filter_map(|load| match load {
         Load::Gas { pressure, area, .. } => Some((pressure, *area)),
@@ -114,7 +114,7 @@ fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
     });
     let figure = |(pressure, area): (&crate::scene::Table, f64)| {
         let points = rows.iter().map(|row| {
-            let volume = area * (far - row.kinematics.x.abs());
+            let volume = area * (far - row.kinematics.pose.x.abs());
             (1e6 * volume, 1e-5 * pressure.value(row.kinematics.theta))
         });
         Figure::new(

@@ -138,18 +138,10 @@ impl Report for TurnReport<'_> {
 }
 
 fn values(row: &TurnRow) -> Vec<f64> {
-    let at = &row.kinematics;
-    let mut values = vec![
-        at.theta,
-        at.x,
-        at.dx,
-        at.d2x,
-        at.phi,
-        at.dphi,
-        at.d2phi,
-        at.transmission,
-    ];
-    values.extend(at.rates.into_iter().flatten());
+    let (at, rates) = (&row.kinematics.pose, row.kinematics.rates);
+    let mut values = vec![row.kinematics.theta, at.x, at.dx, at.d2x];
+    values.extend([at.phi(), at.dphi, at.d2phi, at.transmission()]);
+    values.extend(rates.into_iter().flatten());
     if let Some(forces) = &row.forces {
         values.push(forces.torque);
         values.extend(forces.inertia.crank);
@@ -169,7 +161,7 @@ fn values(row: &TurnRow) -> Vec<f64> {
         values.extend(slope.torque);
     }
     if let Some([x, v, a]) = row.change {
-        let [at_v, at_a] = at.rates.map_or([at.dx, at.d2x], |[v, a, ..]| [v, a]);
+        let [at_v, at_a] = rates.map_or([at.dx, at.d2x], |[v, a, ..]| [v, a]);
         values.extend([x, v, a, at.x + x, at_v + v, at_a + a]);
     }
     values

@@ -37,7 +37,7 @@ macro_rules! files {
 }
 pub(super) use files;
 
-/// Paper whose formulas can be evaluated.
+/// Paper whose formulas can be evaluated. Data and formulas that cannot be read are [`Error::Refused`].
 pub(super) struct PaperFormulas {
     paper: Paper,
     symbols: BTreeMap<String, Expression>,
@@ -69,9 +69,6 @@ fn wrong(found: &str, wanted: &str) -> Error {
 
 impl PaperFormulas {
     /// Reads the tables of a paper and the formulas of its symbols.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for data that cannot be read.
     pub fn new(paper: Paper, files: Files) -> Result<PaperFormulas, Error> {
         let mut formulas = PaperFormulas {
             paper,
@@ -117,9 +114,6 @@ impl PaperFormulas {
     }
 
     /// Returns the value of a formula at a crank angle, rad.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for a formula that cannot be read.
     pub fn value(&self, formula: &str, theta: f64) -> Result<f64, Error> {
         self.value_at(formula, &now(theta, theta))
     }
@@ -129,9 +123,6 @@ impl PaperFormulas {
     }
 
     /// Returns the values of constant symbols or formulas.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for an unknown name.
     pub fn numbers<const N: usize>(&self, names: [&str; N]) -> Result<[f64; N], Error> {
         let mut values = [0.0; N];
         for (value, name) in values.iter_mut().zip(names) {
@@ -141,9 +132,6 @@ impl PaperFormulas {
     }
 
     /// Returns every printed number and formula with the computed value.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for data that cannot be read.
     pub fn entries(&self) -> Result<Vec<Entry>, Error> {
         self.claims.iter().map(|claim| self.entry(claim)).collect()
     }
@@ -207,9 +195,6 @@ impl PaperFormulas {
     }
 
     /// Returns a column of a printed table, as (abscissa, printed number) of each row.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for data that cannot be read.
     pub fn column(&self, table: &str, column: &str) -> Result<Vec<(f64, f64)>, Error> {
         let wanted = |[place, what, ..]: &&[String; 10]| place == table && what.starts_with(column);
         let rows = self.claims.iter().filter(wanted);
@@ -218,9 +203,6 @@ impl PaperFormulas {
     }
 
     /// Returns every figure.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] for data that cannot be read.
     pub fn drawings(&self) -> Result<Vec<Drawing>, Error> {
         let figures = self.figures.chunk_by(|one, next| one[0] == next[0]);
         figures.map(|curves| self.drawing(curves)).collect()

@@ -233,13 +233,8 @@ impl Sweep {
             } else if begun.elapsed() > BATCH_TIME {
                 count = (count / 2).max(16);
             }
-            if self
-                .options
-                .run
-                .stop
-                .as_ref()
-                .is_some_and(Stop::is_requested)
-            {
+            let stop = self.options.run.stop.as_ref();
+            if stop.is_some_and(Stop::is_requested) {
                 return Err(Error::Interrupted);
             }
             take(made)?;

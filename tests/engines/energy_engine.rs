@@ -280,7 +280,7 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
         .start(1.0, 30.0)
         .duration(1.0);
     let kinematics = slider_crank::kinematics::kinematics(&scene).unwrap();
-    let row = kinematics.row(1.0);
+    let row = kinematics.row(1.0).pose;
     let speed = (row.dx * 30.0).abs();
     let run = by_energy(&scene);
     let stroke = kinematics.stroke_m;
@@ -294,7 +294,7 @@ fn inertia_that_vanishes_at_the_dead_centres_is_passed() {
     } else {
         inner + rest
     };
-    let end = kinematics.row(run.summary.last.theta_rad);
+    let end = kinematics.row(run.summary.last.theta_rad).pose;
     assert!((end.x - x).abs() < 1e-12, "{} {x}", end.x);
     assert_eq!(run.summary.events_total as f64, strokes);
     // v = x' ω with x' = 0: no finite speed of the crank suffices, whatever rounding leaves of x'.

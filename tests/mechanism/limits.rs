@@ -7,7 +7,7 @@ use crate::support::exact::Dd;
 use crate::support::random::{angle, any_class, cases, rotating_crank};
 use crate::support::{Exact, Sizes, close, condition, geometry};
 use proptest::prelude::*;
-use slider_crank::mechanism::{Class, Extreme, Extremes, Limits, Linkage};
+use slider_crank::mechanism::{Class, Extremes, Limits, Linkage, Located};
 use slider_crank::scene::{Branch, Geometry};
 
 proptest! {
@@ -159,9 +159,9 @@ proptest! {
 
 /// Checks that an extreme is a value of the derivative of this order, and that the next derivative vanishes up to its
 /// own rounding and that of the angle.
-fn check_extreme(g: &Geometry, order: usize, extreme: &Extreme) {
-    assert!((0.0..TAU).contains(&extreme.theta));
-    let exact = Exact::new(g, extreme.theta);
+fn check_extreme(g: &Geometry, order: usize, extreme: &Located) {
+    assert!((0.0..TAU).contains(&extreme.theta_rad));
+    let exact = Exact::new(g, extreme.theta_rad);
     let sizes = Sizes::new(g, &exact);
     let (size, next) = if order == 1 {
         (sizes.dx, sizes.d2x)
@@ -170,7 +170,7 @@ fn check_extreme(g: &Geometry, order: usize, extreme: &Extreme) {
     };
     close("extreme", extreme.value, exact.p[0].d(order), size, 1e-14);
     let slope =
-        |ulps: f64| Exact::new(g, extreme.theta + ulps * f64::EPSILON * TAU).p[0].d(order + 1);
+        |ulps: f64| Exact::new(g, extreme.theta_rad + ulps * f64::EPSILON * TAU).p[0].d(order + 1);
     let rounding = (slope(2.0) - slope(-2.0)).abs();
     close(
         "slope at the extreme",
