@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::default_view::DefaultView;
-use super::figure::{Axis, Figure, Shape, Sheet};
+use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::rounded;
 use super::quantity::{Quantity, base, curves, split};
 use super::table::Table;
@@ -22,10 +22,7 @@ pub struct View {
 }
 
 impl View {
-    /// Refuses names that are no columns of this CSV header.
-    ///
-    /// # Errors
-    /// [`Error::Refused`], which lists the columns.
+    /// Refuses names that are no columns of this CSV header, with a list of its columns.
     pub fn check(&self, header: &str) -> Result<(), Error> {
         let names: Vec<&str> = header.split(',').collect();
         for text in &self.show {
@@ -90,12 +87,7 @@ impl View {
             let above = figures[..above].iter_mut();
             above.for_each(|figure| figure.x.label.clear());
         }
-        let sheet = Sheet {
-            title: default.title,
-            columns,
-            size: self.size,
-        };
-        sheet.svg(&figures)
+        sheet(default.title, columns, self.size, &figures)
     }
 }
 

@@ -2,7 +2,7 @@
 //! bearings, orders, first-order balance.
 
 use super::curves::CURVE_STEP;
-use super::figure::{Axis, Figure, Shape, Sheet};
+use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::{Facts, degrees, fact, six};
 use crate::error::Error;
 use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
@@ -26,10 +26,8 @@ named! {
 }
 
 impl Diagram {
-    /// Returns the diagram as SVG; none if the scene lacks the load or cycle it shows.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if the diagram does not fit into `size`.
+    /// Returns the diagram as SVG; none if the scene lacks the load or cycle it shows. Refused if it does not fit into
+    /// `size`.
     pub fn svg(
         self,
         result: &OneTurn,
@@ -50,12 +48,8 @@ impl Diagram {
         if figures.is_empty() {
             return Ok(None);
         }
-        let sheet = Sheet {
-            title: &result.kinematics.scene,
-            columns: if figures.len() > 2 { 2 } else { 1 },
-            size,
-        };
-        sheet.svg(&figures).map(Some)
+        let columns = if figures.len() > 2 { 2 } else { 1 };
+        sheet(&result.kinematics.scene, columns, size, &figures).map(Some)
     }
 }
 
@@ -133,11 +127,16 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
         let (sin, cos) = row.kinematics.theta.sin_cos();
         (x * cos + y * sin, y * cos - x * sin)
     };
-    let figure = |title: &str, turns: bool, of: fn(&Reactions) -> [f64; 2]| {
-        let [along, across] = match turns {
-            true => ["along the crank [N]", "across it [N]"],
-            false => ["along x [N]", "along y [N]"],
+    let figure = |what: &str, turns: bool, of: fn(&Reactions) -> [f64; 2]| {
+        let [how, along, across] = match turns {
+            true => [
+                "turning with the crank",
+                "along the crank [N]",
+                "across it [N]",
+            ],
+            false => ["at rest", "along x [N]", "along y [N]"],
         };
+        let title = format!("{what}, {how}");
         let points = rows.iter().filter_map(|row| {
             let force = of(&row.forces?.reactions);
             Some(match turns {
@@ -150,19 +149,14 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
             .line("", points.collect())
             .points("", vec![(0.0, 0.0)])
     };
-    let [pin, wrist] = [
-        "force on the rod at the crank pin, turning with the crank",
-        "force on the slider at the wrist pin, at rest",
-    ];
-    let [turning, at_rest] = [
-        "force on the crank at its bearing, turning with the crank",
-        "force on the crank at its bearing, at rest",
-    ];
+    let bearing = "force on the crank at its bearing";
     vec![
-        figure(pin, true, |forces| forces.crank_pin),
-        figure(turning, true, |forces| forces.crank_bearing),
-        figure(at_rest, false, |forces| forces.crank_bearing),
-        figure(wrist, false, |forces| forces.wrist_pin),
+        figure("force on the rod at the crank pin", true, |f| f.crank_pin),
+        figure(bearing, true, |f| f.crank_bearing),
+        figure(bearing, false, |f| f.crank_bearing),
+        figure("force on the slider at the wrist pin", false, |f| {
+            f.wrist_pin
+        }),
     ]
 }
 

@@ -37,7 +37,7 @@ pub use curves::View;
 pub use default_view::DefaultView;
 pub use diagrams::Diagram;
 pub use explain::explanation;
-pub use figure::{Axis, Figure, Shape, Sheet};
+pub use figure::{Axis, Figure, Shape, sheet};
 pub use identify::{identification, identification_csv};
 pub use inverse::{InverseReport, inverse_table, mean_cycle_table, residual_table};
 pub use key_values::Facts;

@@ -2,7 +2,7 @@
 
 use super::csv::{self, CsvCell};
 use super::default_view::{DefaultView, Scatter};
-use super::figure::{Axis, Figure, Shape, Sheet};
+use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::{Facts, fact, six, text_table};
 use super::page::{self, Origin};
 use super::table::Table;
@@ -148,10 +148,8 @@ pub fn precision_notes(scene: &Precision) -> Vec<String> {
     notes
 }
 
-/// Returns angle error against wall time as SVG, one panel per scene with measured errors, one colour per method.
-///
-/// # Errors
-/// [`Error::Refused`] if there is no room for all scenes.
+/// Returns angle error against wall time as SVG, one panel per scene with measured errors, one colour per method. Refused
+/// if there is no room for all scenes.
 pub fn precision_figure(scenes: &[Precision], size: Option<Shape>) -> Result<String, Error> {
     let mut methods: Vec<&str> = Vec::new();
     for row in scenes.iter().flat_map(|scene| &scene.rows) {
@@ -162,12 +160,7 @@ pub fn precision_figure(scenes: &[Precision], size: Option<Shape>) -> Result<Str
     let any = |scene: &&Precision| scene.rows.iter().any(|row| measured(row).is_some());
     let told = scenes.iter().filter(any);
     let figures: Vec<_> = told.map(|scene| panel(scene, &methods)).collect();
-    let sheet = Sheet {
-        title: "Speed against error",
-        columns: 2,
-        size,
-    };
-    sheet.svg(&figures)
+    sheet("Speed against error", 2, size, &figures)
 }
 
 /// Returns wall time (s) and angle error (rad) of a row that has both.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::csv::{self, CsvCell};
 use super::key_values::{aligned, rounded};
-use super::{Axis, Figure, Sheet};
+use super::{Axis, Figure, sheet};
 use crate::error::Error;
 use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
 
@@ -116,12 +116,7 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
 /// Returns a figure as SVG.
 pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
     let figures: Vec<Figure> = drawing.plots.iter().map(figure).collect();
-    let sheet = Sheet {
-        title: &drawing.title,
-        columns: 2,
-        size: None,
-    };
-    sheet.svg(&figures)
+    sheet(&drawing.title, 2, None, &figures)
 }
 
 fn figure(plot: &Plot) -> Figure {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use slider_crank::report::{Axis, Figure, Shape, Sheet};
+use slider_crank::report::{Axis, Figure, Shape, sheet};
 
 fn svg(figure: &Figure) -> String {
     let text = figure.to_svg().expect("a figure");
@@ -362,12 +362,7 @@ fn panels_stand_side_by_side() {
     };
     let one = size(&svg(&figures[0]));
     let panels = |title, figures: &[Figure], columns| {
-        let sheet = Sheet {
-            title,
-            columns,
-            size: None,
-        };
-        sheet.svg(figures).expect("a figure")
+        sheet(title, columns, None, figures).expect("a figure")
     };
     let two = panels("All", &figures, 2);
     check(&two);
@@ -386,17 +381,13 @@ fn panels_stand_side_by_side() {
 fn a_sheet_has_the_size_it_is_given() {
     let (x, y) = axes();
     let figures = [Figure::new("one", x, y).line("a", sine(20))];
-    let sheet = |width, height| Sheet {
-        title: "All & <more>",
-        size: Some(Shape { width, height }),
-        ..Sheet::default()
-    };
-    let svg = sheet(90.0, 70.0).svg(&figures).expect("a figure");
+    let of = |width, height| sheet("All & <more>", 0, Some(Shape { width, height }), &figures);
+    let svg = of(90.0, 70.0).expect("a figure");
     check(&svg);
     assert_eq!(attribute(&svg, "width"), "90mm");
     assert_eq!(attribute(&svg, "height"), "70mm");
     assert!(svg.contains("<title>All &amp; &lt;more&gt;</title>"));
-    let small = sheet(10.0, 70.0).svg(&figures).expect_err("too small");
+    let small = of(10.0, 70.0).expect_err("too small");
     assert!(
         small.to_string().contains("too small for 1 panels"),
         "{small}"

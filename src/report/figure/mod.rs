@@ -10,6 +10,7 @@ mod words;
 
 use crate::error::Error;
 pub use axis::Axis;
+pub use sheet::sheet;
 pub(super) use words::escaped;
 
 /// Resolution of a figure, pixels per inch: that of CSS.
@@ -140,11 +141,8 @@ impl Figure {
     }
 
     /// Returns the figure as SVG; equal figures give equal texts.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if the picture is too small.
     pub fn to_svg(&self) -> Result<String, Error> {
-        Sheet::default().svg(std::slice::from_ref(self))
+        sheet("", 1, None, std::slice::from_ref(self))
     }
 
     /// Returns coordinates of all points that can be drawn on both axes.
@@ -169,15 +167,4 @@ pub struct Shape {
     pub width: f64,
     /// Height, mm.
     pub height: f64,
-}
-
-/// Sheet of several figures in rows of `columns` figures, under a common title.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sheet<'a> {
-    /// Title above all figures.
-    pub title: &'a str,
-    /// Number of figures side by side; 0 counts as 1.
-    pub columns: usize,
-    /// Size of the sheet; by default each figure has its usual size.
-    pub size: Option<Shape>,
 }

@@ -5,18 +5,13 @@ use crate::error::Error;
 use crate::inverse::{Inverse, Residual};
 use crate::report::curves::{CURVE_POINTS, axis};
 use crate::report::quantity::Quantity;
-use crate::report::{Axis, Figure, Report, Sheet, View};
+use crate::report::{Axis, Figure, Report, View, sheet};
 
 /// Returns data and fit, residuals, force and torque as SVG, with the forces printed by Duarte et al. if given.
 pub(super) fn figure(report: &InverseReport, view: &View) -> Result<String, Error> {
     let mut figures = samples(report.result).to_vec();
     figures.extend(loads(report, view)?);
-    let sheet = Sheet {
-        title: &report.result.summary.scene,
-        columns: 2,
-        size: view.size,
-    };
-    sheet.svg(&figures)
+    sheet(&report.result.summary.scene, 2, view.size, &figures)
 }
 
 /// Returns the time axis over all samples, with or without a force.
