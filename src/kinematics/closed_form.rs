@@ -129,20 +129,16 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
 
 /// Returns the warnings about one turn of a mechanism of a class.
 pub(crate) fn warnings(class: Class) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if class == Class::ChangePoint {
-        warnings.push(
-            "the lengths make a change point: the mechanism can leave it on either branch"
-                .to_owned(),
-        );
-    }
-    if class != Class::RotatingCrank {
-        warnings.push(
-            "velocity and acceleration grow without bound towards the limit positions of the crank"
-                .to_owned(),
-        );
-    }
-    warnings
+    let change_point =
+        "the lengths make a change point: the mechanism can leave it on either branch";
+    let limits =
+        "velocity and acceleration grow without bound towards the limit positions of the crank";
+    let said: &[&str] = match class {
+        Class::RotatingCrank => &[],
+        Class::ChangePoint => &[change_point, limits],
+        Class::RotatingRod | Class::DoubleRocker => &[limits],
+    };
+    said.iter().map(|what| (*what).to_owned()).collect()
 }
 
 impl Kinematics {

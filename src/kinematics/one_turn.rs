@@ -42,8 +42,9 @@ pub struct OneTurn {
     /// Kinematics of the mechanism with changed lengths.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub changed: Option<Kinematics>,
+    /// Whether rows have derivatives with respect to the lengths.
     #[serde(skip)]
-    has_slopes: bool,
+    pub has_slopes: bool,
     /// Derivatives of the driving torque; none if not asked for or not known.
     #[serde(skip)]
     torque_slope: Option<TorqueSlope>,
@@ -173,11 +174,6 @@ impl OneTurn {
     /// Iterates over the rows of all turns, from 0 to the end inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
         angle::turns(self.turns(), step).map(|theta| self.row(theta))
-    }
-
-    /// Whether rows have derivatives with respect to the lengths.
-    pub fn has_slopes(&self) -> bool {
-        self.has_slopes
     }
 
     fn slopes(&self, theta: f64) -> [LengthSlope; 3] {

@@ -6,7 +6,7 @@ use std::fmt::{Display, Write};
 use crate::scene;
 
 /// Ordered list of names and values; names that belong to the preceding one begin with spaces.
-pub struct Facts(Vec<(String, String)>);
+pub struct Facts(pub(super) Vec<(String, String)>);
 
 impl Facts {
     /// Starts the facts of a scene with its title, if not empty.
@@ -28,18 +28,11 @@ impl Facts {
         }
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
-        let facts = self.0.iter();
-        facts.map(|(name, value)| (name.as_str(), value.as_str()))
-    }
-
     /// Returns one line per fact, values aligned after names padded to `width` characters.
     pub(super) fn lines(&self, width: usize) -> String {
-        let mut text = String::new();
-        for (name, value) in self.iter() {
-            let _ = writeln!(text, "{name:<width$} {value}");
-        }
-        text
+        let lines = self.0.iter();
+        let lines = lines.map(|(name, value)| format!("{name:<width$} {value}\n"));
+        lines.collect()
     }
 }
 

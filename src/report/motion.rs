@@ -31,10 +31,8 @@ impl PlotRows {
         }
     }
 
-    /// Takes a row, and keeps it if its block has no row of larger contact force.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] at the first row if it lacks columns of the view.
+    /// Takes a row, and keeps it if its block has no row of larger contact force. The first row is refused if it lacks
+    /// columns of the view.
     pub fn take(&mut self, row: &Row) -> Result<(), Error> {
         if self.rows.kept().is_empty() {
             self.view.check(&columns(row))?;

@@ -50,7 +50,7 @@ impl TurnReport<'_> {
             columns.push(format!("{FORCES},{REACTIONS},{FIRST_ORDER}"));
         }
         for length in ["crank", "rod", "offset"] {
-            if result.has_slopes() {
+            if result.has_slopes {
                 // A derivative by a length has one factor m less in its unit.
                 let name = |(name, unit): (&str, &str)| {
                     format!("{name}_by_{length}{}", unit.trim_start_matches('m'))

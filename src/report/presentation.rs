@@ -27,10 +27,7 @@ pub trait Report {
         self.table().csv(output)
     }
 
-    /// Returns the columns of a view as SVG.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if a column is missing, or the picture is too small.
+    /// Returns the columns of a view as SVG. Refused if a column is missing, or the picture is too small.
     fn figure(&self, view: &View) -> Result<String, Error> {
         view.svg(&self.table(), self.default_view())
     }

@@ -54,8 +54,6 @@ pub struct Difference {
 
 impl Comparison {
     /// Compares motions at the times of the first. Whole turns between angles at the first common time are removed.
-    ///
-    /// # Errors
     /// [`Error::Refused`] if motions have no column or no time in common.
     pub fn new(motions: &[Motion]) -> Result<Comparison, Error> {
         let [first, others @ ..] = motions else {

@@ -27,10 +27,8 @@ impl Motion {
         }
     }
 
-    /// Reads the motion of a file: rows written by this program, else a measured motion.
-    ///
-    /// # Errors
-    /// [`Error::Read`] and [`Error::Scene`] for a file that is neither.
+    /// Reads the motion of a file: rows written by this program, else a measured motion. [`Error::Read`] and
+    /// [`Error::Scene`] for a file that is neither.
     pub fn of_file(file: &Path) -> Result<Motion, Error> {
         let name = file.display().to_string();
         if let Some(table) = own_rows(file) {

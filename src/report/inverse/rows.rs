@@ -89,11 +89,9 @@ fn rows(result: &Inverse, printed: Option<&AsPrinted>, stride: usize) -> Table {
                 None => cells.extend([f64::NAN; 10]),
             }
         }
-        cells.extend(
-            printed
-                .iter()
-                .flat_map(|of| of.forces(row).unwrap_or([f64::NAN; 2])),
-        );
+        if let Some(printed) = printed {
+            cells.extend(printed.forces(row).unwrap_or([f64::NAN; 2]));
+        }
         cells.extend([sample.measured, sample.residual]);
         cells
     });

@@ -59,16 +59,13 @@ fn listed(event: &Event) -> [String; 4] {
 }
 
 /// Renders the page. It loads nothing from elsewhere, and escapes all texts of the scene.
-///
-/// # Errors
-/// [`Error::Write`] if the template fails, a defect of the program.
 pub(super) fn html(
     origin: &Origin,
     facts: &Facts,
     table: &Table,
     default: &DefaultView<'_>,
 ) -> Result<String, Error> {
-    let (titles, facts): (Vec<_>, Vec<_>) = facts.iter().partition(|(name, _)| *name == "scene");
+    let (titles, facts): (Vec<_>, Vec<_>) = facts.0.iter().partition(|(name, _)| name == "scene");
     let mut notes = Vec::new();
     if table.stride > 1 {
         notes.push(format!("One in {} rows is shown.", table.stride));
@@ -108,14 +105,14 @@ pub(super) fn html(
     let page = context! {
         title => titles.first().map_or("A slider-crank", |(_, title)| title),
         version => env!("CARGO_PKG_VERSION"),
-        facts => Value::from_serialize(&facts),
-        terms => Value::from_serialize(&terms),
-        notes => Value::from_serialize(&notes),
+        facts,
+        terms,
+        notes,
         scene => &origin.scene,
         command => &origin.command,
-        events => Value::from_serialize(&listed),
+        events => listed,
         events_left => others.len(),
-        figures => Value::from_serialize(&default.figures),
+        figures => default.figures,
         has_scatter => default.scatter.is_some(),
         has_motion => default.scene.is_some(),
         style => Value::from_safe_string(STYLE.to_owned()),

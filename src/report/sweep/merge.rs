@@ -19,11 +19,7 @@ struct PartFile<'a> {
 }
 
 /// Merges the files of the parts of a sweep, given in any order, into `out`; returns counts, ranges and Pareto front,
-/// with percentiles if asked for.
-///
-/// # Errors
-/// [`Error::Read`]; [`Error::Refused`] if no part has the header, or at the first missing or repeated design;
-/// [`Error::Write`].
+/// with percentiles if asked for. Refused if no part has the header, or at the first missing or repeated design.
 pub fn merge(
     paths: &[PathBuf],
     out: Option<&Path>,

@@ -63,11 +63,8 @@ enum Target {
 
 impl<'a> SweepWriter<'a> {
     /// Opens the target of part `part` of `parts`, counted from 1: none, `-` for standard output, or a file, resumed
-    /// if an interrupted sweep left rows.
-    ///
-    /// # Errors
-    /// [`Error::Write`]; [`Error::Refused`] if a goal is no figure of the sweep, the file belongs to another sweep, or
-    /// another process is writing it.
+    /// if an interrupted sweep left rows. Refused if a goal is no figure of the sweep, the file belongs to another sweep,
+    /// or another process is writing it.
     pub fn new(
         path: Option<&Path>,
         sweep: &'a Sweep,
@@ -130,9 +127,6 @@ impl<'a> SweepWriter<'a> {
 
     /// Computes the missing designs on all cores and writes their rows; `progress` is told how many designs of the sweep
     /// are done. Rows of a file have been passed to the system before `progress` is called.
-    ///
-    /// # Errors
-    /// [`Error::Interrupted`]; [`Error::Write`].
     pub fn compute(&mut self, mut progress: impl FnMut(usize)) -> Result<(), Error> {
         let (sweep, missing) = (self.sweep, self.missing());
         let is_written = !matches!(self.target, Target::Nothing);

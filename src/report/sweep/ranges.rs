@@ -135,11 +135,9 @@ pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Res
     }
     let keys = summary.varied.len();
     let column = |place: usize| table.names().nth(place).unwrap_or_default().to_owned();
-    let figures = (keys + 2..).map(column);
-    let first = figures
-        .take_while(|name| !name.is_empty())
-        .find(|name| table.numbers(name).is_some())
-        .unwrap_or_default();
+    let mut figures = table.names().skip(keys + 2);
+    let first = figures.find(|name| table.numbers(name).is_some());
+    let first = first.unwrap_or_default().to_owned();
     // Two keys span the plane of a map, coloured by the first key figure.
     let (y, colour) = match keys {
         2 => (column(2), first),

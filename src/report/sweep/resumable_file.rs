@@ -21,10 +21,7 @@ pub(super) struct ResumableFile {
 
 impl ResumableFile {
     /// Opens the file of an interrupted run and passes its complete rows to `row`, or starts a new one with `header`.
-    ///
-    /// # Errors
-    /// [`Error::Write`], [`Error::Refused`] if the file has another mark or another process writes it, and errors of
-    /// `row`.
+    /// Refused if the file has another mark or another process writes it.
     pub fn open(
         target: &Path,
         mark: &str,

@@ -30,10 +30,8 @@ struct ColumnTally {
 }
 
 impl Tally {
-    /// Starts an accumulator for rows with these columns; `is_sample` asks for percentiles.
-    ///
-    /// # Errors
-    /// [`Error::Refused`] if the columns lack `status` or a goal.
+    /// Starts an accumulator for rows with these columns; `is_sample` asks for percentiles. Refused if the columns lack
+    /// `status` or a goal.
     pub fn new(header: &[String], is_sample: bool, goals: &[Goal]) -> Result<Tally, Error> {
         let place = |name: &str| header.iter().position(|column| column == name);
         let before = place("status").ok_or_else(|| {
