@@ -38,11 +38,8 @@ pub enum Cells {
 impl Table {
     /// Returns an empty table with the columns of a CSV header.
     pub(super) fn new(header: &str) -> Table {
-        let column = |name: &str| Column {
-            name: name.to_owned(),
-            cells: Cells::Numbers(Vec::new()),
-        };
-        Table::of_columns(header.split(',').map(column).collect())
+        let names = header.split(',');
+        Table::of_numbers(names.map(|name| (name.to_owned(), Vec::new())))
     }
 
     /// Returns a table of rows of numbers under a CSV header.
@@ -53,6 +50,15 @@ impl Table {
         let mut table = Table::new(header);
         rows.into_iter().for_each(|row| table.push(row));
         table
+    }
+
+    /// Returns a table of columns of numbers, one value for each row, with their names.
+    pub(super) fn of_numbers(columns: impl IntoIterator<Item = (String, Vec<f64>)>) -> Table {
+        let column = |(name, values)| Column {
+            name,
+            cells: Cells::Numbers(values),
+        };
+        Table::of_columns(columns.into_iter().map(column).collect())
     }
 
     fn of_columns(columns: Vec<Column>) -> Table {

@@ -2,8 +2,6 @@
 
 mod motion;
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
 use super::key_values::{Facts, fact, six};
@@ -67,8 +65,7 @@ impl Comparison {
         let all_have = |name: &str| others.iter().all(|other| has(other, name));
         let shared = |name: &&str| *name != TIME && all_have(name);
         let columns: Vec<&str> = first.table.names().filter(shared).collect();
-        let mut names = TIME.to_owned();
-        let mut values = vec![times.to_vec()];
+        let mut table = vec![(TIME.to_owned(), times.to_vec())];
         let mut differences = Vec::new();
         let mut warnings = Vec::new();
         for other in others {
@@ -82,8 +79,7 @@ impl Comparison {
         for column in columns {
             let (base, unit) = split(column);
             let own = first.table.numbers(column).unwrap_or_default();
-            let _ = write!(names, ",{base}_of_1{unit}");
-            values.push(own.to_vec());
+            table.push((format!("{base}_of_1{unit}"), own.to_vec()));
             for (number, other) in (2..).zip(others) {
                 let (mut theirs, between) = other.at(column, times);
                 let mut off: Vec<f64> = theirs.iter().zip(own).map(|(b, a)| b - a).collect();
@@ -93,10 +89,6 @@ impl Comparison {
                         *value -= turns;
                     }
                 }
-                let _ = write!(
-                    names,
-                    ",{base}_of_{number}{unit},{base}_difference_{number}{unit}"
-                );
                 differences.extend(difference(column, &other.name, times, &off));
                 if between && base == "theta" {
                     let name = &other.name;
@@ -104,7 +96,8 @@ impl Comparison {
                         "{name} has other times: cubics through four of its rows stand between them"
                     ));
                 }
-                values.extend([theirs, off]);
+                table.push((format!("{base}_of_{number}{unit}"), theirs));
+                table.push((format!("{base}_difference_{number}{unit}"), off));
             }
         }
         if differences.is_empty() {
@@ -113,8 +106,6 @@ impl Comparison {
                 "compare scenes, rows of `simulate --out` or measured motions with overlapping times",
             ));
         }
-        let row = |k: usize| values.iter().map(move |column| column[k]);
-        let table = Table::filled(&names, (0..times.len()).map(row));
         let names: Vec<String> = motions.iter().map(|motion| motion.name.clone()).collect();
         Ok(Comparison {
             title: names.join(", "),
@@ -123,7 +114,7 @@ impl Comparison {
             compared,
             differences,
             warnings,
-            table,
+            table: Table::of_numbers(table),
         })
     }
 }

@@ -45,9 +45,8 @@ impl Motion {
             Measured::Theta => measured.unwrapped()?.theta,
             _ => measured.values().to_vec(),
         };
-        let rows = measured.times().iter().zip(values);
-        let rows = rows.map(|(t, value)| [*t, value]);
-        let table = Table::filled(&format!("{TIME},{column}"), rows);
+        let times = (TIME.to_owned(), measured.times().to_vec());
+        let table = Table::of_numbers([times, (column.to_owned(), values)]);
         Ok(Motion { name, table })
     }
 
