@@ -6,34 +6,11 @@
 use std::f64::consts::TAU;
 
 use crate::error::Error;
-use crate::scene::{Clearance, Every, Joint, Rod, Scene, Slider};
+use crate::scene::{Every, Scene};
 use crate::simulate::{Options, Row, simulate_rows};
 
 /// Crank speeds by name, rpm: high, normal, low.
 const SPEEDS: [(&str, f64); 3] = [("rpm400", 400.0), ("rpm300", 300.0), ("rpm30", 30.0)];
-
-fn scene(speed: f64) -> Scene {
-    let mut scene = Scene::new(0.14, 0.31)
-        .offset(0.06)
-        .rod(Rod {
-            mass: 1.56,
-            cg: 0.155,
-            inertia: 14_559.334_82e-6,
-            ..Rod::default()
-        })
-        .slider(Slider { mass: 1.95 })
-        .constant_speed(0.0, speed * TAU / 60.0)
-        .output_every(Every::Angle(1f64.to_radians()));
-    scene.clearance = Some(Clearance {
-        bearing_radius: Some(0.01),
-        young_modulus: Some(207e9),
-        poisson_ratio: Some(0.3),
-        restitution: Some(0.9),
-        friction: Some(0.05),
-        ..Clearance::new(Joint::CrankPin, 1e-3)
-    });
-    scene
-}
 
 /// One turn at each of [`SPEEDS`], a row for each degree.
 pub(super) struct LooseTurns([Vec<Row>; 3]);
@@ -45,9 +22,14 @@ impl LooseTurns {
             estimate: false,
             ..Options::default()
         };
+        let text = include_str!("../../data/gupta-clearance-300rpm.toml");
+        let scene = Scene::parse("gupta-clearance-300rpm.toml".as_ref(), text)?;
+        let scene = scene.revolutions(2.0);
+        let scene = scene.output_every(Every::Angle(1f64.to_radians()));
         let mut turns = LooseTurns([const { Vec::new() }; 3]);
         for ((_, speed), rows) in SPEEDS.iter().zip(&mut turns.0) {
-            simulate_rows(&scene(*speed).revolutions(2.0), &options, rows)?;
+            let scene = scene.clone().constant_speed(0.0, speed * TAU / 60.0);
+            simulate_rows(&scene, &options, rows)?;
             rows.retain(|row| row.theta >= (1.0 - 1e-9) * TAU);
         }
         Ok(turns)

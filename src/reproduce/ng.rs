@@ -20,10 +20,10 @@ pub(super) fn formulas() -> Result<PaperFormulas, Error> {
             friction: Some(friction),
             ..StaticsOptions::default()
         };
-        Ok(MechanismQuantities::held(
-            scene.clone(),
-            statics(&scene, &options)?,
-        ))
+        let statics = statics(&scene, &options)?;
+        let mut held = MechanismQuantities::new(scene);
+        held.statics = Some(statics);
+        Ok(held)
     };
     let mechanisms = vec![
         ("described", held(torque)?),

@@ -13,7 +13,8 @@ pub(super) struct MechanismQuantities {
     linkage: Linkage,
     limits: Limits,
     forces: OnceCell<Option<ForceAnalysis>>,
-    statics: Option<StaticAnalysis>,
+    /// Equilibrium of a mechanism at rest.
+    pub statics: Option<StaticAnalysis>,
 }
 
 impl MechanismQuantities {
@@ -25,13 +26,6 @@ impl MechanismQuantities {
             scene,
             forces: OnceCell::new(),
             statics: None,
-        }
-    }
-
-    pub fn held(scene: Scene, statics: StaticAnalysis) -> MechanismQuantities {
-        MechanismQuantities {
-            statics: Some(statics),
-            ..MechanismQuantities::new(scene)
         }
     }
 
