@@ -129,7 +129,6 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let options = SweepOptions {
         figures,
         sample: sample.map(|count| LatinHypercube { count, seed }),
-        diagrams: false,
         motion: !arguments.no_motion,
         steady: arguments.steady_state,
         fluctuation: arguments.fluctuation,

@@ -71,7 +71,7 @@ impl Design {
         self.kinematics = options
             .has(Source::Turn)
             .then(|| kinematics::of_checked(scene));
-        if options.diagrams {
+        if options.has(Source::Diagrams) {
             self.notes.extend(left_out_of_forces(scene));
             match forces(scene) {
                 // Counterweight for half of the reciprocating mass, the usual part.

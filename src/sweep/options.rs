@@ -7,12 +7,11 @@ use crate::simulate::{Options, check_fluctuation};
 /// Computations asked of every design, beyond the scene.
 #[derive(Clone, Debug)]
 pub struct SweepOptions {
-    /// Key figures, which decide the computations; if empty, all figures of the turn and of the computations below.
+    /// Key figures, which decide the computations; if empty, all figures of the turn and of the computations below,
+    /// without those of the diagrams of a cycle.
     pub figures: Vec<Figure>,
     /// Latin hypercube sample of the varied keys, in place of all combinations.
     pub sample: Option<LatinHypercube>,
-    /// Whether to compute the diagrams of a cycle.
-    pub diagrams: bool,
     /// Whether to compute the forward motion, for scenes with a run.
     pub motion: bool,
     /// Whether to search for the periodic steady state.
@@ -28,7 +27,6 @@ impl Default for SweepOptions {
         SweepOptions {
             figures: Vec::new(),
             sample: None,
-            diagrams: false,
             motion: true,
             steady: false,
             fluctuation: None,
@@ -53,7 +51,6 @@ impl SweepOptions {
         if named {
             self.run.reactions = takes(Source::Peaks);
             self.motion = self.run.reactions || takes(Source::Motion);
-            self.diagrams = takes(Source::Diagrams);
             self.steady = takes(Source::Steady) || takes(Source::Flywheel);
         } else {
             self.steady |= self.fluctuation.is_some();
@@ -82,11 +79,10 @@ impl SweepOptions {
 
     /// Whether the options ask for the computation `source`.
     pub(super) fn has(&self, source: Source) -> bool {
+        let is_named = self.figures.iter().any(|one| one.source == source);
         match source {
-            Source::Turn => {
-                self.figures.is_empty() || self.figures.iter().any(|one| one.source == source)
-            }
-            Source::Diagrams => self.diagrams,
+            Source::Turn => self.figures.is_empty() || is_named,
+            Source::Diagrams => is_named,
             Source::Motion => self.motion,
             Source::Peaks => self.run.reactions,
             Source::Steady => self.steady,
