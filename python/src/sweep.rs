@@ -79,7 +79,6 @@ impl Asked {
                 max_evaluations: self.max_evaluations.unwrap_or(default.max_evaluations),
                 ..default
             },
-            ..SweepOptions::default()
         })
     }
 }

@@ -296,9 +296,9 @@ fn with_offset_equal_to_the_crank_the_speed_is_extreme_where_the_rod_lies_along_
         let extremes = |e| Extremes::new(&Linkage::new(&geometry(1.0, 3.0, e, branch))).unwrap();
         let (above, below) = (extremes(-1.0).velocity_min, extremes(1.0).velocity_max);
         close("least x'", above.value, -1.0, 1.0, 1e-15);
-        close("its angle", above.theta, FRAC_PI_2, 1.0, 1e-14);
+        close("its angle", above.theta_rad, FRAC_PI_2, 1.0, 1e-14);
         close("largest x'", below.value, 1.0, 1.0, 1e-15);
-        close("its angle", below.theta, 3.0 * FRAC_PI_2, 1.0, 1e-14);
+        close("its angle", below.theta_rad, 3.0 * FRAC_PI_2, 1.0, 1e-14);
     }
 }
 
