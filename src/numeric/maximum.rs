@@ -23,33 +23,23 @@ pub fn largest_to(mut f: impl FnMut(f64) -> f64, [a, b]: [f64; 2], width: f64) -
     brent(&mut f, [a, b], [first; 3], 0.0, width)
 }
 
-/// Locates the maximum as [`largest`], of a function known at three places in order and no smaller at the middle one.
-pub fn between(mut f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
-    let [low, middle, high] = known;
-    let (next, last) = if low.1 > high.1 {
-        (low, high)
-    } else {
-        (high, low)
-    };
-    let width = high.0 - low.0;
-    brent(
-        &mut f,
-        [low.0, high.0],
-        [middle, next, last],
-        width,
-        FINAL_WIDTH * width,
-    )
-}
-
 /// Locates the maximum of a function next to a place, and its value: `known` at the place and its neighbours, of which
 /// the place itself may be one.
-pub fn beside(f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
-    let [(from, _), here, (to, _)] = known;
-    let between = match from < here.0 && here.0 < to {
-        true => between(f, known),
-        false => largest(f, from, to),
+pub fn beside(mut f: impl FnMut(f64) -> f64, known: [(f64, f64); 3]) -> (f64, f64) {
+    let [from, here, to] = known;
+    let width = to.0 - from.0;
+    let found = if from.0 < here.0 && here.0 < to.0 {
+        let (next, last) = if from.1 > to.1 {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        let (ends, best) = ([from.0, to.0], [here, next, last]);
+        brent(&mut f, ends, best, width, FINAL_WIDTH * width)
+    } else {
+        largest(f, from.0, to.0)
     };
-    if between.1 > here.1 { between } else { here }
+    if found.1 > here.1 { found } else { here }
 }
 
 /// Locates the maximum next to the best of the places in order at which a function is known, and its value.

@@ -4,17 +4,13 @@
 /// for Minimization without Derivatives, 1973, ch. 4), until the bracket is at most 2 ε |x| wide or f is exactly zero.
 ///
 /// Returns `None` if the signs do not differ or a value is NaN.
-pub fn bracketed(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
-    within(f, a, b, 0.0)
-}
-
-/// Solves f(x) = 0 between a and b to `width`, where the last bits of the root are not needed.
-pub fn within(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, width: f64) -> Option<f64> {
+pub fn bracketed(mut f: impl FnMut(f64) -> f64, a: f64, b: f64) -> Option<f64> {
     let ends = [a, b].map(|at| (at, f(at)));
-    brent(&mut f, ends, width)
+    brent(&mut f, ends, 0.0)
 }
 
-/// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known, to a width.
+/// Solves f(x) = 0 as [`bracketed`], between two places at which the values of f are known, to a width
+/// where the last bits of the root are not needed.
 ///
 /// # Errors
 /// The first error of f.
