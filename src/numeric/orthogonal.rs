@@ -14,23 +14,30 @@ pub struct Expansion<T> {
     pub middle: f64,
     /// Half of the span of the points.
     pub half: f64,
-    /// Centres of the recurrence.
-    pub centres: Vec<T>,
-    /// Norms of the recurrence.
-    pub norms: Vec<T>,
-    /// Coefficients of the least-squares solution, degree by degree.
-    pub coefficients: Vec<T>,
-    /// Sum of squared residuals with all coefficients up to each degree.
-    pub squares: Vec<T>,
+    /// Terms of degree 0, 1, ...
+    pub terms: Vec<Term<T>>,
 }
 
-/// Solves least squares with rows `weight`·p(t) = `target`, degree by degree from 0, until `go_on`, given the sums of
-/// squared residuals up to then, returns false, or the points are used up.
+/// Term of an expansion.
+#[derive(Clone, Copy, Debug)]
+pub struct Term<T> {
+    /// Centre in the recurrence.
+    pub centre: T,
+    /// Norm in the recurrence.
+    pub norm: T,
+    /// Coefficient of the least-squares solution.
+    pub coefficient: T,
+    /// Sum of squared residuals with all coefficients up to this one.
+    pub squares: T,
+}
+
+/// Solves least squares with rows `weight`·p(t) = `target`, degree by degree up to `most`, or until the points are used
+/// up.
 pub fn fit<T: Real>(
     t: &[f64],
     target: &[f64],
     weight: Option<&[f64]>,
-    mut go_on: impl FnMut(&[T]) -> bool,
+    most: usize,
 ) -> Expansion<T> {
     let (first, last) = median::range(t);
     let middle = 0.5 * first + 0.5 * last;
@@ -44,18 +51,11 @@ pub fn fit<T: Real>(
         Some(weight) => weight.iter().map(|w| T::from(*w)).collect(),
         None => vec![T::from(1.0); t.len()],
     };
-    let mut fit = Expansion {
-        middle,
-        half,
-        centres: Vec::new(),
-        norms: Vec::new(),
-        coefficients: Vec::new(),
-        squares: Vec::new(),
-    };
+    let mut terms = Vec::new();
     let mut norm = now.iter().fold(zero, |sum, q| sum + *q * *q).root();
     // Points that a thread takes at a time.
     let size = 1 << 14;
-    for degree in 0..t.len() {
+    for _ in 0..t.len().min(most + 1) {
         if norm.value() == 0.0 {
             break;
         }
@@ -66,17 +66,20 @@ pub fn fit<T: Real>(
         let by = [centre, coefficient, norm];
         let pieces = now.chunks_mut(size).zip(before.chunks_mut(size));
         let pieces = pieces.zip(s.chunks(size)).zip(rest.chunks_mut(size));
-        let [square, next] = summed(pieces, |(((q, p), s), rest)| advance(q, p, s, rest, by));
-        fit.norms.push(norm);
-        fit.centres.push(centre);
-        fit.coefficients.push(coefficient);
-        fit.squares.push(square);
-        if degree + 1 == t.len() || !go_on(&fit.squares) {
-            break;
-        }
+        let [squares, next] = summed(pieces, |(((q, p), s), rest)| advance(q, p, s, rest, by));
+        terms.push(Term {
+            centre,
+            norm,
+            coefficient,
+            squares,
+        });
         norm = next.root();
     }
-    fit
+    Expansion {
+        middle,
+        half,
+        terms,
+    }
 }
 
 /// Returns two sums over pieces.
@@ -154,28 +157,18 @@ fn advance<T: Real>(
 }
 
 impl<T: Copy> Expansion<T> {
-    /// Converts the expansion to another number type.
-    pub fn convert<S>(&self, number: impl Fn(T) -> S) -> Expansion<S> {
-        let all = |list: &[T]| list.iter().map(|x| number(*x)).collect();
+    /// Converts the terms up to a degree to another number type.
+    pub fn convert<S>(&self, degree: usize, number: impl Fn(T) -> S) -> Expansion<S> {
+        let terms = self.terms.iter().take(degree + 1).map(|term| Term {
+            centre: number(term.centre),
+            norm: number(term.norm),
+            coefficient: number(term.coefficient),
+            squares: number(term.squares),
+        });
         Expansion {
             middle: self.middle,
             half: self.half,
-            centres: all(&self.centres),
-            norms: all(&self.norms),
-            coefficients: all(&self.coefficients),
-            squares: all(&self.squares),
-        }
-    }
-
-    /// Drops all terms beyond a degree.
-    pub fn truncate(&mut self, degree: usize) {
-        for list in [
-            &mut self.centres,
-            &mut self.norms,
-            &mut self.coefficients,
-            &mut self.squares,
-        ] {
-            list.truncate(degree + 1);
+            terms: terms.collect(),
         }
     }
 }

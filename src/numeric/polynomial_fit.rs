@@ -1,7 +1,7 @@
 //! Polynomials by weighted least squares on Forsythe's orthogonal basis, of a given degree or the likeliest (Schwarz).
 
 use super::double_double::{DoubleDouble, Real};
-use super::orthogonal::{self, Expansion};
+use super::orthogonal::{self, Expansion, Term};
 use super::powers::Powers;
 
 /// Equations `weight`·p(t) = `target` + noise of equal standard deviation.
@@ -108,25 +108,23 @@ impl PolynomialFit {
         if rows < most + 2 {
             return Err(too_few(rows));
         }
-        let mut found: Expansion<T> =
-            orthogonal::fit(t, target, weight, |squares| squares.len() <= most);
-        if found.coefficients.len() <= most && given.is_some() {
-            return Err(too_few(found.coefficients.len()));
+        let found: Expansion<T> = orthogonal::fit(t, target, weight, most);
+        if found.terms.len() <= most && given.is_some() {
+            return Err(too_few(found.terms.len()));
         }
-        let squares: Vec<f64> = found.squares.iter().map(|s| s.value()).collect();
+        let basis = found.convert(most, T::value);
+        let squares: Vec<f64> = basis.terms.iter().map(|term| term.squares).collect();
         let size = target.iter().fold(0.0f64, |size, y| size.max(y.abs()));
         // Targets that were computed in floats are off by some units in the last place.
         let floor_of = |size: f64| floor.max(2.0 * f64::EPSILON * size);
         let degree = degree.unwrap_or_else(|| likeliest(&squares, rows, floor_of(size)));
         let degree = degree.min(squares.len() - 1);
-        let basis = found.convert(T::value);
         let deviation = |(degree, squares): (usize, &f64)| {
             let free = (rows - degree - 1) as f64;
             (squares / free).sqrt().max(floor)
         };
         let deviations: Vec<f64> = squares.iter().enumerate().map(deviation).collect();
-        found.truncate(degree);
-        let powers = Powers::new(&found.convert(T::into));
+        let powers = Powers::new(&found.convert(degree, T::into));
         let sigma = deviations[degree];
         Ok(PolynomialFit {
             coefficients: powers.coefficients,
@@ -146,23 +144,18 @@ impl PolynomialFit {
 
     /// Returns the root mean squares of the residuals of the polynomials of degree 0, 1, ...
     pub fn residuals(&self) -> impl Iterator<Item = f64> {
-        self.basis
-            .squares
-            .iter()
-            .map(|squares| (squares / self.rows as f64).sqrt())
+        let terms = self.basis.terms.iter();
+        terms.map(|term| (term.squares / self.rows as f64).sqrt())
     }
 
     /// Returns the polynomial and its derivatives at `t`.
     pub fn state(&self, t: f64) -> PolynomialState {
         let mut state = PolynomialState::default();
-        for (q, coefficient) in self
-            .basis_at(t)
-            .zip(&self.basis.coefficients)
-            .take(self.coefficients.len())
-        {
+        for (q, term) in self.basis_at(t).take(self.coefficients.len()) {
             for k in 0..3 {
-                state.value[k] += coefficient * q[k];
-                state.rounding[k] += 2.0 * f64::EPSILON * (coefficient * q[k]).abs();
+                let part = term.coefficient * q[k];
+                state.value[k] += part;
+                state.rounding[k] += 2.0 * f64::EPSILON * part.abs();
                 for l in 0..=k {
                     state.covariance[entry(k, l)] += self.sigma * q[k] * (self.sigma * q[l]);
                 }
@@ -176,10 +169,10 @@ impl PolynomialFit {
     pub fn averaged(&self, t: f64, weights: &[f64]) -> [f64; 6] {
         let own = self.state(t).value;
         let (mut value, mut spread, mut sum) = ([0.0; 3], [0.0; 6], [0.0; 6]);
-        for (j, (q, weight)) in self.basis_at(t).zip(weights).enumerate() {
+        for (j, ((q, term), weight)) in self.basis_at(t).zip(weights).enumerate() {
             let variance = self.deviations[j] * self.deviations[j];
             for k in 0..3 {
-                value[k] += self.basis.coefficients[j] * q[k];
+                value[k] += term.coefficient * q[k];
                 for l in 0..=k {
                     let off = (value[k] - own[k]) * (value[l] - own[l]);
                     spread[entry(k, l)] += q[k] * q[l];
@@ -190,29 +183,28 @@ impl PolynomialFit {
         sum
     }
 
-    /// Returns the polynomials of the basis and their first two derivatives at `t`, by the recurrence differentiated twice.
-    fn basis_at(&self, t: f64) -> impl Iterator<Item = [f64; 3]> {
+    /// Returns the polynomials of the basis and their first two derivatives at `t`, by the recurrence differentiated twice,
+    /// with their terms.
+    fn basis_at(&self, t: f64) -> impl Iterator<Item = ([f64; 3], &Term<f64>)> {
         let Expansion {
             middle,
             half,
-            centres,
-            norms,
-            ..
+            terms,
         } = &self.basis;
         let (s, per) = ((t - middle) / half, 1.0 / half);
-        let (mut before, mut now) = ([0.0; 3], [1.0 / norms[0], 0.0, 0.0]);
-        (0..norms.len()).map(move |j| {
+        let (mut before, mut now) = ([0.0; 3], [1.0 / terms[0].norm, 0.0, 0.0]);
+        terms.iter().enumerate().map(move |(j, term)| {
             let found = now;
-            if let Some(norm) = norms.get(j + 1) {
-                let (x, back) = (s - centres[j], norms[j]);
+            if let Some(following) = terms.get(j + 1) {
+                let (x, back) = (s - term.centre, term.norm);
                 let next = [
                     x * now[0] - back * before[0],
                     x * now[1] + per * now[0] - back * before[1],
                     x * now[2] + 2.0 * per * now[1] - back * before[2],
                 ];
-                (before, now) = (now, next.map(|q| q / norm));
+                (before, now) = (now, next.map(|q| q / following.norm));
             }
-            found
+            (found, term)
         })
     }
 }

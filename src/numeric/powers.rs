@@ -1,7 +1,7 @@
 //! Conversion of an orthogonal expansion to powers of its argument, with standard errors and condition number.
 
 use crate::numeric::double_double::{DoubleDouble, Real};
-use crate::numeric::orthogonal::Expansion;
+use crate::numeric::orthogonal::{Expansion, Term};
 
 /// Polynomial in powers 1, t, t², ...
 #[derive(Clone, Debug, PartialEq)]
@@ -19,33 +19,31 @@ impl Powers {
     /// coefficients of alternating sign: hence the extended precision.
     pub fn new(expansion: &Expansion<DoubleDouble>) -> Powers {
         let zero = DoubleDouble::default();
-        let count = expansion.coefficients.len();
-        let (middle, half) = (
-            DoubleDouble::from(expansion.middle),
-            DoubleDouble::from(expansion.half),
-        );
+        let Expansion { terms, .. } = expansion;
+        let count = terms.len();
+        let [middle, half] = [expansion.middle, expansion.half].map(DoubleDouble::from);
         let slope = DoubleDouble::ONE / half;
         let mut sums = vec![zero; count];
         let mut sizes = vec![0.0; count];
         let mut squares = vec![zero; count];
         let mut before = vec![zero; count];
         let mut now = vec![zero; count];
-        now[0] = DoubleDouble::ONE / expansion.norms[0];
-        for j in 0..count {
+        now[0] = DoubleDouble::ONE / terms[0].norm;
+        for (j, term) in terms.iter().enumerate() {
             for k in 0..=j {
-                let term = expansion.coefficients[j] * now[k];
-                sums[k] += term;
-                sizes[k] += term.value().abs();
+                let part = term.coefficient * now[k];
+                sums[k] += part;
+                sizes[k] += part.value().abs();
                 squares[k] += now[k] * now[k];
             }
-            let Some(norm) = expansion.norms.get(j + 1).filter(|_| j + 1 < count) else {
+            let Some(following) = terms.get(j + 1) else {
                 break;
             };
-            let shift = middle * slope + expansion.centres[j];
+            let shift = middle * slope + term.centre;
             let next: Vec<DoubleDouble> = (0..count)
                 .map(|k| {
                     let lower = if k > 0 { now[k - 1] * slope } else { zero };
-                    (lower - shift * now[k] - expansion.norms[j] * before[k]) / *norm
+                    (lower - shift * now[k] - term.norm * before[k]) / following.norm
                 })
                 .collect();
             before = now;
@@ -63,33 +61,28 @@ impl Powers {
         Powers {
             coefficients: sums.iter().zip(&sizes).map(coefficient).collect(),
             errors: squares.iter().map(|square| square.root().value()).collect(),
-            condition: (total * powers_over(expansion, middle, half)).sqrt(),
+            condition: (total * powers_over(terms, middle, half)).sqrt(),
         }
     }
 }
 
 /// Returns the sum of squares of the matrix that expands the powers of t in the orthonormal polynomials: t times a
 /// polynomial is a product with the tridiagonal matrix of the recurrence.
-fn powers_over(
-    expansion: &Expansion<DoubleDouble>,
-    middle: DoubleDouble,
-    half: DoubleDouble,
-) -> f64 {
-    let count = expansion.coefficients.len();
-    let (centres, norms) = (&expansion.centres, &expansion.norms);
+fn powers_over(terms: &[Term<DoubleDouble>], middle: DoubleDouble, half: DoubleDouble) -> f64 {
+    let count = terms.len();
     let mut column = vec![DoubleDouble::default(); count];
-    column[0] = norms[0];
+    column[0] = terms[0].norm;
     let mut total = 0.0;
     for _ in 0..count {
         total += column.iter().map(|c| c.value() * c.value()).sum::<f64>();
         column = (0..count)
             .map(|j| {
-                let mut sum = (middle + half * centres[j]) * column[j];
+                let mut sum = (middle + half * terms[j].centre) * column[j];
                 if j > 0 {
-                    sum += half * norms[j] * column[j - 1];
+                    sum += half * terms[j].norm * column[j - 1];
                 }
                 if j + 1 < count {
-                    sum += half * norms[j + 1] * column[j + 1];
+                    sum += half * terms[j + 1].norm * column[j + 1];
                 }
                 sum
             })
