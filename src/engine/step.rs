@@ -153,12 +153,8 @@ impl Step {
         let h = self.length();
         let s = (t - self.start.t) / h;
         if let Inside::Powers(powers) = &self.inside {
-            let x = 2.0 * s - 1.0;
-            let terms = powers.iter().enumerate().skip(2).rev();
-            let sum = terms.fold(0.0, |sum, (k, power)| {
-                sum * x + (k * (k - 1)) as f64 * power
-            });
-            return 4.0 / (h * h) * sum;
+            let [bend] = second_derivatives(powers, [2.0 * s - 1.0]);
+            return 4.0 / (h * h) * bend;
         }
         (self.quintic(s)[2] + self.bump(s)[2]) / (h * h)
     }
@@ -170,15 +166,8 @@ impl Step {
         let Inside::Powers(powers) = &self.inside else {
             return std::array::from_fn(|i| self.acceleration_at(self.start.t + part(i) * h));
         };
-        let x: [f64; N] = std::array::from_fn(|i| 2.0 * part(i) - 1.0);
-        let mut sums = [0.0; N];
-        for (k, power) in powers.iter().enumerate().skip(2).rev() {
-            let term = (k * (k - 1)) as f64 * power;
-            for i in 0..N {
-                sums[i] = sums[i] * x[i] + term;
-            }
-        }
-        sums.map(|sum| 4.0 / (h * h) * sum)
+        let x = std::array::from_fn(|i| 2.0 * part(i) - 1.0);
+        second_derivatives(powers, x).map(|bend| 4.0 / (h * h) * bend)
     }
 
     /// Adds the three terms, which make the motion inside the step accurate to order eight; six evaluations, once.
@@ -253,6 +242,19 @@ impl Step {
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
     }
+}
+
+/// Returns the second derivatives of a polynomial in powers of x.
+#[inline]
+fn second_derivatives<const N: usize>(powers: &[f64; TERMS], x: [f64; N]) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (k, power) in powers.iter().enumerate().skip(2).rev() {
+        let term = (k * (k - 1)) as f64 * power;
+        for i in 0..N {
+            sums[i] = sums[i] * x[i] + term;
+        }
+    }
+    sums
 }
 
 #[cfg(test)]
