@@ -75,28 +75,17 @@ impl Series {
         &self.coefficients[..=self.degree]
     }
 
-    /// Returns the value at `x` in [−1, 1], by Clenshaw's recurrence.
+    /// Returns the value at `x` in [−1, 1].
     pub fn value(&self, x: f64) -> f64 {
-        let twice = 2.0 * x;
-        let (mut b1, mut b2) = (0.0, 0.0);
-        for c in self.terms()[1..].iter().rev() {
-            (b1, b2) = ((c - b2) + twice * b1, b1);
-        }
-        (self.coefficients[0] - b2) + x * b1
+        let [value] = clenshaw(self.terms().iter().map(|c| [*c]), [x]);
+        value
     }
 
     /// Returns the values of this series and another of its degree at `x`: two recurrences side by side take the time of
     /// one.
     pub fn values_with(&self, other: &Series, x: f64) -> [f64; 2] {
-        let twice = 2.0 * x;
-        let (mut b1, mut b2) = ([0.0; 2], [0.0; 2]);
         let pairs = self.terms().iter().zip(other.terms());
-        for (c, d) in pairs.skip(1).rev() {
-            for (j, c) in [*c, *d].into_iter().enumerate() {
-                (b1[j], b2[j]) = ((c - b2[j]) + twice * b1[j], b1[j]);
-            }
-        }
-        [0, 1].map(|j| ([self, other][j].coefficients[0] - b2[j]) + x * b1[j])
+        clenshaw(pairs.map(|(c, d)| [*c, *d]), [x; 2])
     }
 
     /// Replaces some places by the values there.
@@ -177,21 +166,30 @@ impl Series {
     }
 }
 
-/// Replaces some places by the values there of the series with some coefficients, by Clenshaw's recurrence.
+/// Evaluates series side by side, each at its place, by Clenshaw's recurrence; `terms`: the coefficients of all.
+#[inline(always)]
+fn clenshaw<const N: usize>(
+    mut terms: impl DoubleEndedIterator<Item = [f64; N]>,
+    x: [f64; N],
+) -> [f64; N] {
+    let first = terms.next().unwrap_or([0.0; N]);
+    let twice = x.map(|x| 2.0 * x);
+    let (mut b1, mut b2) = ([0.0; N], [0.0; N]);
+    for c in terms.rev() {
+        for j in 0..N {
+            (b1[j], b2[j]) = ((c[j] - b2[j]) + twice[j] * b1[j], b1[j]);
+        }
+    }
+    std::array::from_fn(|j| (first[j] - b2[j]) + x[j] * b1[j])
+}
+
+/// Replaces some places by the values there of the series with some coefficients.
 #[multiversion(targets("x86_64+avx2"))]
 fn values(terms: &[f64], places: &mut [f64]) {
     for places in places.chunks_mut(2 * LANES) {
         let mut x = [0.0; 2 * LANES];
         x[..places.len()].copy_from_slice(places);
-        let twice = x.map(|x| 2.0 * x);
-        let (mut b1, mut b2) = ([0.0; 2 * LANES], [0.0; 2 * LANES]);
-        for c in terms[1..].iter().rev() {
-            for j in 0..2 * LANES {
-                (b1[j], b2[j]) = ((c - b2[j]) + twice[j] * b1[j], b1[j]);
-            }
-        }
-        for (j, value) in places.iter_mut().enumerate() {
-            *value = (terms[0] - b2[j]) + x[j] * b1[j];
-        }
+        let values = clenshaw(terms.iter().map(|c| [*c; 2 * LANES]), x);
+        places.copy_from_slice(&values[..places.len()]);
     }
 }
