@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::collocation;
-use super::resolution::{Feature, unresolved_at};
-use super::runge_kutta;
-use super::runge_kutta::Call;
+use super::resolution::{Feature, unresolved_on};
+use super::runge_kutta::{self, Call};
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
 use super::{Counted, Motion, WorkLimit};
@@ -93,7 +92,10 @@ fn in_calls(
             max_steps: left.min(u64::from(u32::MAX)) as u32,
             work_unit: settings.work_unit,
             observer: &mut |step| {
-                rejected = Rejected::of(motion, step, method, settings.tolerance);
+                rejected = match step.part_of_one_turn() {
+                    Some(part) => Some(Rejected::TooLong(part * step.length())),
+                    None => missed(motion, step, method.order(), settings.tolerance),
+                };
                 if rejected.is_some() {
                     return true;
                 }
@@ -123,14 +125,14 @@ fn in_calls(
         first_step = last.length();
         match rejected {
             Some(Rejected::TooLong(shorter)) => first_step = shorter,
-            Some(Rejected::Unresolved(until)) => resolved_until = until,
-            Some(Rejected::Pole(t)) => {
+            Some(Rejected::Unresolved(Feature::Pole, t)) => {
                 let left = t - node.t;
                 if motion.reaches_pole(left, node.t, angle, node.omega) {
                     return (Finish::NoValue, last, steps);
                 }
                 resolved_until = node.t + 0.5 * left;
             }
+            Some(Rejected::Unresolved(_, until)) => resolved_until = until,
             None => {}
         }
     }
@@ -140,28 +142,22 @@ fn in_calls(
 enum Rejected {
     /// Too long a travel; the length to try, s.
     TooLong(f64),
-    /// Load not resolved by the step; the time at which the step has to end, s.
-    Unresolved(f64),
-    /// Pole of a load at this time, s.
-    Pole(f64),
+    /// Load not resolved by the step, with the time at which the step has to end, s.
+    Unresolved(Feature, f64),
 }
 
-impl Rejected {
-    fn of(
-        motion: &Counted<'_>,
-        step: &Step,
-        method: runge_kutta::RungeKutta,
-        tolerance: f64,
-    ) -> Option<Rejected> {
-        if let Some(part) = step.part_of_one_turn() {
-            return Some(Rejected::TooLong(part * step.length()));
-        }
-        let (feature, t) = unresolved_at(motion, step, method.order(), tolerance)?;
-        Some(match feature {
-            Feature::Pole => Rejected::Pole(t),
-            _ => Rejected::Unresolved(t),
-        })
+/// Returns what a library step misses of the loads, with the time (s) at which it has to end to resolve them.
+fn missed(motion: &Counted<'_>, step: &Step, order: usize, tolerance: f64) -> Option<Rejected> {
+    if !motion.varies_between_nodes() {
+        return None;
     }
+    let h = step.length();
+    let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
+    let found = unresolved_on(motion, step, (order, None), tolerance, allowed)?;
+    Some(Rejected::Unresolved(
+        found.feature,
+        step.start.t + found.at * h,
+    ))
 }
 
 /// Integrates a step anew up to a time `t_end` (s) inside it; `sink` sees the new steps, the last is returned.

@@ -2,7 +2,7 @@
 
 use multiversion::multiversion;
 
-use super::super::resolution::{Feature, NodeCriterion, OnStep, Unresolved, finest, unresolved};
+use super::super::resolution::{Feature, Unresolved, unresolved_on};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
@@ -246,18 +246,9 @@ impl<'a> Collocation<'a> {
         let term = self.tolerance * (1.0 + state.omega.abs()) * (2 * NODES) as f64 / h;
         let allowed = term.max(self.rounding(state, h, coefficients));
         // Fraction of the tolerance to which the terms of a load that the nodes resolve have decayed.
-        let (times, part) = ([state.t, state.t + h], 1e-2 * self.tolerance);
-        let look = NodeCriterion {
-            has_interpolant: true,
-            finest: finest(step),
-            ..NodeCriterion::at_step(times, NODES, part, allowed)
-        };
-        let way = OnStep {
-            motion: self.motion,
-            step,
-            nodes: Some(coefficients),
-        };
-        unresolved(&way, look)
+        let part = 1e-2 * self.tolerance;
+        let nodes = (NODES, Some(coefficients));
+        unresolved_on(self.motion, step, nodes, part, allowed)
     }
 
     /// Returns the step, the state at its end, and the acceleration there, rad/s².

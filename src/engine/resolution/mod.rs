@@ -7,7 +7,7 @@ use search::Search;
 
 use crate::numeric::enclosure::{Variation, ellipses, is_resolved_by_least_ellipse, resolved};
 
-pub use steps::{OnStep, finest, unresolved_at};
+pub use steps::unresolved_on;
 
 /// Force along a panel or a step, over the normalized position from 0 to 1, with its interpolant through the nodes.
 pub trait ForceAlong {
@@ -103,15 +103,13 @@ impl NodeCriterion {
     /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most
     /// [`Self::nodes`].
     fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Variation, Option<usize>) {
-        self.nodes_for(|ellipse| force.variation(from, to, ellipse))
-    }
-
-    fn nodes_for(&self, variation: impl Fn(f64) -> Variation) -> (Variation, Option<usize>) {
+        let variation = |ellipse| force.variation(from, to, ellipse);
         resolved(variation, self.ellipses, self.allowed, self.nodes)
     }
 
     /// True if the nodes resolve a force whose variation is given as a function of the ellipse parameter.
     pub fn resolves(&self, variation: impl Fn(f64) -> Variation) -> bool {
-        self.nodes_for(variation).1.is_some()
+        let (_, nodes) = resolved(variation, self.ellipses, self.allowed, self.nodes);
+        nodes.is_some()
     }
 }

@@ -1,6 +1,6 @@
 //! Resolution test for loads on a step in time.
 
-use super::{Feature, ForceAlong, NodeCriterion, Unresolved, unresolved};
+use super::{ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
 use crate::engine::{Batch, Counted, Motion, NODES};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
@@ -8,17 +8,15 @@ use crate::numeric::gauss::{legendre_change, legendre_series};
 use crate::numeric::root;
 
 /// Motion on a step.
-pub struct OnStep<'a> {
-    /// Equation of motion.
-    pub motion: &'a Counted<'a>,
-    /// Step.
-    pub step: &'a Step,
+struct OnStep<'a> {
+    motion: &'a Counted<'a>,
+    step: &'a Step,
     /// Legendre coefficients of the acceleration, for a collocation step.
-    pub nodes: Option<&'a [f64; NODES]>,
+    nodes: Option<&'a [f64; NODES]>,
 }
 
 /// Returns the fraction of a step that the roundings of time and angle cannot divide.
-pub fn finest(step: &Step) -> f64 {
+fn finest(step: &Step) -> f64 {
     let [first, last] = [step.start.theta, step.end.theta].map(|theta| step.angle(theta).radians());
     let of_angle = first.abs().max(last.abs()) / (last - first).abs();
     // A step across a turning point goes further than its ends are apart.
@@ -26,30 +24,27 @@ pub fn finest(step: &Step) -> f64 {
     4.0 * f64::EPSILON * (step.end.t.abs() / step.length()).max(of_angle.min(most / f64::EPSILON))
 }
 
-/// Returns the feature that a step misses, with the time (s) at which the step has to end to resolve the acceleration;
-/// none if it does, or cannot be shorter. A method of order n counts as n nodes.
-pub fn unresolved_at(
+/// Returns the position at which a step has to end to resolve the acceleration; none if it does, or cannot be shorter.
+/// `order`: number of nodes, or the order of a method without nodes; `nodes`: Legendre coefficients of the acceleration
+/// on a collocation step; `part`: fraction to which terms decay; `allowed`: largest error of the acceleration, rad/s².
+pub fn unresolved_on(
     motion: &Counted<'_>,
     step: &Step,
-    order: usize,
-    tolerance: f64,
-) -> Option<(Feature, f64)> {
-    if !motion.varies_between_nodes() {
-        return None;
-    }
-    let (h, nodes) = (step.length(), None);
-    let allowed = tolerance * (1.0 + step.start.omega.abs()) / h;
+    (order, nodes): (usize, Option<&[f64; NODES]>),
+    part: f64,
+    allowed: f64,
+) -> Option<Unresolved> {
     let criterion = NodeCriterion {
+        has_interpolant: nodes.is_some(),
         finest: finest(step),
-        ..NodeCriterion::at_step([step.start.t, step.end.t], order, tolerance, allowed)
+        ..NodeCriterion::at_step([step.start.t, step.end.t], order, part, allowed)
     };
     let way = OnStep {
         motion,
         step,
         nodes,
     };
-    let Unresolved { at, feature } = unresolved(&way, criterion)?;
-    Some((feature, step.start.t + at * h))
+    unresolved(&way, criterion)
 }
 
 impl OnStep<'_> {
