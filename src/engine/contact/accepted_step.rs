@@ -37,9 +37,8 @@ impl<const N: usize> AcceptedStep<'_, N> {
         if t >= self.end[0] {
             return self.end;
         }
-        let (stages, rates) = (self.stages, &mut self.rates);
+        let (length, stages, rates) = (self.length(), self.stages, &mut self.rates);
         let dense = self.dense.get_or_insert_with(|| stages.dense(rates));
-        let length = self.end[0] - self.start[0];
         let linear = (t - self.start[0]) / length;
         let off = |u: f64| dense.number(0, u) - t;
         let u = if off(linear).abs() <= 1e-12 * length {

@@ -123,11 +123,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
                 let s = s0 + c * length;
                 let sample = model.sample(&near, phase, Some(s * s), y);
                 let slope = 2.0 * s / sample.depth_rate;
-                let mut rates = sample.rates;
-                for rate in &mut rates {
-                    *rate *= slope;
-                }
-                rates
+                sample.rates.map(|rate| rate * slope)
             };
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;

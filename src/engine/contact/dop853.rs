@@ -143,11 +143,7 @@ pub(super) struct Dense<const N: usize> {
 impl<const N: usize> Dense<N> {
     /// Returns the state at u.
     pub fn at(&self, u: f64) -> [f64; N] {
-        let mut y = [0.0; N];
-        for (i, y) in y.iter_mut().enumerate() {
-            *y = self.number(i, u);
-        }
-        y
+        std::array::from_fn(|i| self.number(i, u))
     }
 
     /// Returns one number of the state at u.
