@@ -1,10 +1,8 @@
 //! Run over the angle: goal, resolution and result.
 
+use super::Errors;
 use super::cycle_panels::PanelShape;
-use super::solution::NonConservativeForce;
-use super::{Errors, Guide};
 use crate::engine::WorkLimit;
-use crate::engine::energy::segment::Segment;
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::numeric::angle::Angle;
 
@@ -18,6 +16,7 @@ pub enum Goal {
 }
 
 /// Run up to its goal, or to where the angle can no longer be the independent variable.
+#[derive(Debug)]
 pub struct AngleRun {
     /// Motion, with time zero at its start.
     pub orbit: Orbit,
@@ -70,16 +69,8 @@ pub struct Resolution<'a> {
     pub is_second: bool,
     /// True if another engine may take over before the crank is slow.
     pub may_decline: bool,
-    /// Result of the run to compare with, if it is known.
-    pub guide: Option<Guide<'a>>,
+    /// Run in one direction to compare with, if it is known.
+    pub guide: Option<&'a AngleRun>,
     /// Limit of load evaluations and tabulated positions.
     pub limit: WorkLimit<'a>,
-}
-
-/// Returns the work of a force from the start of the last panel to a time in it, J.
-pub(super) fn work_until(segment: &Segment, until: f64, force: &NonConservativeForce) -> f64 {
-    let Some((panel, since)) = segment.panel_at(until) else {
-        return 0.0;
-    };
-    force.work(panel.rule, panel.piece.span(), panel.position(since))
 }

@@ -125,24 +125,7 @@ impl<P: Copy> CyclePanels<P> {
             }
         }
     }
-}
 
-/// Ends and degree of a panel of a cycle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PanelShape {
-    turns: f64,
-    ends: [f64; 2],
-    degree: usize,
-}
-
-impl PanelShape {
-    /// True if a run from an angle begins with this panel.
-    pub fn begins_at(&self, angle: Angle) -> bool {
-        (self.turns, self.ends[0]) == (angle.turns, angle.rest)
-    }
-}
-
-impl<P: Copy> CyclePanels<P> {
     /// Returns the shapes of the panels.
     pub fn shapes(&self) -> Vec<PanelShape> {
         let shape = |panel: &PanelTable<P>| PanelShape {
@@ -152,6 +135,14 @@ impl<P: Copy> CyclePanels<P> {
         };
         self.panels.iter().map(shape).collect()
     }
+}
+
+/// Ends and degree of a panel of a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PanelShape {
+    pub turns: f64,
+    pub ends: [f64; 2],
+    pub degree: usize,
 }
 
 /// Makes finer panels than those of another run: of the next higher degree or, beyond the largest, in two parts.

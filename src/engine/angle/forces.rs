@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 use super::dynamics::{Dynamics, StateVariable};
-use super::panel::{PanelStart, PanelTable};
+use super::panel::{PanelStart, PanelTable, Problem};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
 use crate::numeric::enclosure::Interval;
 use crate::numeric::{LANES, ROUNDING_DEVIATION};
@@ -34,13 +34,12 @@ impl Forces {
     }
 
     /// Evaluates the forces from the kinetic energy at the points, J. None where they are not finite.
-    pub fn evaluate<D: Dynamics>(
+    pub fn evaluate(
         &mut self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
+        problem: &Problem<'_, impl Dynamics>,
         kinetic: &Values,
     ) -> Option<()> {
+        let (dynamics, panel, start) = (problem.dynamics, problem.panel, problem.start);
         let count = panel.rule.degree() + 1;
         for values in [
             &mut self.total,
@@ -62,7 +61,7 @@ impl Forces {
             }
             self.of_state = [0.0; MAX_DEGREE + 1];
             let at = [&self.speeds, &self.times];
-            add_state_loads(dynamics, panel, start, at, &mut self.of_state);
+            add_state_loads(problem, at, &mut self.of_state);
             for j in 0..count {
                 self.non_conservative[j] += self.of_state[j];
             }
@@ -113,16 +112,12 @@ impl Forces {
 
     /// Returns the error of the work on a panel due to times rounded at the points, independently, over machine epsilon,
     /// J: a late load acts at another angle. A load that does not change in time is not late.
-    pub fn uncertain_by_time<D: Dynamics>(
-        &self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
-    ) -> f64 {
+    pub fn uncertain_by_time(&self, problem: &Problem<'_, impl Dynamics>) -> f64 {
+        let (panel, start) = (problem.panel, problem.start);
         let count = panel.rule.degree() + 1;
         let [mut frozen, zero] = [[0.0; MAX_DEGREE + 1]; 2];
         tabulated(panel, &self.speeds, &mut frozen);
-        add_state_loads(dynamics, panel, start, [&self.speeds, &zero], &mut frozen);
+        add_state_loads(problem, [&self.speeds, &zero], &mut frozen);
         let due_to_time = |j: usize| self.non_conservative[j] - frozen[j];
         let between = (1..count).map(|j| (due_to_time(j) - due_to_time(j - 1)).powi(2));
         let change = between.sum::<f64>().sqrt();
@@ -149,12 +144,8 @@ impl Forces {
     }
 
     /// Returns the derivatives of all forces with respect to the kinetic energy at the points, 1/rad.
-    pub fn rates<D: Dynamics>(
-        &self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
-    ) -> Values {
+    pub fn rates(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
+        let (dynamics, panel) = (problem.dynamics, problem.panel);
         let mut rates = self.rates_of_table(panel);
         if !dynamics.has_state_loads() || dynamics.state_variable() == Some(StateVariable::Time) {
             return rates;
@@ -163,9 +154,9 @@ impl Forces {
         let step = f64::EPSILON.cbrt();
         let count = panel.rule.degree() + 1;
         for (j, rate) in rates.iter_mut().enumerate().take(count) {
-            let (speed, t) = (self.speeds[j], start.t + self.times[j]);
+            let (speed, t) = (self.speeds[j], problem.start.t + self.times[j]);
             let speeds = [speed * (1.0 - step), speed * (1.0 + step)];
-            let at = speeds.map(|speed| panel.state(start.turns, j, t, speed));
+            let at = speeds.map(|speed| problem.state(j, t, speed));
             let [less, more] = dynamics.state_loads(&at);
             let slope = (more - less) / (speeds[1] - speeds[0]);
             *rate += slope / (panel.table.inertia[j] * speed);
@@ -193,15 +184,13 @@ fn tabulated<P: Copy>(panel: &PanelTable<P>, speeds: &Values, to: &mut Values) {
 const BATCH: usize = 2 * LANES;
 
 /// Adds the state loads at the points, at these speeds, rad/s, and times after the rounded start of the panel, s.
-fn add_state_loads<D: Dynamics>(
-    dynamics: &D,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
+fn add_state_loads(
+    problem: &Problem<'_, impl Dynamics>,
     [speeds, times]: [&Values; 2],
     to: &mut Values,
 ) {
-    let count = panel.rule.degree() + 1;
-    let state = |j: usize| panel.state(start.turns, j, start.t + times[j], speeds[j]);
+    let (dynamics, count) = (problem.dynamics, problem.panel.rule.degree() + 1);
+    let state = |j: usize| problem.state(j, problem.start.t + times[j], speeds[j]);
     let whole = count - count % BATCH;
     for j in (0..whole).step_by(BATCH) {
         let forces = dynamics.state_loads(&from_fn::<_, BATCH, _>(|i| state(j + i)));

@@ -1,49 +1,34 @@
 //! Known run as first guess of a finer one: the change made by a sweep is then the defect of the guide.
 
-use super::super::energy::segment::Segment;
 use super::AngleRun;
 use super::cycle_panels::PanelShape;
 use super::panel::PanelTable;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 
-/// Known run over the same angles.
-#[derive(Clone, Copy, Debug)]
-pub struct Guide<'a> {
-    segment: &'a Segment,
-    shapes: &'a [PanelShape],
-}
-
-impl<'a> Guide<'a> {
-    /// Makes a guide from a motion in one direction.
-    pub fn new(run: &'a AngleRun) -> Guide<'a> {
-        Guide {
-            segment: run.orbit.last_segment(),
-            shapes: &run.shapes,
-        }
-    }
-
+impl AngleRun {
     /// Returns the shapes of the panels of a cycle, if the run began at this angle.
-    pub(super) fn shapes_from(&self, angle: Angle) -> Option<&'a [PanelShape]> {
+    pub(super) fn shapes_from(&self, angle: Angle) -> Option<&[PanelShape]> {
         let first = self.shapes.first()?;
-        first.begins_at(angle).then_some(self.shapes)
+        let is_same = (first.turns, first.ends[0]) == (angle.turns, angle.rest);
+        is_same.then_some(&self.shapes)
     }
 
-    /// Returns the kinetic energy (J) of the guide at the points of a panel after `turns` whole turns, shifted to
-    /// `start` at the first point. None beyond the end of the guide, and where the energy is not positive.
+    /// Returns the kinetic energy (J) of this run at the points of a panel after `turns` whole turns, shifted to
+    /// `start` at the first point. None beyond the end, and where the energy is not positive.
     pub(super) fn kinetic<P: Copy>(
         &self,
         panel: &PanelTable<P>,
         turns: f64,
         start: f64,
     ) -> Option<Values> {
-        let count = panel.rule.degree() + 1;
+        let (segment, count) = (self.orbit.last_segment(), panel.rule.degree() + 1);
         // Angles, of which the kinetic energy there takes the place.
         let mut kinetic = panel.rule.values(|x| panel.piece.angle(x));
         let mut done = 0;
         while done < count {
-            let (index, _) = self.segment.located(Angle::new(turns, kinetic[done]))?;
-            let (known, _) = self.segment.panel(index)?;
+            let (index, _) = segment.located(Angle::new(turns, kinetic[done]))?;
+            let (known, _) = segment.panel(index)?;
             let local = |angle: &f64| known.local(Angle::new(turns, *angle));
             let left = &mut kinetic[done..count];
             let is_on = |angle: &&f64| known.piece.nearest(local(angle)).is_some();

@@ -1,6 +1,6 @@
 //! Resolution test for state loads on a panel.
 
-use super::panel::{Fineness, PanelStart, PanelTable};
+use super::panel::{PanelTable, Problem};
 use super::solution::PanelSolution;
 use super::{Dynamics, State, Table};
 use crate::engine::energy::NotApplicable;
@@ -13,9 +13,7 @@ use crate::numeric::exact::SUM_ROUNDING;
 
 /// Motion on a solved panel.
 struct OnPanel<'a, D: Dynamics> {
-    dynamics: &'a D,
-    panel: &'a PanelTable<D::Place>,
-    start: PanelStart,
+    problem: &'a Problem<'a, D>,
     solution: &'a PanelSolution,
     /// Time after the start of the panel as a series in x, s.
     time: Series,
@@ -29,14 +27,13 @@ struct OnPanel<'a, D: Dynamics> {
 ///
 /// # Errors
 /// [`NotApplicable::NotFinite`] for a panel with a pole of a load.
-pub(super) fn unresolved_at<D: Dynamics>(
-    dynamics: &D,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
-    fine: Fineness,
+pub(super) fn unresolved_at(
+    problem: &Problem<'_, impl Dynamics>,
+    tail: f64,
     solution: &PanelSolution,
 ) -> Result<Option<f64>, NotApplicable> {
-    if !dynamics.varies_between_nodes() {
+    let (panel, kinetic) = (problem.panel, problem.start.kinetic);
+    if !problem.dynamics.varies_between_nodes() {
         return Ok(None);
     }
     let (rule, slope) = (panel.rule, &solution.slope);
@@ -46,9 +43,7 @@ pub(super) fn unresolved_at<D: Dynamics>(
         terms.sum::<f64>()
     };
     let way = OnPanel {
-        dynamics,
-        panel,
-        start,
+        problem,
         solution,
         time: slope.integral(),
         non_conservative: rule.series(&solution.forces.non_conservative),
@@ -58,8 +53,8 @@ pub(super) fn unresolved_at<D: Dynamics>(
     let rounding = SUM_ROUNDING * forces;
     let look = NodeCriterion {
         nodes: degree,
-        ellipses: ellipses(degree, fine.tail),
-        allowed: rounding.max(fine.tail * start.kinetic / panel.half().abs()),
+        ellipses: ellipses(degree, tail),
+        allowed: rounding.max(tail * kinetic / panel.half().abs()),
         least: 2.0 * ANGLE_ROUNDING / panel.half().abs(),
         finest: ANGLE_ROUNDING / panel.half().abs(),
         has_interpolant: true,
@@ -94,15 +89,16 @@ pub(super) fn resolves_speeds<D: Dynamics>(
 
 impl<D: Dynamics> OnPanel<'_, D> {
     fn angle(&self, at: f64) -> Angle {
-        Angle::new(self.start.turns, self.panel.piece.angle(2.0 * at - 1.0))
+        let Problem { panel, start, .. } = self.problem;
+        Angle::new(start.turns, panel.piece.angle(2.0 * at - 1.0))
     }
 
     fn time(&self, at: f64) -> f64 {
-        self.start.t + self.time.value(2.0 * at - 1.0)
+        self.problem.start.t + self.time.value(2.0 * at - 1.0)
     }
 
     fn speed(&self, slope: f64) -> f64 {
-        self.start.direction * self.panel.half().abs() / slope
+        self.problem.start.direction * self.problem.panel.half().abs() / slope
     }
 }
 
@@ -126,25 +122,23 @@ impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
             angle: Interval::between(self.angle(from).radians(), self.angle(to).radians()),
             speed: Interval::between(self.speed(low), self.speed(slowness.high.max(low))),
         };
-        self.dynamics.variation(&reach, ellipse)
+        self.problem.dynamics.variation(&reach, ellipse)
     }
 
     fn force(&self, at: f64) -> f64 {
+        let (dynamics, panel) = (self.problem.dynamics, self.problem.panel);
         let x = 2.0 * at - 1.0;
         let speed = self.speed(self.solution.slope.value(x));
         let mut table = Table::default();
         let mut angles = [0.0; MAX_DEGREE + 1];
         angles[0] = self.angle(at).rest;
         // The order of the angles gives the direction of the panel.
-        angles[1] = self.panel.piece.to;
-        let side = self.panel.side;
-        let turns = self.panel.turns;
-        self.dynamics
-            .tabulate(turns, (&angles, 2), side, &mut table);
+        angles[1] = panel.piece.to;
+        dynamics.tabulate(panel.turns, (&angles, 2), panel.side, &mut table);
         let Some(place) = table.places.first() else {
             return 0.0;
         };
-        let [state_loads] = self.dynamics.state_loads(&[State {
+        let [state_loads] = dynamics.state_loads(&[State {
             place,
             t: self.time(at),
             angle: self.angle(at),

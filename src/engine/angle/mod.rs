@@ -37,6 +37,5 @@ pub use angle_run::{AngleRun, EarlyEnd, Goal, Resolution};
 pub use dynamics::{Dynamics, Panels, State, StateVariable};
 pub use errors::Errors;
 pub use fixed_point::{CycleMap, FixedPoint, NoCycle, fixed_point};
-pub use guide::Guide;
 pub use run::run;
 pub use table::{Switch, Table};

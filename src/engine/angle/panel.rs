@@ -1,5 +1,7 @@
 //! Panel of a cycle with its tables and what earlier turns found on it.
 
+use std::cell::Cell;
+
 use super::super::energy::NotApplicable;
 use super::super::energy::piece::{Piece, Turning};
 use super::predictor::Predictor;
@@ -20,6 +22,36 @@ pub(super) struct PanelStart {
     pub turns: f64,
     /// Sign of the speed.
     pub direction: f64,
+}
+
+/// Initial value problem on a panel.
+pub(super) struct Problem<'a, D: Dynamics> {
+    pub dynamics: &'a D,
+    pub panel: &'a PanelTable<D::Place>,
+    pub start: PanelStart,
+}
+
+impl<'a, D: Dynamics> Problem<'a, D> {
+    pub fn new(dynamics: &'a D, panel: &'a PanelTable<D::Place>, start: PanelStart) -> Self {
+        Problem {
+            dynamics,
+            panel,
+            start,
+        }
+    }
+
+    /// Returns the state at point `j`, at a time (s) and speed (rad/s).
+    #[inline]
+    pub fn state(&self, j: usize, t: f64, speed: f64) -> State<'_, D::Place> {
+        let panel = self.panel;
+        let theta = panel.piece.angle(panel.rule.points()[j]);
+        State {
+            place: &panel.table.places[j],
+            t,
+            angle: Angle::new(self.start.turns, theta),
+            speed,
+        }
+    }
 }
 
 /// Panel with the tables of all that depends on the position alone, equal in each cycle.
@@ -44,7 +76,7 @@ pub(super) struct PanelTable<P> {
     /// Kinetic energy in the last turns.
     pub(super) past: Predictor,
     /// Convergence factor of the sweeps as last measured.
-    pub factor: f64,
+    pub factor: Cell<f64>,
     /// True if the panel was too long in an earlier turn.
     pub failed: bool,
     /// Rests of the panel after each switching in the last turn.
@@ -135,7 +167,7 @@ impl<P: Copy> PanelTable<P> {
             damped: false,
             largest_force: 0.0,
             past: Predictor::new(),
-            factor: SLOW_FACTOR,
+            factor: Cell::new(SLOW_FACTOR),
             failed: false,
             rests: Vec::new(),
             rest_index: None,
@@ -222,17 +254,6 @@ impl<P: Copy> PanelTable<P> {
             *force += push;
         }
         force
-    }
-
-    /// Returns the state at point `j`, at a time (s) and speed (rad/s).
-    #[inline]
-    pub fn state(&self, turns: f64, j: usize, t: f64, speed: f64) -> State<'_, P> {
-        State {
-            place: &self.table.places[j],
-            t,
-            angle: Angle::new(turns, self.piece.angle(self.rule.points()[j])),
-            speed,
-        }
     }
 
     /// Returns half the signed length, rad.

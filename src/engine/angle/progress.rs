@@ -4,7 +4,7 @@ use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::errors::{Errors, uncertain};
 use super::panel::PanelTable;
-use super::solution::{NonConservativeForce, PanelSolution};
+use super::solution::PanelSolution;
 use crate::numeric::exact::two_sum;
 
 /// Sums over the panels since the start of a run or of a turn.
@@ -56,10 +56,9 @@ impl Progress {
         piece: Piece,
         solution: &PanelSolution,
         mistimed: f64,
-    ) -> SolvedPanel {
+    ) -> Panel {
         let rule = table.rule;
-        let force = solution.non_conservative();
-        let work = force.work(rule, piece.to - piece.from, 1.0);
+        let work = solution.work(rule, piece.span(), 1.0);
         // Under steep loads the end energy is not the sum of start and gain.
         let summed = solution.end == self.kinetic + solution.gain;
         (self.kinetic, self.kinetic_low) = if summed {
@@ -85,15 +84,6 @@ impl Progress {
         self.errors.pass(retained, noise, advance, advance_of_noise);
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
-        SolvedPanel { panel, force, work }
+        panel
     }
-}
-
-/// Solved panel with the work done on it.
-pub(super) struct SolvedPanel {
-    pub panel: Panel,
-    /// Non-conservative force on the panel.
-    pub force: NonConservativeForce,
-    /// Work of the non-conservative force on the panel, J.
-    pub work: f64,
 }

@@ -27,7 +27,7 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         // largest kinetic energy.
         let (short_half, slow_share) = (0.25, 0.1);
         let stops = why == Unsolved::Stops && panel.half().abs() < short_half;
-        let leaves = self.may_decline || kinetic < slow_share * fastest;
+        let leaves = self.resolution.may_decline || kinetic < slow_share * fastest;
         if self.gives_up && stops && leaves {
             return Err(NotApplicable::TooSlow);
         }

@@ -2,16 +2,17 @@
 
 use std::f64::consts::TAU;
 
-use super::angle_run::work_until;
 use super::poincare_map::{self, SINGLE_TURNS};
-use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
-use super::{AngleRun, Dynamics, Goal, Resolution};
+use super::{AngleRun, Dynamics, EarlyEnd, Goal, Panels, Resolution};
+use crate::engine::energy::interpolated_turns::TurnStart;
 use crate::engine::energy::piece::SAME_ANGLE;
 use crate::engine::energy::segment::{MOST_PANELS, Segment};
+use crate::engine::energy::turns::Turns;
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::run_in_time::{Ends, MotionState, UNLIMITED_TIME};
 use crate::engine::work_forecast::WorkForecast;
+use crate::numeric::angle::Angle;
 
 /// Integrates from a start to the goal, or as far as the angle can be the independent variable.
 ///
@@ -24,81 +25,106 @@ pub fn run<D: Dynamics>(
     resolution: Resolution<'_>,
 ) -> Result<AngleRun, NotApplicable> {
     let mut stepper = PanelStepper::new(dynamics, from, resolution)?;
-    let MotionState { angle, speed, .. } = stepper.start;
     let reads_time = dynamics.reads_time();
     let repeats = !reads_time && stepper.panels.panels[0].table.switch.is_none();
-    let mut forecast = forecast(&stepper, goal, reads_time);
-    let way = f64::from(dynamics.cycle()) * TAU;
-    let mut segment = Segment::open();
-    loop {
-        let cost = stepper.cost();
-        let done = stepper.panels.at_cycle() && segment.len() > 0;
-        if done
-            && forecast
-                .reason_to_stop(cost, stepper.progress.t.0, way)
-                .is_some()
-        {
-            let why = NotApplicable::TooManyTurns;
-            return Ok(ended(stepper, segment, why));
-        }
-        if repeats && stepper.panels.at_cycle() && stepper.progress.turns.abs() >= SINGLE_TURNS {
-            return poincare_map::run(stepper, segment, goal);
-        }
-        let next = if segment.len() < MOST_PANELS {
-            stepper.panel()
-        } else {
-            Err(NotApplicable::TooLong)
-        };
-        let SolvedPanel { panel, force, work } = match next {
-            Ok(done) => done,
-            Err(why) if segment.len() == 0 => return Err(why),
-            Err(why) => return Ok(ended(stepper, segment, why)),
-        };
-        let turned = (panel.piece.to - angle.rest).abs() + panel.turns.abs() * TAU;
-        segment.push(panel);
-        let passed = match goal {
-            Goal::Time(until) => segment.duration.0 > until,
-            Goal::Turned(way) => turned >= way - SAME_ANGLE,
-        };
-        if passed {
-            let orbit = Orbit::one_way(angle, speed, segment, None);
-            let end = match goal {
-                Goal::Time(until) => until,
-                Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(orbit.length()),
-            };
-            let work = stepper.progress.work - work + work_until(orbit.last_segment(), end, &force);
-            return Ok(stepper.finished(orbit, end, work, None));
-        }
-    }
-}
-
-/// Starts the forecast for a run without a map: will it reach its goal within the limit?
-fn forecast<'a, D: Dynamics>(
-    stepper: &PanelStepper<'a, D>,
-    goal: Goal,
-    reads_time: bool,
-) -> WorkForecast<'a> {
     let (t, way) = match goal {
         Goal::Time(until) => (until, f64::INFINITY),
         Goal::Turned(way) => (UNLIMITED_TIME, way),
     };
-    let ends = Ends {
-        t,
-        way,
-        limit: stepper.limit,
+    let limit = resolution.limit;
+    let mut forecast = WorkForecast::new(0.0, stepper.cost(), Ends { t, way, limit }, reads_time);
+    let cycle = f64::from(dynamics.cycle()) * TAU;
+    let (mut segment, first) = (Segment::open(), TurnStart::default());
+    let why = loop {
+        let at_cycle = stepper.panels.at_cycle();
+        let (cost, t) = (stepper.cost(), stepper.progress.t.0);
+        if at_cycle && segment.len() > 0 && forecast.reason_to_stop(cost, t, cycle).is_some() {
+            break Some(NotApplicable::TooManyTurns);
+        }
+        if repeats && at_cycle && stepper.progress.turns.abs() >= SINGLE_TURNS {
+            return poincare_map::run(stepper, segment, goal);
+        }
+        if segment.len() >= MOST_PANELS {
+            break Some(NotApplicable::TooLong);
+        }
+        match stepper.advance(&mut segment, &first, goal) {
+            Ok(false) => {}
+            Ok(true) => break None,
+            Err(why) => break Some(why),
+        }
     };
-    WorkForecast::new(0.0, stepper.cost(), ends, reads_time)
+    stepper.finished((segment, None), &first, goal, why)
 }
 
-/// Makes the result of a run that ended before its goal.
-fn ended<D: Dynamics>(
-    stepper: PanelStepper<'_, D>,
-    segment: Segment,
-    why: NotApplicable,
-) -> AngleRun {
-    let MotionState { angle, speed, .. } = stepper.start;
-    let early_end = stepper.early_end(&segment, angle.turns, why);
-    let (end, work) = (segment.duration.0, stepper.progress.work);
-    let orbit = Orbit::one_way(angle, speed, segment, None);
-    stepper.finished(orbit, end, work, early_end)
+impl<D: Dynamics> PanelStepper<'_, D> {
+    /// Adds the next panel to the segment of the turns after `from`; true if the goal lies on it.
+    pub fn advance(
+        &mut self,
+        segment: &mut Segment,
+        from: &TurnStart,
+        goal: Goal,
+    ) -> Result<bool, NotApplicable> {
+        let panel = self.panel()?;
+        let turned = (panel.piece.to - self.start.angle.rest).abs() + panel.turns.abs() * TAU;
+        segment.push(panel);
+        Ok(match goal {
+            Goal::Time(until) => segment.duration.0 > from.until(until),
+            Goal::Turned(way) => turned + from.turns * TAU >= way - SAME_ANGLE,
+        })
+    }
+
+    /// Ends the run, whose last turns began at `from`, at the goal, or before it for a reason. Leaves the panels to the
+    /// next run, if they are shared.
+    ///
+    /// # Errors
+    /// The reason, if the last turns have no panel.
+    pub fn finished(
+        self,
+        (first, later): (Segment, Option<Turns>),
+        from: &TurnStart,
+        goal: Goal,
+        why: Option<NotApplicable>,
+    ) -> Result<AngleRun, NotApplicable> {
+        let MotionState { angle, speed, .. } = self.start;
+        let orbit = Orbit::one_way(angle, speed, first, later);
+        let last = orbit.last_segment();
+        let panel = last.last().ok_or(why.unwrap_or(NotApplicable::TooLong))?;
+        let end = match goal {
+            Goal::Time(until) if why.is_none() => until,
+            Goal::Turned(way) if why.is_none() => orbit.time_of_turn(way).unwrap_or(orbit.length()),
+            _ => orbit.length(),
+        };
+        let mut work = from.work + self.progress.work;
+        if why.is_none() {
+            let whole = self.solution.work(panel.rule, panel.piece.span(), 1.0);
+            let until_end = last.panel_at(from.until(end)).map(|(panel, since)| {
+                let x = panel.position(since);
+                self.solution.work(panel.rule, panel.piece.span(), x)
+            });
+            work = work - whole + until_end.unwrap_or_default();
+        }
+        let turns = angle.turns + speed.signum() * from.turns;
+        let early_end = why.map(|why| EarlyEnd {
+            why,
+            angle: Angle::new(turns + panel.turns, panel.piece.to),
+            kinetic: self.progress.kinetic,
+        });
+        let shapes = self.panels.shapes();
+        if let Some(shared) = self
+            .dynamics
+            .shared()
+            .filter(|_| !self.resolution.is_second)
+        {
+            shared.replace(Panels(self.panels.panels));
+        }
+        Ok(AngleRun {
+            orbit,
+            shapes,
+            end,
+            work,
+            errors: self.progress.errors,
+            evaluations: self.evaluations,
+            early_end,
+        })
+    }
 }

@@ -4,27 +4,6 @@ use super::forces::Forces;
 use super::panel::PanelTable;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Series, Values};
 
-/// Non-conservative force on a panel, or on its first part.
-#[derive(Clone, Copy)]
-pub(super) struct NonConservativeForce {
-    /// Force at the points of the whole panel, N m.
-    pub values: Values,
-    /// Length of the first part, as a fraction of the panel.
-    share: f64,
-}
-
-impl NonConservativeForce {
-    /// Returns the work, J, from the start of the part, of signed length `span` (rad), to x in [−1, 1] on it.
-    pub fn work(&self, rule: &Rule, span: f64, x: f64) -> f64 {
-        let half = 0.5 * span / self.share;
-        if x * self.share == 1.0 {
-            return half * rule.rounded_integral(&self.values);
-        }
-        let work = rule.series(&self.values).integral();
-        half * work.value(self.share * (1.0 + x) - 1.0)
-    }
-}
-
 /// Motion on a panel.
 pub(super) struct PanelSolution {
     /// Kinetic energy at the points, J.
@@ -66,12 +45,15 @@ impl PanelSolution {
         }
     }
 
-    /// Returns the non-conservative force.
-    pub fn non_conservative(&self) -> NonConservativeForce {
-        NonConservativeForce {
-            values: self.forces.non_conservative,
-            share: self.share,
+    /// Returns the work of the non-conservative force, J, to x in [−1, 1] on the part of the panel on which the motion
+    /// lies, of signed length `span` (rad).
+    pub fn work(&self, rule: &Rule, span: f64, x: f64) -> f64 {
+        let (force, half) = (&self.forces.non_conservative, 0.5 * span / self.share);
+        if x * self.share == 1.0 {
+            return half * rule.rounded_integral(force);
         }
+        let work = rule.series(force).integral();
+        half * work.value(self.share * (1.0 + x) - 1.0)
     }
 
     /// Returns the series of the kinetic energy of an unsolved panel, J; none if the sweeps did not converge.

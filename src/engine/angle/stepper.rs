@@ -1,20 +1,16 @@
 //! Stepper over the angle: solves panel after panel and accumulates time, energy, work and errors.
 
-use std::cell::RefCell;
-
+use super::super::energy::NotApplicable;
+use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
-use super::super::energy::segment::Segment;
-use super::super::energy::{NotApplicable, Orbit};
 use super::cycle_panels::{self, CyclePanels};
-use super::guide::Guide;
 use super::load_resolution::unresolved_at;
-use super::panel::{Fineness, PanelStart, PanelTable};
-use super::progress::{Progress, SolvedPanel};
+use super::panel::{Fineness, PanelStart, PanelTable, Problem};
+use super::progress::Progress;
 use super::solution::PanelSolution;
 use super::sweep::sweep;
 use super::switch::{Switching, begins_beyond, switching};
-use super::{AngleRun, Dynamics, EarlyEnd, Panels, Resolution};
-use crate::engine::WorkLimit;
+use super::{Dynamics, Resolution};
 use crate::engine::run_in_time::MotionState;
 use crate::numeric::enclosure::Interval;
 use crate::numeric::exact::two_sum;
@@ -24,14 +20,10 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     pub(super) dynamics: &'a D,
     pub(super) fine: Fineness,
     pub(super) panels: CyclePanels<D::Place>,
-    /// Store that the panels are left to after the run; none for a comparison.
-    shared: Option<&'a RefCell<Panels<D::Place>>>,
-    /// True for a second run, which states the roundoff of both.
-    is_second: bool,
+    /// Resolution of the run; its guide, which serves from the start on only, is the first guess.
+    pub(super) resolution: Resolution<'a>,
     /// Motion on the last panel.
     pub(super) solution: PanelSolution,
-    /// Known run that supplies the first guess.
-    guide: Option<Guide<'a>>,
     /// Start of the run, with an angle reduced to less than a turn.
     pub start: MotionState,
     /// Sums up to the next panel.
@@ -40,11 +32,8 @@ pub(super) struct PanelStepper<'a, D: Dynamics> {
     pub evaluations: u64,
     /// Positions tabulated before the run.
     positions: u64,
-    pub limit: WorkLimit<'a>,
     /// True if a crank that seems to stop is given up before its panels become tiny.
     pub(super) gives_up: bool,
-    /// True if another engine may take over before the crank is slow.
-    pub(super) may_decline: bool,
 }
 
 impl<'a, D: Dynamics> PanelStepper<'a, D> {
@@ -54,7 +43,6 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         resolution: Resolution<'a>,
     ) -> Result<PanelStepper<'a, D>, NotApplicable> {
         let angle = from.angle.reduced();
-        let shapes = resolution.guide.and_then(|guide| guide.shapes_from(angle));
         let fine = Fineness {
             tail: resolution.tail,
             speed: from.speed,
@@ -64,7 +52,8 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         let shared = dynamics.shared().filter(|_| !resolution.is_second);
         let mut panels = shared.map_or_else(Vec::new, |shared| shared.take().0);
         if panels.is_empty() {
-            panels = match shapes {
+            let guide = resolution.guide;
+            panels = match guide.and_then(|guide| guide.shapes_from(angle)) {
                 Some(shapes) => cycle_panels::finer_panels(dynamics, shapes, fine)?,
                 None => cycle_panels::panels(dynamics, angle, fine)?,
             };
@@ -83,60 +72,22 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
             dynamics,
             fine,
             panels: CyclePanels::new(panels),
-            shared,
-            is_second: resolution.is_second,
+            resolution,
             solution: PanelSolution::new(),
-            guide: resolution.guide,
             start: MotionState { angle, ..from },
             progress: Progress::at(kinetic, off),
             evaluations: 0,
             positions,
-            limit: resolution.limit,
             gives_up: true,
-            may_decline: resolution.may_decline,
         })
     }
 
     /// Restarts at the start of a cycle with another kinetic energy, J.
     pub fn restart(&mut self, kinetic: f64, gives_up: bool) {
         self.panels.restart();
-        self.guide = None;
+        self.resolution.guide = None;
         self.progress = Progress::at(kinetic, 0.0);
         self.gives_up = gives_up;
-    }
-
-    /// Returns the early end of a run whose last turns are on a segment that began after so many turns, for a reason.
-    pub fn early_end(&self, segment: &Segment, turns: f64, why: NotApplicable) -> Option<EarlyEnd> {
-        let (angle, kinetic) = (segment.last_angle(turns)?, self.progress.kinetic);
-        Some(EarlyEnd {
-            why,
-            angle,
-            kinetic,
-        })
-    }
-
-    /// Ends the run with this motion up to a time (s) and this work (J), and leaves the panels to the next run, if they
-    /// are shared.
-    pub fn finished(
-        self,
-        orbit: Orbit,
-        end: f64,
-        work: f64,
-        early_end: Option<EarlyEnd>,
-    ) -> AngleRun {
-        let shapes = self.panels.shapes();
-        if let Some(shared) = self.shared {
-            shared.replace(Panels(self.panels.panels));
-        }
-        AngleRun {
-            orbit,
-            shapes,
-            end,
-            work,
-            errors: self.progress.errors,
-            evaluations: self.evaluations,
-            early_end,
-        }
     }
 
     /// Returns the number of load evaluations and tabulated positions.
@@ -151,10 +102,10 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
     }
 
     /// Solves the next panel, after cuts and changes of side where needed.
-    pub fn panel(&mut self) -> Result<SolvedPanel, NotApplicable> {
+    pub fn panel(&mut self) -> Result<Panel, NotApplicable> {
         let mut turned_over = 0;
         loop {
-            if self.limit.is_reached(self.cost()) {
+            if self.resolution.limit.is_reached(self.cost()) {
                 return Err(NotApplicable::WorkLimit);
             }
             let (t, t_low) = two_sum(self.start.t, self.progress.t.0);
@@ -165,18 +116,19 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
                 turns: self.start.angle.turns + self.progress.turns,
                 direction: self.start.speed.signum(),
             };
-            let panel = self.panels.next_mut();
-            if turned_over == 0 && panel.is_new() && begins_beyond(self.dynamics, panel, start) {
-                panel.turn_over(self.dynamics)?;
+            let problem = Problem::new(self.dynamics, self.panels.next(), start);
+            if turned_over == 0 && problem.panel.is_new() && begins_beyond(&problem) {
+                self.panels.next_mut().turn_over(self.dynamics)?;
             }
             if !self.solve(start)? {
                 continue;
             }
+            let problem = Problem::new(self.dynamics, self.panels.next(), start);
+            // Still on the other side after two changes: the switch has no sign at the start.
+            let switching = switching(&problem, &self.solution, turned_over < 2);
             let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
             let piece = panel.piece;
-            // Still on the other side after two changes: the switch has no sign at the start.
-            let has_sign = turned_over < 2;
-            match switching(self.dynamics, panel, start, solution, has_sign) {
+            match switching {
                 Switching::AtStart if turned_over < 3 => {
                     turned_over += 1;
                     panel.turn_over(self.dynamics)?;
@@ -202,14 +154,14 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
     /// Solves the next panel as it stands; false, with the panel refined, if it is not solved or misses a load.
     fn solve(&mut self, start: PanelStart) -> Result<bool, NotApplicable> {
         self.guess(start);
-        let (panel, solution) = (self.panels.next_mut(), &mut self.solution);
-        if let Err(why) = sweep(self.dynamics, panel, start, self.fine.tail, solution) {
+        let (panel, solution) = (self.panels.next(), &mut self.solution);
+        let problem = Problem::new(self.dynamics, panel, start);
+        if let Err(why) = sweep(&problem, self.fine.tail, solution) {
             self.evaluations += self.solution.evaluations;
             self.refine(why)?;
             return Ok(false);
         }
-        let end = unresolved_at(self.dynamics, panel, start, self.fine, solution)?;
-        let Some(share) = end else {
+        let Some(share) = unresolved_at(&problem, self.fine.tail, solution)? else {
             return Ok(true);
         };
         let found = panel.rule.series(&solution.kinetic);
@@ -230,7 +182,7 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         if panel.is_in_closed_form(dynamics) {
             return;
         }
-        let guide = self.guide.as_ref();
+        let guide = self.resolution.guide;
         let known = guide
             .filter(|_| panel.table.switch.is_none())
             .and_then(|guide| guide.kinetic(panel, self.progress.turns, start.kinetic));
@@ -249,12 +201,12 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         start: PanelStart,
         piece: Piece,
         rest: Option<PanelTable<D::Place>>,
-    ) -> SolvedPanel {
+    ) -> Panel {
         let (panel, solution) = (self.panels.next(), &self.solution);
-        let mistimed = if self.is_second && self.dynamics.reads_time() {
+        let mistimed = if self.resolution.is_second && self.dynamics.reads_time() {
             self.evaluations += panel.rule.degree() as u64 + 1;
-            let forces = &solution.forces;
-            forces.uncertain_by_time(self.dynamics, panel, start)
+            let problem = Problem::new(self.dynamics, panel, start);
+            solution.forces.uncertain_by_time(&problem)
         } else {
             0.0
         };

@@ -2,7 +2,7 @@
 
 use super::dynamics::{Dynamics, StateVariable};
 use super::newton::{correction, keep_positive, quadratic};
-use super::panel::{PanelStart, PanelTable, SLOW_FACTOR};
+use super::panel::{PanelStart, PanelTable, Problem, SLOW_FACTOR};
 use super::secant::Secant;
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{Values, largest};
@@ -18,18 +18,17 @@ pub(super) enum Unsolved {
 }
 
 /// Solves a panel to a tail of its series, from the guess of the kinetic energy at its points in `solution`.
-pub(super) fn sweep<D: Dynamics>(
-    dynamics: &D,
-    panel: &mut PanelTable<D::Place>,
-    start: PanelStart,
+pub(super) fn sweep(
+    problem: &Problem<'_, impl Dynamics>,
     tail: f64,
     solution: &mut PanelSolution,
 ) -> Result<(), Unsolved> {
+    let (dynamics, panel, start) = (problem.dynamics, problem.panel, problem.start);
     solution.evaluations = 0;
     solution.share = 1.0;
     (solution.first_change, solution.last_change) = (0.0, f64::INFINITY);
     if panel.is_in_closed_form(dynamics) {
-        return solution.take_undamped(dynamics, panel, start, tail);
+        return solution.take_undamped(problem, tail);
     }
     // Evaluations of state loads cost more than the sweeps that they spare.
     let has_state_loads = dynamics.has_state_loads();
@@ -52,7 +51,7 @@ pub(super) fn sweep<D: Dynamics>(
     let variable = dynamics.state_variable();
     let mut secant: Option<Secant> = None;
     for _ in 0..most_sweeps {
-        solution.evaluate(dynamics, panel, start)?;
+        solution.evaluate(problem)?;
         let mut change = solution.change(panel, start);
         let contraction = *contraction.get_or_insert_with(|| solution.contraction(panel));
         let linear = contraction > plain
@@ -67,7 +66,7 @@ pub(super) fn sweep<D: Dynamics>(
         secant = now;
         newton = newton || linear && !solution.linearise(panel, &mut change);
         if newton {
-            let rates = solution.forces.rates(dynamics, panel, start);
+            let rates = solution.forces.rates(problem);
             correction(panel.rule, panel.half(), &rates, &mut change).ok_or(Unsolved::TooLong)?;
             keep_positive(&solution.kinetic, &mut change);
         }
@@ -91,13 +90,13 @@ pub(super) fn sweep<D: Dynamics>(
             // The error of secants is of the order of the product of the last two.
             Some(_) if earlier.is_finite() && left_out < 1.0 => left_out.max(largest / earlier),
             Some(measured) => measured,
-            None => panel.factor,
+            None => panel.factor.get(),
         };
         let gains = before.is_finite() && largest < SLOW_FACTOR * before;
         let at_rounding = largest < SUM_ROUNDING && !gains;
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tail || at_rounding {
-                solution.evaluate(dynamics, panel, start)?;
+                solution.evaluate(problem)?;
                 return solution.finish(panel, start, tail);
             }
         } else if largest * factor <= largest_error || at_rounding {
@@ -105,14 +104,14 @@ pub(super) fn sweep<D: Dynamics>(
             if has_state_loads || linear {
                 solution.forces.take_speeds(panel, start, &solution.kinetic);
             } else {
-                solution.evaluate(dynamics, panel, start)?;
+                solution.evaluate(problem)?;
             }
             solution.finish(panel, start, tail)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             solution.end = start.kinetic + solution.gain;
             return Ok(());
         } else if let Some(measured) = measured {
-            panel.factor = measured;
+            panel.factor.set(measured);
             // Newton's method is one for the energy: of a load of time secants know more.
             newton = measured > SLOW_FACTOR && variable != Some(StateVariable::Time);
         }
@@ -141,31 +140,25 @@ fn add(kinetic: &mut Values, change: &mut Values, count: usize) -> Result<f64, U
 
 impl PanelSolution {
     /// Evaluates the forces at the present kinetic energy.
-    fn evaluate<D: Dynamics>(
-        &mut self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
-    ) -> Result<(), Unsolved> {
-        self.evaluations += panel.rule.degree() as u64 + 1;
-        let known = self.forces.evaluate(dynamics, panel, start, &self.kinetic);
+    fn evaluate(&mut self, problem: &Problem<'_, impl Dynamics>) -> Result<(), Unsolved> {
+        self.evaluations += problem.panel.rule.degree() as u64 + 1;
+        let known = self.forces.evaluate(problem, &self.kinetic);
         known.ok_or(Unsolved::TooLong)
     }
 
     /// Computes the motion in closed form.
-    fn take_undamped<D: Dynamics>(
+    fn take_undamped(
         &mut self,
-        dynamics: &D,
-        panel: &PanelTable<D::Place>,
-        start: PanelStart,
+        problem: &Problem<'_, impl Dynamics>,
         tail: f64,
     ) -> Result<(), Unsolved> {
+        let (panel, start) = (problem.panel, problem.start);
         self.kinetic = panel.undamped(start.kinetic);
         let points = &self.kinetic[..=panel.rule.degree()];
         if points.iter().any(|kinetic| *kinetic <= 0.0) {
             return Err(Unsolved::Stops);
         }
-        self.evaluate(dynamics, panel, start)?;
+        self.evaluate(problem)?;
         self.finish(panel, start, tail)
     }
 

@@ -1,6 +1,6 @@
 //! Switching: zero of the switch on a panel, at which the forces change their form.
 
-use super::panel::{PanelStart, PanelTable, SHORTEST_PANEL};
+use super::panel::{PanelStart, PanelTable, Problem, SHORTEST_PANEL};
 use super::solution::PanelSolution;
 use super::{Dynamics, Switch};
 use crate::numeric::chebyshev::{MAX_DEGREE, Series, Values, largest};
@@ -22,17 +22,16 @@ pub(super) enum Switching {
 
 /// Determines the switching of the motion on a panel that was solved for one side. `has_sign`: whether the switch at the
 /// start tells the side there; it does not where it is zero but for the error of the motion.
-pub(super) fn switching<D: Dynamics>(
-    dynamics: &D,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
+pub(super) fn switching(
+    problem: &Problem<'_, impl Dynamics>,
     solution: &PanelSolution,
     has_sign: bool,
 ) -> Switching {
+    let panel = problem.panel;
     let Some(switch) = &panel.table.switch else {
         return Switching::Never;
     };
-    let (values, noise) = values(dynamics, switch, panel, start, solution);
+    let (values, noise) = values(problem, switch, solution);
     let length = 2.0 * panel.half().abs();
     let threshold = noise.max(SHORTEST_PANEL * largest(&values));
     if has_sign && values[0] < -threshold && rise(panel, &values) * length >= SHORTEST_PANEL {
@@ -63,36 +62,32 @@ pub(super) fn switching<D: Dynamics>(
 
 /// True if the motion starts on the other side of the switch, judged at the start alone: under a steep loss the wrong
 /// side produces a transient, which is harder to resolve than the motion.
-pub(super) fn begins_beyond<D: Dynamics>(
-    dynamics: &D,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
-) -> bool {
+pub(super) fn begins_beyond(problem: &Problem<'_, impl Dynamics>) -> bool {
+    let (panel, start) = (problem.panel, problem.start);
     let Some(switch) = &panel.table.switch else {
         return false;
     };
     let speed = start.direction * (start.kinetic * panel.mobility[0]).sqrt();
-    let (value, size) = value(dynamics, switch, panel, start, (0, start.t, speed));
+    let (value, size) = value(problem, switch, (0, start.t, speed));
     value < -SHORTEST_PANEL * size
 }
 
 /// Returns the switch at point `j` at a time (s) and a speed (rad/s), positive on the side of the panel, and the
 /// largest magnitude of its parts.
-fn value<D: Dynamics>(
-    dynamics: &D,
+fn value(
+    problem: &Problem<'_, impl Dynamics>,
     switch: &Switch,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
     (j, t, speed): (usize, f64, f64),
 ) -> (f64, f64) {
+    let dynamics = problem.dynamics;
     let of_state_loads = if dynamics.has_state_loads() {
-        dynamics.switch_of_state_loads(&panel.state(start.turns, j, t, speed))
+        dynamics.switch_of_state_loads(&problem.state(j, t, speed))
     } else {
         0.0
     };
     let (rate, square) = (switch.rate[j] * speed, switch.square[j] * speed * speed);
     let parts = [switch.place[j], rate, square, of_state_loads];
-    let value = panel.side * (switch.place[j] + rate + square + of_state_loads);
+    let value = problem.panel.side * (switch.place[j] + rate + square + of_state_loads);
     (value, largest(&parts))
 }
 
@@ -120,24 +115,23 @@ impl PanelSolution {
 }
 
 /// Returns the switch at the points, positive on the side of the panel, and its rounding error.
-fn values<D: Dynamics>(
-    dynamics: &D,
+fn values(
+    problem: &Problem<'_, impl Dynamics>,
     switch: &Switch,
-    panel: &PanelTable<D::Place>,
-    start: PanelStart,
     solution: &PanelSolution,
 ) -> (Values, f64) {
-    let times = if dynamics.reads_time() {
-        panel.rule.integrals(&solution.slopes)
+    let rule = problem.panel.rule;
+    let times = if problem.dynamics.reads_time() {
+        rule.integrals(&solution.slopes)
     } else {
         [0.0; MAX_DEGREE + 1]
     };
     let mut values = [0.0; MAX_DEGREE + 1];
     let mut size = 0.0f64;
-    for j in 0..=panel.rule.degree() {
-        let (t, speed) = (start.t + times[j], solution.forces.speeds[j]);
+    for j in 0..=rule.degree() {
+        let (t, speed) = (problem.start.t + times[j], solution.forces.speeds[j]);
         let largest_part;
-        (values[j], largest_part) = value(dynamics, switch, panel, start, (j, t, speed));
+        (values[j], largest_part) = value(problem, switch, (j, t, speed));
         size = size.max(largest_part);
     }
     (values, SUM_ROUNDING * size)

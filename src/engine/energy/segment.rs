@@ -104,14 +104,12 @@ impl Segment {
         let index = self.index_at(after);
         let panel = &self.panels[index];
         let (rest, speed) = panel.state(after - self.begins[index]);
-        let turns = panel.turns;
-        (Angle::new(turns, rest), speed)
+        (Angle::new(panel.turns, rest), speed)
     }
 
-    /// Returns the angle at the end, for a start with these whole turns; none without panels.
-    pub fn last_angle(&self, turns: f64) -> Option<Angle> {
-        let panel = self.panels.last()?;
-        Some(Angle::new(turns + panel.turns, panel.piece.to))
+    /// Returns the last panel.
+    pub fn last(&self) -> Option<&Panel> {
+        self.panels.last()
     }
 
     /// Returns the time (s) at which an angle is reached and the speed there (rad/s); none off the segment. Angles off

@@ -22,7 +22,7 @@ use super::errors_over_angle::{
 };
 use super::over_angle::second_run_resolution;
 use super::stop_reason;
-use crate::engine::angle::{Errors, Guide};
+use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::{Method, MotionState, Settings};
 use crate::engine::{Counted, Motion, WorkLimit};
@@ -47,7 +47,7 @@ pub(super) fn estimate(
         return Some(by_energy(pass.task, &piece.run, result, wants_rows));
     }
     let begun = Instant::now();
-    let guide = piece.map(|piece| Guide::new(&piece.run));
+    let guide = piece.map(|piece| &piece.run);
     let first_engine = match result.pieces_over_angle {
         0 => Engine::Time,
         _ => Engine::Angle,

@@ -9,7 +9,7 @@ use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
 use super::engine_loop::{AnglePiece, Pass, PieceEnd, Reason};
 use crate::engine::WorkLimit;
-use crate::engine::angle::{self, AngleRun, Goal, Guide, Resolution};
+use crate::engine::angle::{self, AngleRun, Goal, Resolution};
 use crate::engine::energy::{NotApplicable, Orbit};
 use crate::engine::time::MotionState;
 use crate::error::Error;
@@ -154,7 +154,7 @@ pub(super) fn run_resolution<'a>(task: &RunSetup<'a>) -> Resolution<'a> {
 /// elsewhere, as two runs on the same panels would have the same error.
 pub(super) fn second_run_resolution<'a>(
     first: Resolution<'a>,
-    guide: Option<Guide<'a>>,
+    guide: Option<&'a AngleRun>,
 ) -> Resolution<'a> {
     // The series decay further than to the tail, as the degrees are few.
     let ratio = 1e4;

@@ -68,7 +68,7 @@ impl<D: Dynamics> MapRun<'_, D> {
         self.stepper.restart(kinetic, false);
         let mut segment = Segment::open();
         loop {
-            segment.push(self.stepper.panel()?.panel);
+            segment.push(self.stepper.panel()?);
             let here = self.stepper.speeds();
             speeds = Some(speeds.map_or(here, |all| all.hull(here)));
             if self.stepper.progress.missed_load {

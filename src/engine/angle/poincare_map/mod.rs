@@ -4,17 +4,13 @@ mod cells;
 
 use std::f64::consts::TAU;
 
+use super::super::energy::NotApplicable;
 use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
-use super::super::energy::piece::SAME_ANGLE;
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, RecentTurn, Turns};
-use super::super::energy::{NotApplicable, Orbit};
-use super::angle_run::work_until;
-use super::progress::SolvedPanel;
 use super::stepper::PanelStepper;
 use super::{AngleRun, Dynamics, Errors, Goal};
 use crate::engine::WorkLimit;
-use crate::engine::run_in_time::MotionState;
 
 /// Degree of the interpolation over the energy: a cell costs one turn more than this.
 const MAP_DEGREE: usize = 16;
@@ -27,7 +23,6 @@ pub(super) fn run<D: Dynamics>(
     segment: Segment,
     goal: Goal,
 ) -> Result<AngleRun, NotApplicable> {
-    let MotionState { angle, speed, .. } = stepper.start;
     let mark = TurnStart {
         turns: stepper.progress.turns.abs(),
         t: stepper.progress.t,
@@ -36,7 +31,7 @@ pub(super) fn run<D: Dynamics>(
         low: [0.0; 2],
     };
     let (errors, first) = (stepper.progress.errors, stepper.progress.t.0);
-    let mut turns = MapRun {
+    let mut run = MapRun {
         width: f64::INFINITY,
         gain: stepper.progress.gain / mark.turns * f64::from(stepper.dynamics.cycle()),
         stepper,
@@ -47,53 +42,27 @@ pub(super) fn run<D: Dynamics>(
         marks: vec![mark],
         last: Segment::open(),
     };
-    let (last, why) = turns.turn_of(goal);
-    let ended = turns.last_turns(&last, goal, why)?;
-    let MapRun { stepper, .. } = turns;
-    let before = last.work + stepper.progress.work;
-    let early_end = match &ended {
-        MapEnd::AtGoal(_) => None,
-        MapEnd::Early(why) => {
-            let whole = angle.turns + speed.signum() * last.turns;
-            stepper.early_end(&turns.last, whole, *why)
-        }
-    };
+    let (last, why) = run.turn_of(goal);
+    let why = run.last_turns(&last, goal, why);
     let turns = Turns {
-        map: Map::Interpolated(turns.map),
-        marks: turns.marks,
-        last: turns.last,
+        map: Map::Interpolated(run.map),
+        marks: run.marks,
+        last: run.last,
         recent: RecentTurn::default(),
         error: 0.0,
     };
-    let orbit = Orbit::one_way(angle, speed, segment, Some(turns));
-    let end = match goal {
-        _ if early_end.is_some() => orbit.length(),
-        Goal::Time(until) => until,
-        Goal::Turned(way) => orbit.time_of_turn(way).unwrap_or(last.t.0),
-    };
-    let work = match ended {
-        MapEnd::Early(_) => before,
-        MapEnd::AtGoal(done) => {
-            let after = last.until(end);
-            before - done.work + work_until(orbit.last_segment(), after, &done.force)
-        }
-    };
+    let whole = (segment, Some(turns));
+    let run = run.stepper.finished(whole, &last, goal, why)?;
     Ok(AngleRun {
         shapes: Vec::new(),
         // Errors grow as in the first turns.
         errors: Errors {
-            time: errors.time * end / first,
-            advance: errors.advance * end / first,
+            time: errors.time * run.end / first,
+            advance: errors.advance * run.end / first,
             ..errors
         },
-        ..stepper.finished(orbit, end, work, early_end)
+        ..run
     })
-}
-
-/// End of the last turns.
-enum MapEnd {
-    AtGoal(Box<SolvedPanel>),
-    Early(NotApplicable),
 }
 
 /// Run by the map, from its first turn to the turn with the goal.
@@ -158,7 +127,7 @@ impl<D: Dynamics> MapRun<'_, D> {
             if mark.turns - first > most_turns {
                 return (known, Some(NotApplicable::TooManyTurns));
             }
-            if self.stepper.limit.is_reached(0) {
+            if self.stepper.resolution.limit.is_reached(0) {
                 return (known, Some(NotApplicable::WorkLimit));
             }
             self.gain = turn.gain;
@@ -209,13 +178,14 @@ impl<D: Dynamics> MapRun<'_, D> {
         }
     }
 
-    /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map.
+    /// Integrates the turn with the goal up to the goal, or single turns after an early end of the map. Returns the
+    /// reason for an end before the goal.
     fn last_turns(
         &mut self,
         mark: &TurnStart,
         goal: Goal,
         map_ended: Option<NotApplicable>,
-    ) -> Result<MapEnd, NotApplicable> {
+    ) -> Option<NotApplicable> {
         self.stepper.restart(mark.kinetic, true);
         let limited = map_ended
             .filter(|why| matches!(why, NotApplicable::WorkLimit | NotApplicable::TooManyTurns));
@@ -224,28 +194,16 @@ impl<D: Dynamics> MapRun<'_, D> {
             _ => 1.0,
         };
         if limited.is_some() {
-            self.stepper.limit = WorkLimit::NONE;
+            self.stepper.resolution.limit = WorkLimit::NONE;
         }
         loop {
-            let done = match self.stepper.panel() {
-                Ok(done) => done,
-                Err(why) if self.last.len() == 0 => return Err(why),
-                Err(why) => return Ok(MapEnd::Early(why)),
-            };
-            let piece = &done.panel.piece;
-            let turned =
-                (piece.to - self.stepper.start.angle.rest).abs() + done.panel.turns.abs() * TAU;
-            self.last.push(done.panel.clone());
-            let passed = match goal {
-                Goal::Time(until) => self.stepper.progress.t.0 > mark.until(until),
-                Goal::Turned(way) => turned + mark.turns * TAU >= way - SAME_ANGLE,
-            };
-            let all = self.stepper.panels.at_cycle() && self.stepper.progress.turns.abs() >= most;
-            if passed || all && map_ended.is_none() {
-                return Ok(MapEnd::AtGoal(done.into()));
+            match self.stepper.advance(&mut self.last, mark, goal) {
+                Ok(false) => {}
+                Ok(true) => return None,
+                Err(why) => return Some(why),
             }
-            if all {
-                return Ok(MapEnd::Early(limited.unwrap_or(NotApplicable::TooLong)));
+            if self.stepper.panels.at_cycle() && self.stepper.progress.turns.abs() >= most {
+                return map_ended.map(|_| limited.unwrap_or(NotApplicable::TooLong));
             }
         }
     }
