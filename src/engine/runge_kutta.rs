@@ -10,7 +10,7 @@ use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 
 use super::Motion;
-use super::run_in_time::Finish;
+use super::run_in_time::{Finish, Settings};
 use super::step::{Node, Step};
 use crate::numeric::angle::Angle;
 
@@ -47,8 +47,8 @@ pub struct Call<'a> {
     pub motion: &'a dyn Motion,
     /// Method.
     pub method: RungeKutta,
-    /// Tolerance of the local error, relative and absolute.
-    pub tolerance: f64,
+    /// Tolerance of the local error and unit of work.
+    pub settings: &'a Settings<'a>,
     /// Whole turns to be added to the angles of the call.
     pub turns: f64,
     /// Initial state.
@@ -59,8 +59,6 @@ pub struct Call<'a> {
     pub first_step: f64,
     /// Most attempted steps.
     pub max_steps: u32,
-    /// Unit of work, J, for the local error of the work.
-    pub work_unit: f64,
     /// Observer of each accepted step; returning true ends the call.
     pub observer: &'a mut dyn FnMut(&Step) -> bool,
 }
@@ -83,7 +81,7 @@ fn run<const N: usize>(call: Call<'_>, work: Option<usize>, clock: Option<usize>
     let mut state = SVector::<f64, N>::zeros();
     state[0] = call.start.theta;
     state[1] = call.start.omega;
-    let (method, tolerance) = (call.method, call.tolerance);
+    let (method, tolerance) = (call.method, call.settings.tolerance);
     let first_step = call.first_step.min(length);
     let max_steps = call.max_steps;
     let stopped = Cell::new(false);
@@ -147,7 +145,7 @@ impl<const N: usize> System<f64, SVector<f64, N>> for Adapter<'_, '_> {
         if let Some(i) = self.work {
             let (alpha, power) = self.call.motion.acceleration_and_power(t, angle, y[1]);
             dy[1] = alpha;
-            dy[i] = power / self.call.work_unit;
+            dy[i] = power / self.call.settings.work_unit;
         } else {
             dy[1] = self.call.motion.acceleration(t, angle, y[1]);
         }
@@ -167,7 +165,10 @@ impl<const N: usize> System<f64, SVector<f64, N>> for Adapter<'_, '_> {
             theta: y[0],
             omega: y[1],
             alpha: dy[1],
-            work: begin.work + self.work.map_or(0.0, |i| y[i] * self.call.work_unit),
+            work: begin.work
+                + self
+                    .work
+                    .map_or(0.0, |i| y[i] * self.call.settings.work_unit),
         };
         let step = Step::new(self.call.turns, self.last, end);
         self.last = end;

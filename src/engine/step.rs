@@ -184,8 +184,7 @@ impl Step {
                 let angle = self.angle(theta + bump);
                 h * h * motion.acceleration(t, angle, (dtheta + dbump) / h) - d2theta
             });
-            // Second derivatives of the three terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd one
-            // -45/256.
+            // Second derivatives of the terms at the nodes: even ones -3/8, 9/128 and 1/8, -9/64; odd one -45/256.
             let even = 0.5 * (rest[0] + rest[2]);
             let odd = 0.5 * (rest[2] - rest[0]);
             let determinant = 0.375 * 0.140625 - 0.125 * 0.0703125;
@@ -237,8 +236,7 @@ impl Step {
         ]
     }
 
-    /// Returns the time, s, at which the angle passes `theta`; at the times `from` and `to` it must lie on opposite
-    /// sides.
+    /// Returns the time, s, at which the angle passes `theta`; at `from` and `to` it must lie on opposite sides.
     pub fn time_of_angle(&self, theta: f64, from: f64, to: f64) -> Option<f64> {
         root::bracketed(|t| self.at(t).0 - theta, from, to)
     }

@@ -81,7 +81,7 @@ fn in_calls(
         let ended = runge_kutta::integrate(Call {
             motion,
             method,
-            tolerance: settings.tolerance,
+            settings,
             turns: angle.turns,
             start: node,
             t_end: motion
@@ -90,7 +90,6 @@ fn in_calls(
                 .min(resolved_until),
             first_step,
             max_steps: left.min(u64::from(u32::MAX)) as u32,
-            work_unit: settings.work_unit,
             observer: &mut |step| {
                 rejected = match step.part_of_one_turn() {
                     Some(part) => Some(Rejected::TooLong(part * step.length())),

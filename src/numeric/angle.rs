@@ -31,8 +31,7 @@ impl Angle {
         self.turns * TAU + (self.turns * TAU_REST + self.rest)
     }
 
-    /// Returns the angle with its remainder in [−π, 2π): a remainder in that range, also a small negative one, keeps
-    /// all its digits.
+    /// Returns the angle with its remainder in [−π, 2π): one in that range, also if negative, keeps its digits.
     pub fn reduced(self) -> Angle {
         if (-PI..TAU).contains(&self.rest) {
             return self;

@@ -46,8 +46,7 @@ pub fn legendre_series<const K: usize, const N: usize>(
     sum
 }
 
-/// Returns a bound of the change of a Legendre series over a part of [−1, 1], as a fraction of its length, by Markov's
-/// inequality: |P_k'| ≤ k(k + 1)/2.
+/// Bounds the change of a Legendre series over a fraction of [−1, 1] by Markov's inequality: |P_k'| ≤ k(k + 1)/2.
 pub fn legendre_change(coefficients: &[f64], part: f64) -> f64 {
     let changes = coefficients.iter().enumerate().map(|(k, c)| {
         let steepest = (k * (k + 1)) as f64;

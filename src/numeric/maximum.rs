@@ -10,8 +10,7 @@ const GOLDEN_PART: f64 = 0.381_966_011_250_105_1;
 const FINAL_WIDTH: f64 = 1.0 / (1u32 << 30) as f64;
 
 /// Locates the maximum of a function with one maximum between a and b, and its value: by parabolas through three
-/// points, and by the golden section where they do not serve (Brent, Algorithms for Minimization without Derivatives,
-/// 1973, ch. 5).
+/// points, else by the golden section (Brent, Algorithms for Minimization without Derivatives, 1973, ch. 5).
 pub fn largest(f: impl FnMut(f64) -> f64, a: f64, b: f64) -> (f64, f64) {
     largest_to(f, [a.min(b), a.max(b)], FINAL_WIDTH * (b - a).abs())
 }

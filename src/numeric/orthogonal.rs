@@ -31,8 +31,7 @@ pub struct Term<T> {
     pub squares: T,
 }
 
-/// Solves least squares with rows `weight`·p(t) = `target`, degree by degree up to `most`, or until the points are used
-/// up.
+/// Solves least squares with rows `weight`·p(t) = `target`, up to the degree `most` or that of the points.
 pub fn fit<T: Real>(
     t: &[f64],
     target: &[f64],

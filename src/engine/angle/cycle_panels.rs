@@ -192,7 +192,9 @@ pub(super) fn panels<D: Dynamics>(
     let branch_points = dynamics.branch_points().into_iter().filter(is_near);
     let feet: Vec<f64> = branch_points.map(|[theta, _]| theta).collect();
     let feet = in_turns(&feet, 0..i64::from(dynamics.cycle()));
-    let corners: Vec<f64> = feet.chain(dynamics.corners().iter().copied()).collect();
+    let corners: Vec<f64> = feet
+        .chain(dynamics.corners_of_cycle().iter().copied())
+        .collect();
     let direction = fine.speed.signum();
     let mut list: Vec<PanelTable<D::Place>> = Vec::with_capacity(8);
     let cycle = f64::from(dynamics.cycle());

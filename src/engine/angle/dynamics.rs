@@ -4,6 +4,7 @@ use std::cell::RefCell;
 
 use super::Table;
 use super::panel::PanelTable;
+use crate::engine::energy::Profile;
 use crate::numeric::angle::Angle;
 use crate::numeric::chebyshev::Values;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -29,23 +30,19 @@ pub enum StateVariable {
 }
 
 /// Equation of motion over the crank angle: tables of what depends on the position alone, and state loads, which are
-/// evaluated at states.
-pub trait Dynamics {
+/// evaluated at states. As a [`Profile`] it is the equation under loads of the angle alone.
+pub trait Dynamics: Profile {
     /// Data of a position that the loads need.
     type Place: Copy;
 
-    /// Fills a table at the first `count` angles (rad), to which whole turns are added, on the `side`, ±1, of the
-    /// switch.
-    fn tabulate(
+    /// Fills a table at the first `count` angles (rad), plus whole turns, on the `side`, ±1, of the switch.
+    fn fill_table(
         &self,
         turns: f64,
         angles: (&Values, usize),
         side: f64,
         table: &mut Table<Self::Place>,
     );
-
-    /// Returns the rounding error of the inertia at an angle (rad), which may be rounded itself, relative to the inertia.
-    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64;
 
     /// Returns the store of panels that a run leaves to the next from the same angle; none where each run stands alone.
     fn shared(&self) -> Option<&RefCell<Panels<Self::Place>>>;
@@ -78,15 +75,10 @@ pub trait Dynamics {
     fn switch_of_state_loads(&self, at: &State<'_, Self::Place>) -> f64;
 
     /// Returns the angles of a cycle, rad, from zero on, in rising order, at which panels end.
-    fn corners(&self) -> &[f64];
-
-    /// Returns the branch points of √M and of the forces in the complex angle: real part in a turn and distance from it,
-    /// rad.
-    fn branch_points(&self) -> Vec<[f64; 2]>;
+    fn corners_of_cycle(&self) -> &[f64];
 }
 
-/// Panels of a run, left to the next run from the same angle in the same direction, which uses the tables and starts
-/// from the profiles.
+/// Panels of a run, with tables and profiles, left to the next run from the same angle in the same direction.
 pub struct Panels<P>(pub(super) Vec<PanelTable<P>>);
 
 impl<P> Default for Panels<P> {

@@ -1,8 +1,5 @@
 //! Propagation of errors of the kinetic energy through a run over the angle.
 
-use crate::engine::energy::piece::Piece;
-use crate::numeric::median::range;
-
 /// Errors of energy and time: an error of the energy shifts the time, the more the slower the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
@@ -35,10 +32,4 @@ impl Errors {
         self.retained *= retained;
         self.energy = (retained * self.energy).hypot(noise);
     }
-}
-
-/// Returns the error of the work of these forces (N m) over a piece due to rounded angles, over machine epsilon, J.
-pub(super) fn uncertain(piece: &Piece, forces: &[f64]) -> f64 {
-    let (low, high) = range(forces);
-    0.5 * piece.from.abs().max(piece.to.abs()) * (high - low)
 }

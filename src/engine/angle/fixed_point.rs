@@ -148,8 +148,8 @@ fn bracket(
     Ok((low, high, gain > 0.0))
 }
 
-/// Walks from the first energy by steps in its logarithm, downwards if they are negative, to a cycle that gains and the
-/// next one above, which loses.
+/// Walks from the first energy by steps in its logarithm, of either sign, to a cycle that gains and the next one above,
+/// which loses.
 fn search(
     map: &mut dyn CycleMap,
     first: f64,

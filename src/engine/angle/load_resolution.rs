@@ -134,7 +134,7 @@ impl<D: Dynamics> ForceAlong for OnPanel<'_, D> {
         angles[0] = self.angle(at).rest;
         // The order of the angles gives the direction of the panel.
         angles[1] = panel.piece.to;
-        dynamics.tabulate(panel.turns, (&angles, 2), panel.side, &mut table);
+        dynamics.fill_table(panel.turns, (&angles, 2), panel.side, &mut table);
         let Some(place) = table.places.first() else {
             return 0.0;
         };

@@ -113,8 +113,8 @@ pub(super) const SLOW_FACTOR: f64 = 0.3;
 pub(super) const FIRST_DEGREE: usize = 24;
 
 impl<P: Copy> PanelTable<P> {
-    /// Makes the panel between two angles (rad); its degree is the least that resolves inertia and forces, after a
-    /// trial with the degree `first`.
+    /// Makes the panel between two angles (rad), of the least degree that resolves inertia and forces; `first`: first
+    /// try.
     pub fn new(
         dynamics: &impl Dynamics<Place = P>,
         turns: f64,
@@ -215,7 +215,7 @@ impl<P: Copy> PanelTable<P> {
         let piece = self.piece;
         let angles = self.rule.values(|x| piece.angle(x));
         let count = self.rule.degree() + 1;
-        dynamics.tabulate(self.turns, (&angles, count), self.side, &mut self.table);
+        dynamics.fill_table(self.turns, (&angles, count), self.side, &mut self.table);
         self.largest_force = largest(&self.table.force[..count]);
         let inertias = self.table.inertia[..count].iter();
         for (mobility, inertia) in self.mobility.iter_mut().zip(inertias) {

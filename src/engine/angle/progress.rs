@@ -2,10 +2,11 @@
 
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
-use super::errors::{Errors, uncertain};
+use super::Errors;
 use super::panel::PanelTable;
 use super::solution::PanelSolution;
 use crate::numeric::exact::two_sum;
+use crate::numeric::median::range;
 
 /// Sums over the panels since the start of a run or of a turn.
 pub(super) struct Progress {
@@ -48,8 +49,8 @@ impl Progress {
         }
     }
 
-    /// Moves on over a piece of a panel and returns the motion on it. Rounded times change the work by `mistimed`, over
-    /// machine epsilon, J.
+    /// Moves on over a piece of a panel and returns the motion on it; `mistimed`: work of rounded times over epsilon,
+    /// J.
     pub fn pass<P: Copy>(
         &mut self,
         table: &PanelTable<P>,
@@ -71,8 +72,11 @@ impl Progress {
         self.work += work;
         let retained = (0.5 * work.min(0.0) / self.kinetic).exp();
         let count = rule.degree() + 1;
-        let misplaced = [&table.table.force, &table.table.push]
-            .map(|forces| uncertain(&piece, &forces[..count]));
+        // Error of the work due to rounded angles, over machine epsilon, J.
+        let misplaced = [&table.table.force, &table.table.push].map(|forces| {
+            let (low, high) = range(&forces[..count]);
+            0.5 * piece.from.abs().max(piece.to.abs()) * (high - low)
+        });
         let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1] + mistimed);
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);

@@ -80,8 +80,7 @@ impl<P: Copy> PanelTable<P> {
         self.tabulate(dynamics)
     }
 
-    /// Cuts the panel at the fraction `share`; none if it is too short. `attempt` is the kinetic energy found on all of
-    /// it.
+    /// Cuts the panel at the fraction `share`; none if it is too short. `attempt`: kinetic energy found on it.
     pub fn parts(
         &self,
         dynamics: &impl Dynamics<Place = P>,

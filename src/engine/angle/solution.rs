@@ -61,8 +61,7 @@ impl PanelSolution {
         (self.last_change <= self.first_change).then(|| rule.series(&self.kinetic))
     }
 
-    /// Returns the next degree at which the forces on an unsolved panel are likely to decay to a tail; none if there is
-    /// none.
+    /// Returns the next degree at which the forces on an unsolved panel are likely to decay to a tail, if any.
     pub fn degree_needed<P: Copy>(&self, panel: &PanelTable<P>, tail: f64) -> Option<usize> {
         let next = Rule::next_degree(panel.rule.degree())?;
         let mut slopes = [0.0; MAX_DEGREE + 1];

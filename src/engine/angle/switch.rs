@@ -137,8 +137,8 @@ fn values(
     (values, SUM_ROUNDING * size)
 }
 
-/// Returns the fraction of a panel after which values that are negative at its start rise above zero, if they do so
-/// before the second point.
+/// Returns the fraction of a panel after which values negative at its start rise above zero, if before the second
+/// point.
 fn rise<P: Copy>(panel: &PanelTable<P>, values: &Values) -> f64 {
     let [first, second, ..] = *values;
     match second > 0.0 {

@@ -1,4 +1,4 @@
-//! Attempted step: request, first guess, outcome and error estimate.
+//! Attempted step: first guess, outcome and error estimate.
 
 use super::super::resolution::Unresolved;
 use super::super::step::Step;
@@ -31,15 +31,6 @@ pub enum Rejection {
 impl Rejection {
     /// Rejection of a step with an acceleration that is not finite.
     pub const NOT_FINITE: Rejection = Rejection::TooLong(0.25);
-}
-
-/// Requested step.
-#[derive(Clone, Copy, Debug)]
-pub struct Attempt {
-    /// Length, s.
-    pub h: f64,
-    /// Whether the step begins and ends at a corner, where the acceleration may jump.
-    pub corners: [bool; 2],
 }
 
 impl Collocation<'_> {

@@ -3,8 +3,7 @@
 use super::super::NODES;
 use super::super::step::Step;
 
-/// Length of a step over that of the guide's step: the part of the guide's error that remains, by the order 2 NODES, is
-/// 6e-5.
+/// Length of a step over that of the guide's step: by the order 2 NODES, 6e-5 of its error remains.
 const LENGTH_RATIO: f64 = 2.0 / 3.0;
 
 /// Returns the tolerance beside a guide of the same method and this tolerance. Steps are chosen by the decay of the

@@ -18,7 +18,7 @@ use super::resolution::Feature;
 use super::step::{Node, Step};
 use super::time::{Finish, MotionState, Settings};
 use super::{Counted, Motion};
-use attempt::{Accepted, Attempt, Rejection};
+use attempt::{Accepted, Rejection};
 pub use guide::tolerance_beside;
 use state::State;
 use step::Collocation;
@@ -66,11 +66,7 @@ pub fn run(
         let is_last = state.t + h >= until;
         // The end of the run is no corner: the acceleration there must be that of the step.
         let ends_at_corner = is_last && corner <= settings.t_end;
-        let attempt = Attempt {
-            h,
-            corners: [at_corner, ends_at_corner],
-        };
-        match collocation.attempt(&state, attempt) {
+        match collocation.attempt(&state, h, [at_corner, ends_at_corner]) {
             // A step of one rounding of the time cannot become shorter.
             Err(_) if h <= 2.0 * f64::EPSILON * state.t.abs() => {
                 return (Finish::StepTooSmall, last, steps);

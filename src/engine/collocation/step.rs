@@ -6,7 +6,7 @@ use super::super::resolution::{Feature, Unresolved, unresolved_on};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
 use super::super::{Batch, Counted, Motion, NODES};
-use super::attempt::{Accepted, Attempt, Rejection, last_term};
+use super::attempt::{Accepted, Rejection, last_term};
 use super::newton::Newton;
 use super::state::State;
 use super::tableau::Tableau;
@@ -59,12 +59,18 @@ impl<'a> Collocation<'a> {
         self.alpha = alpha;
     }
 
-    /// Tries a step from a state; a step that is too long because of a corner is to end there.
-    pub fn attempt(&mut self, state: &State, step: Attempt) -> Result<Accepted, Rejection> {
-        let result = self.attempt_whole(state, step);
+    /// Tries a step of length h (s) from a state; a step that is too long because of a corner is to end there. `corners`:
+    /// whether the step begins and ends at a corner, where the acceleration may jump.
+    pub fn attempt(
+        &mut self,
+        state: &State,
+        h: f64,
+        corners: [bool; 2],
+    ) -> Result<Accepted, Rejection> {
+        let result = self.attempt_whole(state, h, corners);
         match result {
             Err(Rejection::TooLong(factor)) if self.motion.varies_between_nodes() => {
-                match self.obstacle(state, step.h) {
+                match self.obstacle(state, h) {
                     Some(found) if found.feature == Feature::Corner => {
                         let at = found.at;
                         Err(Rejection::Corner { at, factor })
@@ -95,7 +101,8 @@ impl<'a> Collocation<'a> {
     fn attempt_whole(
         &mut self,
         state: &State,
-        Attempt { h, corners }: Attempt,
+        h: f64,
+        corners: [bool; 2],
     ) -> Result<Accepted, Rejection> {
         self.by_time = 0.0;
         let (sweeps, newton) = self.converge(state, h)?;

@@ -7,8 +7,8 @@ use super::super::NODES;
 use super::super::step::TERMS;
 use crate::numeric::gauss;
 
-/// Coefficients on the step [0, 1], s = (1 + x)/2. ℓ_j is the Lagrange polynomial of degree n − 1: 1 at node j, 0 at
-/// the others.
+/// Coefficients on the step [0, 1], s = (1 + x)/2. ℓ_j: Lagrange polynomial of degree n − 1, 1 at node j, 0 at the
+/// others.
 #[derive(Clone, Debug)]
 pub struct Tableau {
     /// Nodes c_i.

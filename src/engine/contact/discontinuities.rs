@@ -1,5 +1,4 @@
-//! Changes of the law of motion and kinks of its rates inside a phase: steps end there, and where their stages miss a
-//! load.
+//! Changes of the law of motion and kinks of its rates inside a phase: steps end there, and where they miss a load.
 
 use super::run::{Halt, Runner};
 use super::{AcceptedStep, Contact};

@@ -47,8 +47,7 @@ const fn node(terms: &[Term]) -> f64 {
 }
 
 impl<const N: usize> Stages<N> {
-    /// Computes the step of this length. `rates(c, y)` is the rate at the fraction c of the step, `first` the rate at
-    /// its start.
+    /// Computes the step of this length. `rates(c, y)`: rate at the fraction c of the step; `first`: rate at its start.
     #[inline]
     pub fn new(
         rates: &mut impl FnMut(f64, &[f64; N]) -> [f64; N],

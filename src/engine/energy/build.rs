@@ -198,8 +198,7 @@ impl Builder<'_> {
         Piece::between(at, to, turning)
     }
 
-    /// Returns the error bound of the kinetic energy on the next panel, J; near rest from the integral to the end of
-    /// the turn, which keeps the digits.
+    /// Returns the error bound of the energy on the next panel, J; near rest by the integral to the end of the turn.
     fn known_energy(&mut self, turning: Turning) -> KnownEnergy {
         if let Some(turn_end) = &self.turn_end
             && turning == Turning::AtEnd

@@ -122,8 +122,7 @@ impl EqualGains<'_> {
         OneTurn::new(self.profile, begin)
     }
 
-    /// Computes the cell that begins with a turn and goes no further than the time `until`, s; none if the crank is too
-    /// near rest.
+    /// Computes the cell that begins with a turn and goes no further than the time `until`, s; none too near rest.
     fn cell(&self, first: TurnStart, until: f64) -> Option<EulerMaclaurinCell> {
         let here = self.one_turn(first.kinetic)?;
         let least = Some(here.least(first.kinetic)).filter(|least| *least > 0.0)?;

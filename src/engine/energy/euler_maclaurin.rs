@@ -75,8 +75,7 @@ impl EulerMaclaurinCell {
         2.0 / ((-f64::EPSILON.ln() / MAX_DEGREE as f64).cosh() - 1.0)
     }
 
-    /// Makes the cell of this width upwards from the energy `low`, J; none if its series does not resolve T to
-    /// rounding, or it holds no turn.
+    /// Makes the cell of this width (J) upwards from `low`; none if its series does not resolve T, or it holds no turn.
     pub(super) fn new(
         first: TurnStart,
         low: Lowest,

@@ -40,8 +40,7 @@ impl Peak {
     }
 }
 
-/// Calls `visit` with the points where sign·value is no smaller than at the neighbours, the sign, and the larger
-/// difference from a neighbour.
+/// Visits the points where sign·value is no smaller than beside, with the sign and the larger difference beside.
 fn local_extremes(values: &[f64], mut visit: impl FnMut(usize, f64, f64)) {
     let mut before = 0.0f64;
     for (j, value) in values.iter().enumerate() {
@@ -150,8 +149,7 @@ fn exceeds(bound: f64, known: f64) -> bool {
     bound - known > SERIES_ROUNDING * known.abs() || known == f64::NEG_INFINITY
 }
 
-/// Returns the largest sign·|speed| on panels, rad/s; `sign` is +1 or −1. Only panels whose points admit it are
-/// searched between points.
+/// Returns the largest sign·|speed| on panels, rad/s; only panels whose points admit it are searched between them.
 pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     let peak = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
     // A bound beyond zero admits any speed; no rival, none.

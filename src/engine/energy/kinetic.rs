@@ -1,5 +1,4 @@
-//! Kinetic energy on a piece, by integration of the force series, with its rounding floor, and the errors of the time
-//! due to errors of forces and energies.
+//! Kinetic energy on a piece, by integration of the force series, its rounding, and the errors of the time that follow.
 
 use super::panel::Attempt;
 use super::piece::{Piece, SAME_ANGLE, Turning};
@@ -8,8 +7,7 @@ use crate::numeric::chebyshev::{Rule, Series, Values};
 use crate::numeric::median::range;
 use crate::numeric::{gauss, root};
 
-/// Kinetic energy on a piece, as the integral of the force from the start or end of the piece itself, never as a
-/// difference of large potentials.
+/// Kinetic energy on a piece, as the integral of the force from its start or end: no difference of large potentials.
 pub(super) struct Energy<'a> {
     pub piece: Piece,
     /// Kinetic energy at the start, J.

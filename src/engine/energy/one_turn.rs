@@ -36,9 +36,7 @@ impl OneTurn {
         let rule = Rule::of(MAX_DEGREE);
         let mut done = 0.0;
         let panels = segment.pieces().map(|piece| {
-            let (mut inertia, mut force) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
-            let angles = rule.values(|x| piece.angle(x));
-            profile.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
+            let [inertia, force] = profile.on_piece(&piece);
             let half = 0.5 * piece.span();
             let work = rule.integrals(&force).map(|work| done + half * work);
             done = work[MAX_DEGREE];

@@ -1,5 +1,4 @@
-//! Panel of the crank angle: dt/dθ and t as Chebyshev series of the largest degree, which resolves half a turn of a
-//! usual engine to rounding.
+//! Panel of the crank angle: dt/dθ and t as Chebyshev series, which resolve half a turn of a usual engine to rounding.
 
 use super::extreme::{Peak, extremes};
 use super::kinetic::{Energy, Noise, TimeSensitivity};
@@ -65,9 +64,7 @@ impl Panel {
         known_energy: KnownEnergy,
     ) -> Result<Attempt, NotApplicable> {
         let rule = Rule::of(MAX_DEGREE);
-        let (mut inertia, mut force) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
-        let angles = rule.values(|x| piece.angle(x));
-        profile.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
+        let [inertia, force] = profile.on_piece(&piece);
         let known = |values: &Values| values.iter().all(|value| value.is_finite());
         if !known(&inertia) || !known(&force) {
             return Err(NotApplicable::NotFinite);
@@ -201,8 +198,7 @@ impl Panel {
         self.tail / self.rule.degree() as f64 * self.duration.0
     }
 
-    /// Returns the truncation error of the speed a time `after` the start (s), relative to the speed: inversely
-    /// proportional to dt/dx.
+    /// Returns the truncation error of the speed a time `after` the start (s), relative to it: that of dt/dx.
     pub fn speed_truncation_error(&self, after: f64) -> f64 {
         let here = self.slope.value(self.position(after)).abs();
         self.tail * self.slope.largest() / here

@@ -1,6 +1,7 @@
 //! Interface of the energy engine to a mechanism, and its reasons not to apply.
 
-use crate::numeric::chebyshev::Values;
+use super::piece::Piece;
+use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values};
 
 /// Mechanism as the energy engine sees it.
 pub trait Profile {
@@ -20,7 +21,7 @@ pub trait Profile {
     /// Returns the angles in [0, 2π), in rising order, at which panels must end in each turn.
     fn corners(&self) -> &[f64];
 
-    /// Returns the branch points of √M and of the force in the complex angle: real part and distance from it, rad.
+    /// Returns the branch points of √M and of the forces in the complex angle: real part and distance from it, rad.
     fn branch_points(&self) -> Vec<[f64; 2]>;
 
     /// Returns the next angle from `from` towards `to`, other than [`Self::corners`], at which a panel must end.
@@ -35,9 +36,18 @@ pub trait Profile {
     /// True if everything repeats after a turn that does no work.
     fn repeats(&self) -> bool;
 
-    /// Returns the work of the forces in one turn counter-clockwise and its error bound, J, if all turns have the same
-    /// forces.
+    /// Returns the work of the forces in a turn counter-clockwise and its error bound, J, if all turns have the same.
     fn work_of_turn(&self) -> Option<(f64, f64)>;
+}
+
+impl dyn Profile + '_ {
+    /// Computes inertia and force at the points of the rule of the largest degree on a piece.
+    pub(super) fn on_piece(&self, piece: &Piece) -> [Values; 2] {
+        let angles = Rule::of(MAX_DEGREE).values(|x| piece.angle(x));
+        let [mut inertia, mut force] = [[0.0; MAX_DEGREE + 1]; 2];
+        self.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
+        [inertia, force]
+    }
 }
 
 /// Reason why a motion cannot be computed over the crank angle.

@@ -199,8 +199,8 @@ impl Turns {
         self.last_mark().t.0 + self.last.duration.0
     }
 
-    /// Returns the largest kinetic energy at the starts of turns, whose energies are monotone, and in the last turns, up
-    /// to a time (s), J.
+    /// Returns the largest kinetic energy at the starts of turns, whose energies are monotone, and in the last turns,
+    /// up to a time (s), J.
     pub fn largest_kinetic(&self, until: f64) -> f64 {
         let reached = self.find(Goal::Time(until));
         let most = reached.kinetic.max(self.marks[0].kinetic);

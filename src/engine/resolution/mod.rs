@@ -19,8 +19,7 @@ pub trait ForceAlong {
         None
     }
 
-    /// Returns a position between two others at which the motion turns back: a force of the speed may be analytic on
-    /// either side only.
+    /// Returns a position between two others at which the motion turns back: a force of the speed may have a corner.
     fn turn(&self, _from: f64, _to: f64) -> Option<f64> {
         None
     }
@@ -100,8 +99,7 @@ pub fn unresolved(force: &impl ForceAlong, criterion: NodeCriterion) -> Option<U
 }
 
 impl NodeCriterion {
-    /// Returns the variation of the force on a piece, and the number of nodes that resolve it, if at most
-    /// [`Self::nodes`].
+    /// Returns the variation of the force on a piece, and the nodes that resolve it, if at most [`Self::nodes`].
     fn nodes_on(&self, force: &impl ForceAlong, from: f64, to: f64) -> (Variation, Option<usize>) {
         let variation = |ellipse| force.variation(from, to, ellipse);
         resolved(variation, self.ellipses, self.allowed, self.nodes)

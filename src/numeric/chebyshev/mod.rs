@@ -81,8 +81,7 @@ impl Series {
         value
     }
 
-    /// Returns the values of this series and another of its degree at `x`: two recurrences side by side take the time of
-    /// one.
+    /// Returns the values of this series and another of its degree at `x`: two side by side take the time of one.
     pub fn values_with(&self, other: &Series, x: f64) -> [f64; 2] {
         let pairs = self.terms().iter().zip(other.terms());
         clenshaw(pairs.map(|(c, d)| [*c, *d]), [x; 2])

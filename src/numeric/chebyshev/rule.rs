@@ -196,8 +196,7 @@ impl Rule {
         })
     }
 
-    /// Integrates the series through values at the points over [−1, 1] (Clenshaw and Curtis): a rounded value and its
-    /// remainder.
+    /// Integrates the series through values at the points over [−1, 1] (Clenshaw and Curtis): value and remainder.
     pub fn integral(&self, values: &Values) -> (f64, f64) {
         // Separate partial sums, for the processor to add side by side.
         let (mut sums, mut rests) = ([0.0; LANES], [0.0; LANES]);

@@ -58,12 +58,7 @@ impl Variation {
 
     /// Returns the variation, hidden where a bound is not a number.
     fn known(self) -> Variation {
-        let Variation {
-            change,
-            around,
-            deviation,
-        } = self;
-        match (change + around + deviation).is_nan() {
+        match (self.change + self.around + self.deviation).is_nan() {
             true => Variation::HIDDEN,
             false => self,
         }

@@ -14,7 +14,6 @@ use super::guide_friction::{
 use super::run_setup::RunSetup;
 use crate::engine::WorkLimit;
 use crate::engine::angle::{Dynamics, Panels, State, StateVariable, Table};
-use crate::engine::energy::Profile;
 use crate::mechanism::{Equation, LoadValue};
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values};
@@ -163,7 +162,7 @@ impl Dynamics for AngleModel<'_> {
         self.evaluations()
     }
 
-    fn tabulate(
+    fn fill_table(
         &self,
         turns: f64,
         (angles, count): (&Values, usize),
@@ -212,10 +211,6 @@ impl Dynamics for AngleModel<'_> {
             let nodes = (&at.dx[..count], &normals[..count]);
             guide.tabulate(nodes, direction * side, loads, &of_place, table);
         }
-    }
-
-    fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
-        self.equation.inertia_rounding(theta, is_rounded)
     }
 
     fn shared(&self) -> Option<&RefCell<Panels<PanelPlace>>> {
@@ -280,7 +275,7 @@ impl Dynamics for AngleModel<'_> {
         at.place.load_effect.normal_force(load)
     }
 
-    fn corners(&self) -> &[f64] {
+    fn corners_of_cycle(&self) -> &[f64] {
         // Friction and dry loads change sign at the dead centres.
         let [_, dry_on_slider] = self.equation.loads().dry_on();
         let reverses = self.guide.is_some() || dry_on_slider;
@@ -289,9 +284,5 @@ impl Dynamics for AngleModel<'_> {
         } else {
             &self.load_corners
         }
-    }
-
-    fn branch_points(&self) -> Vec<[f64; 2]> {
-        Profile::branch_points(self)
     }
 }
