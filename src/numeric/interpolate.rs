@@ -22,10 +22,13 @@ named! {
 /// Interpolating curve through given points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableInterpolant {
-    x: Vec<f64>,
-    y: Vec<f64>,
+    /// Arguments of the points, rising; of a periodic curve with the first point of the next period.
+    pub x: Vec<f64>,
+    /// Values at the points.
+    pub y: Vec<f64>,
     slope: Option<Vec<f64>>,
-    period: Option<f64>,
+    /// Period, if any.
+    pub period: Option<f64>,
     /// Intended period minus the float of the period.
     period_remainder: f64,
     spacing: f64,
@@ -59,21 +62,6 @@ impl TableInterpolant {
     /// Returns the smallest and the largest argument; a periodic curve takes any.
     pub fn range(&self) -> (f64, f64) {
         (self.x[0], self.x[self.x.len() - 1])
-    }
-
-    /// Returns the period, if any.
-    pub fn period(&self) -> Option<f64> {
-        self.period
-    }
-
-    /// Returns the arguments of the points.
-    pub fn points(&self) -> &[f64] {
-        &self.x
-    }
-
-    /// Returns the values at the points.
-    pub fn values(&self) -> &[f64] {
-        &self.y
     }
 
     /// Returns the first point after `at`, where the curve is not smooth; infinite if there is none.

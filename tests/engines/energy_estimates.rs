@@ -164,10 +164,11 @@ impl Profile for Ellipse {
         (self.speed(theta).powi(-2), 0.0)
     }
 
-    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
-        for i in 0..count {
-            (inertia[i], force[i]) = self.inertia_and_force(angles[i]);
-        }
+    fn tabulate(&self, angles: &Values) -> [Values; 2] {
+        [
+            angles.map(|theta| self.inertia_and_force(theta).0),
+            angles.map(|theta| self.inertia_and_force(theta).1),
+        ]
     }
 
     fn rounding(&self, _: f64) -> f64 {

@@ -3,7 +3,7 @@
 //! Where the forces depend on the angle alone and are the same in each turn, turn n begins with the kinetic energy K₀ +
 //! nW. A million turns take a few dozen cells of the energy.
 
-use super::euler_maclaurin::{EulerMaclaurinCell, Lowest};
+use super::euler_maclaurin::EulerMaclaurinCell;
 use super::interpolated_turns::TurnStart;
 use super::one_turn::OneTurn;
 use super::piece::KineticState;
@@ -143,15 +143,11 @@ impl EqualGains<'_> {
         };
         let cell = |share: f64| {
             let width = (share * widest).min(needed.max(narrowest * widest));
-            let (down, turn) = match self.gain >= 0.0 {
-                true => (0.0, here.clone()),
-                false => (width, self.one_turn(first.kinetic - width)?),
+            let turn = match self.gain >= 0.0 {
+                true => here.clone(),
+                false => self.one_turn(first.kinetic - width)?,
             };
-            let low = Lowest {
-                kinetic: first.kinetic - down,
-                least: least - down,
-            };
-            EulerMaclaurinCell::new(first, low, width, self.gain, turn)
+            EulerMaclaurinCell::new(first, least, width, self.gain, turn)
         };
         let shares = std::iter::successors(Some(1.0), |share| Some(0.5 * share));
         shares.take_while(|share| *share > narrowest).find_map(cell)

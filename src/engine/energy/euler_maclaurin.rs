@@ -33,28 +33,6 @@ pub(in crate::engine) struct EulerMaclaurinCell {
     pub turn: OneTurn,
 }
 
-/// Lower end of a cell.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lowest {
-    /// Kinetic energy at the start of the turn, J.
-    pub kinetic: f64,
-    /// Least kinetic energy in the turn, J: T is singular where it vanishes.
-    pub least: f64,
-}
-
-impl Lowest {
-    /// Returns the rule that resolves T to rounding on a cell of this width upwards, J: the coefficients of its series
-    /// decay like the powers of the sum of the half-axes of the ellipse through the singularity (Trefethen,
-    /// Approximation Theory and Approximation Practice, theorem 8.1).
-    fn rule(self, width: f64) -> &'static Rule {
-        let singularity = 1.0 + 2.0 * self.least / width;
-        let degree = (-f64::EPSILON.ln() / singularity.acosh()).round();
-        let resolves = |of_rule: &usize| *of_rule as f64 >= degree;
-        let degree = Rule::DEGREES.into_iter().find(resolves);
-        Rule::of(degree.unwrap_or(MAX_DEGREE))
-    }
-}
-
 /// Returns the end terms of the Euler-Maclaurin sum: −T/2 + h T'/12 − h³ T'''/720 + h⁵ T⁽⁵⁾/30240; constants cancel.
 fn correction(difference: &Series, h: f64) -> Series {
     let first = difference.derivative();
@@ -75,16 +53,25 @@ impl EulerMaclaurinCell {
         2.0 / ((-f64::EPSILON.ln() / MAX_DEGREE as f64).cosh() - 1.0)
     }
 
-    /// Makes the cell of this width (J) upwards from `low`; none if its series does not resolve T, or it holds no turn.
+    /// Makes the cell of this width, J, from its first turn on, in which the least kinetic energy is `least`, J; `turn` is
+    /// fine enough for all its energies. None if the series of T does not resolve it to rounding, or it holds no turn.
     pub(super) fn new(
         first: TurnStart,
-        low: Lowest,
+        least: f64,
         width: f64,
         gain: f64,
         turn: OneTurn,
     ) -> Option<EulerMaclaurinCell> {
-        let (half, rule) = (0.5 * width, low.rule(width));
-        let middle = low.kinetic + half;
+        let down = if gain >= 0.0 { 0.0 } else { width };
+        // T is singular where the least energy in the turn vanishes: the coefficients of its series decay like the powers
+        // of the sum of the half-axes of the ellipse through there (Trefethen, Approximation Theory and Approximation
+        // Practice, theorem 8.1).
+        let singularity = 1.0 + 2.0 * (least - down) / width;
+        let degree = (-f64::EPSILON.ln() / singularity.acosh()).round();
+        let resolves = |of_rule: &usize| *of_rule as f64 >= degree;
+        let degree = Rule::DEGREES.into_iter().find(resolves);
+        let (half, rule) = (0.5 * width, Rule::of(degree.unwrap_or(MAX_DEGREE)));
+        let middle = (first.kinetic - down) + half;
         let middle_duration = turn.duration(middle);
         let differences = rule.values(|x| turn.duration(middle + half * x) - middle_duration);
         let difference = rule.series(&differences);

@@ -13,6 +13,8 @@ pub(in crate::engine) struct Panel {
     pub piece: Piece,
     /// Whole turns to be added to the angles.
     pub turns: f64,
+    /// Start time on its segment, s.
+    pub begin: f64,
     pub rule: &'static Rule,
     /// Series of dt/dx, s.
     pub(super) slope: Series,
@@ -157,6 +159,7 @@ impl Panel {
         Panel {
             piece,
             turns: 0.0,
+            begin: 0.0,
             extremes: extremes(&piece, rule, slopes),
             rule,
             slope,

@@ -24,9 +24,8 @@ impl Orbit {
             _ => segment.len() as f64,
         };
         let of_panel = |index: usize| {
-            let count = segment
-                .panel(index)
-                .map_or(0, |(panel, _)| panel.rule.degree());
+            let panel = segment.panel(index);
+            let count = panel.map_or(0, |panel| panel.rule.degree());
             let x = move |j: usize| -(PI * j as f64 / count as f64).cos();
             (0..count).map(move |j| index as f64 + 0.5 * (1.0 + x(j)))
         };
@@ -41,27 +40,26 @@ impl Orbit {
 
     /// Returns angle and speed (rad/s) at a position.
     pub fn state_at_position(&self, at: f64) -> Option<(Angle, f64)> {
-        let (panel, x, _) = self.at_position(at)?;
+        let (panel, x) = self.at_position(at)?;
         let angle = Angle::new(self.start.turns + panel.turns, panel.piece.angle(x));
         Some((angle, panel.speed(x)))
     }
 
     /// Returns the time of a position, s.
     pub fn time_of_position(&self, at: f64) -> Option<f64> {
-        let (panel, x, begin) = self.at_position(at)?;
-        Some(begin + panel.time(x))
+        let (panel, x) = self.at_position(at)?;
+        Some(panel.begin + panel.time(x))
     }
 
-    /// Returns the panel of a position, its variable x, and the start time of the panel, s.
-    fn at_position(&self, at: f64) -> Option<(&Panel, f64, f64)> {
+    /// Returns the panel of a position and its variable x.
+    fn at_position(&self, at: f64) -> Option<(&Panel, f64)> {
         let count = self.forward.len();
         let at = match self.rotates() {
             true => at.rem_euclid(count as f64),
             false => at,
         };
         let index = (at as usize).min(count.saturating_sub(1));
-        let (panel, begin) = self.forward.panel(index)?;
         let x = (2.0 * (at - index as f64) - 1.0).clamp(-1.0, 1.0);
-        Some((panel, x, begin))
+        Some((self.forward.panel(index)?, x))
     }
 }

@@ -9,8 +9,8 @@ pub trait Profile {
     /// smooth between the corners only.
     fn inertia_and_force(&self, theta: f64) -> (f64, f64);
 
-    /// Computes inertia and force at the first `count` angles, rad.
-    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values);
+    /// Computes inertia and force at some angles, rad.
+    fn tabulate(&self, angles: &Values) -> [Values; 2];
 
     /// Returns the rounding error of the inertia at an angle (rad), which may be rounded itself, relative to the inertia.
     fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64;
@@ -43,10 +43,7 @@ pub trait Profile {
 impl dyn Profile + '_ {
     /// Computes inertia and force at the points of the rule of the largest degree on a piece.
     pub(super) fn on_piece(&self, piece: &Piece) -> [Values; 2] {
-        let angles = Rule::of(MAX_DEGREE).values(|x| piece.angle(x));
-        let [mut inertia, mut force] = [[0.0; MAX_DEGREE + 1]; 2];
-        self.tabulate(&angles, MAX_DEGREE + 1, &mut inertia, &mut force);
-        [inertia, force]
+        self.tabulate(&Rule::of(MAX_DEGREE).values(|x| piece.angle(x)))
     }
 }
 

@@ -26,8 +26,6 @@ pub(in crate::engine) enum After {
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Segment {
     panels: Vec<Panel>,
-    /// Start time of each panel, s.
-    begins: Vec<f64>,
     /// Total duration, s: rounded value and remainder.
     pub duration: (f64, f64),
     pub after: After,
@@ -44,7 +42,6 @@ impl Segment {
     pub fn open() -> Segment {
         Segment {
             panels: Vec::with_capacity(8),
-            begins: Vec::with_capacity(8),
             duration: (0.0, 0.0),
             after: After::Ends,
             error: 0.0,
@@ -89,8 +86,8 @@ impl Segment {
         segment
     }
 
-    pub fn push(&mut self, panel: Panel) {
-        self.begins.push(self.duration.0);
+    pub fn push(&mut self, mut panel: Panel) {
+        panel.begin = self.duration.0;
         let (sum, lost) = two_sum(self.duration.0, panel.duration.0);
         self.duration = two_sum(sum, lost + self.duration.1 + panel.duration.1);
         self.error += panel.error;
@@ -101,9 +98,8 @@ impl Segment {
 
     /// Returns angle (turns of the panel, remainder) and speed (rad/s) a time after the start of the segment, s.
     pub fn state(&self, after: f64) -> (Angle, f64) {
-        let index = self.index_at(after);
-        let panel = &self.panels[index];
-        let (rest, speed) = panel.state(after - self.begins[index]);
+        let panel = &self.panels[self.index_at(after)];
+        let (rest, speed) = panel.state(after - panel.begin);
         (Angle::new(panel.turns, rest), speed)
     }
 
@@ -116,8 +112,9 @@ impl Segment {
     /// its ends by rounding count as the ends.
     pub fn at(&self, angle: Angle) -> Option<(f64, f64)> {
         let (index, local) = self.located(angle)?;
-        let (after, speed) = self.panels[index].at(local);
-        Some((self.begins[index] + after, speed))
+        let panel = &self.panels[index];
+        let (after, speed) = panel.at(local);
+        Some((panel.begin + after, speed))
     }
 
     /// Returns the index of the panel that passes an angle, and the angle as one of the panel, rad; none off the segment.
@@ -136,11 +133,11 @@ impl Segment {
     pub fn speed_range(&self, from: f64, until: f64) -> (f64, f64) {
         let mut whole = Vec::with_capacity(self.panels.len());
         let mut parts = Vec::new();
-        for (panel, begin) in self.panels.iter().zip(&self.begins) {
-            let end = begin + panel.duration.0;
-            if from <= *begin && end <= until {
+        for panel in &self.panels {
+            let (begin, end) = (panel.begin, panel.begin + panel.duration.0);
+            if from <= begin && end <= until {
                 whole.push(panel);
-            } else if from < end && *begin <= until {
+            } else if from < end && begin <= until {
                 parts.push((panel, (from - begin).max(0.0), until.min(end) - begin));
             }
         }
@@ -155,18 +152,19 @@ impl Segment {
 
     /// Returns the panel at a time, and the time since its start, s.
     pub fn panel_at(&self, after: f64) -> Option<(&Panel, f64)> {
-        let index = self.index_at(after);
-        Some((self.panels.get(index)?, after - self.begins[index]))
+        let panel = self.panels.get(self.index_at(after))?;
+        Some((panel, after - panel.begin))
     }
 
-    /// Returns a panel and its start time, s.
-    pub fn panel(&self, index: usize) -> Option<(&Panel, f64)> {
-        Some((self.panels.get(index)?, self.begins[index]))
+    /// Returns a panel.
+    pub fn panel(&self, index: usize) -> Option<&Panel> {
+        self.panels.get(index)
     }
 
     /// Returns the index of the panel at a time, s.
     pub fn index_at(&self, after: f64) -> usize {
-        self.begins.partition_point(|begin| *begin <= after).max(1) - 1
+        let begun = self.panels.partition_point(|panel| panel.begin <= after);
+        begun.max(1) - 1
     }
 
     /// Returns the largest kinetic energy at the ends of panels, J.

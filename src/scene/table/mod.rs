@@ -83,35 +83,35 @@ impl Table {
 
     /// Returns the first and last argument, in SI, of a table without period.
     pub fn range(&self) -> Option<(f64, f64)> {
-        self.curve.period().is_none().then(|| self.curve.range())
+        self.curve.period.is_none().then(|| self.curve.range())
     }
 
     /// Returns the period (rad or s), if the table has one.
     pub fn period(&self) -> Option<f64> {
-        self.curve.period()
+        self.curve.period
     }
 
     /// Returns the period of a table over the crank angle as a fraction of a turn, or why there is none.
     pub fn repeats(&self) -> Periodicity {
-        let period = self.curve.period().ok_or(WhyNot::NoPeriod);
+        let period = self.curve.period.ok_or(WhyNot::NoPeriod);
         period.and_then(Period::of_angle).into()
     }
 
     /// Returns the arguments of the rows.
     pub fn rows(&self) -> &[f64] {
-        self.curve.points()
+        &self.curve.x
     }
 
     /// Returns the value farthest from zero, with its sign, SI.
     pub(super) fn farthest_from_zero(&self) -> f64 {
-        let values = self.curve.values().iter().copied();
+        let values = self.curve.y.iter().copied();
         let farther = |most: f64, y: f64| if y.abs() > most.abs() { y } else { most };
         values.fold(0.0, farther)
     }
 
     /// Returns the least value, SI.
     pub(super) fn least(&self) -> f64 {
-        let values = self.curve.values().iter().copied();
+        let values = self.curve.y.iter().copied();
         values.fold(f64::INFINITY, f64::min)
     }
 }

@@ -16,17 +16,18 @@ impl Profile for AngleModel<'_> {
         (terms.inertia.m, load.generalized(terms.pose.dx) - terms.dv)
     }
 
-    fn tabulate(&self, angles: &Values, count: usize, inertia: &mut Values, force: &mut Values) {
-        self.count(count);
+    fn tabulate(&self, angles: &Values) -> [Values; 2] {
+        self.count(angles.len());
         let loads = self.equation.loads();
         let at = self.equation.term_arrays(angles);
-        for (i, angle) in angles.iter().enumerate().take(count) {
+        let mut forces = at.m;
+        for (i, angle) in angles.iter().enumerate() {
             let load = loads
                 .with_potential_at(at.x[i])
                 .plus(loads.of_place(self.angle(*angle), at.x[i]));
-            inertia[i] = at.m[i];
-            force[i] = load.generalized(at.dx[i]) - at.dv[i];
+            forces[i] = load.generalized(at.dx[i]) - at.dv[i];
         }
+        [at.m, forces]
     }
 
     fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
