@@ -246,8 +246,8 @@ impl Step {
 #[inline]
 fn second_derivatives<const N: usize>(powers: &[f64; TERMS], x: [f64; N]) -> [f64; N] {
     let mut sums = [0.0; N];
-    for (k, power) in powers.iter().enumerate().skip(2).rev() {
-        let term = (k * (k - 1)) as f64 * power;
+    for k in (2..TERMS).rev() {
+        let term = (k * (k - 1)) as f64 * powers[k];
         for i in 0..N {
             sums[i] = sums[i] * x[i] + term;
         }

@@ -142,7 +142,11 @@ pub(super) struct Dense<const N: usize> {
 impl<const N: usize> Dense<N> {
     /// Returns the state at u.
     pub fn at(&self, u: f64) -> [f64; N] {
-        std::array::from_fn(|i| self.number(i, u))
+        let mut y = [0.0; N];
+        for (i, y) in y.iter_mut().enumerate() {
+            *y = self.number(i, u);
+        }
+        y
     }
 
     /// Returns one number of the state at u.

@@ -164,11 +164,13 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             }
             _ => 0.0,
         };
-        std::array::from_fn(|i| {
-            self.settings.tolerance * self.sizes[i]
+        let mut scale = [0.0; N];
+        for (i, each) in scale.iter_mut().enumerate() {
+            *each = self.settings.tolerance * self.sizes[i]
                 + f64::EPSILON * self.y[i].abs()
-                + doubt * (h * self.now.rates[i]).abs()
-        })
+                + doubt * (h * self.now.rates[i]).abs();
+        }
+        scale
     }
 
     /// Computes a step in time of this length, s, not yet accepted.
