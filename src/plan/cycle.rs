@@ -1,11 +1,8 @@
 //! Cycle of the loads: the least common multiple of their periods over the crank angle, in whole turns.
 
-use std::fmt;
-
 use serde::Serialize;
 
-use super::terms::shown;
-use crate::scene::{Load, LoadKey, LoadOf, Period, Periodicity, Scene, Variable};
+use crate::scene::{LoadOf, Period, Periodicity, Scene, Variable};
 
 /// The cycle of a scene: the least common multiple of the periods of its loads, in whole turns.
 #[derive(Clone, Debug, Serialize)]
@@ -24,28 +21,12 @@ pub struct Cycle {
 #[derive(Clone, Debug, Serialize)]
 pub struct LoadPeriod {
     /// Key, like `torque[1]`, and description of the load.
-    #[serde(serialize_with = "shown")]
-    pub name: LoadName,
+    pub name: String,
     /// Period of the load, or why there is none.
-    #[serde(serialize_with = "shown")]
-    pub repeats: LoadPeriodicity,
+    pub repeats: String,
     /// Warning that the load is not known between the nodes of panels and steps, if it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub between_nodes: Option<&'static str>,
-}
-
-/// Key of a load in the scene, displayed with the load's description.
-#[derive(Clone, Debug)]
-pub struct LoadName {
-    key: LoadKey,
-    load: Load,
-}
-
-/// Period of a load over the crank angle and whether it reads the time; displayed in words.
-#[derive(Clone, Copy, Debug)]
-pub struct LoadPeriodicity {
-    over_angle: Periodicity,
-    reads_time: bool,
 }
 
 impl Cycle {
@@ -90,34 +71,16 @@ fn reads_time(of: &LoadOf<'_>) -> bool {
     of.reads().has(Variable::T)
 }
 
-impl fmt::Display for LoadName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.key, self.load)
-    }
-}
-
-impl fmt::Display for LoadPeriodicity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.over_angle {
-            _ if self.reads_time => write!(f, "not: it {DEPENDS_ON_TIME}"),
-            Periodicity::Always => f.write_str("at every angle"),
-            Periodicity::After(Period::TURN) => f.write_str("each turn"),
-            Periodicity::After(period) => write!(f, "after {period}"),
-            Periodicity::Never(why) => write!(f, "not: {why}"),
-        }
-    }
-}
-
 impl LoadPeriod {
     fn of(of: LoadOf<'_>) -> LoadPeriod {
         LoadPeriod {
-            name: LoadName {
-                key: of.key,
-                load: of.load.clone(),
-            },
-            repeats: LoadPeriodicity {
-                over_angle: of.repeats(),
-                reads_time: reads_time(&of),
+            name: of.to_string(),
+            repeats: match of.repeats() {
+                _ if reads_time(&of) => format!("not: it {DEPENDS_ON_TIME}"),
+                Periodicity::Always => "at every angle".to_owned(),
+                Periodicity::After(Period::TURN) => "each turn".to_owned(),
+                Periodicity::After(period) => format!("after {period}"),
+                Periodicity::Never(why) => format!("not: {why}"),
             },
             between_nodes: of.load.is_only_sampled().then_some(ONLY_SAMPLED),
         }

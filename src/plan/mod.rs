@@ -17,8 +17,8 @@ pub use cycle::{Cycle, LoadPeriod};
 pub use method::Method;
 pub use refusal::refuse;
 use refusal::{modelled, not_modelled};
-use terms::terms;
-pub use terms::{Term, TermReason};
+pub use terms::Term;
+use terms::{Terms, terms};
 
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage, Loads};
@@ -125,7 +125,7 @@ impl Plan {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
         let Candidate { engine, reason } = choose(method, &reduced, &loads)?;
-        let (kept, left_out) = terms(scene, &reduced);
+        let Terms { kept, left_out } = terms(scene, &reduced);
         Ok(Plan {
             engine,
             reason,
