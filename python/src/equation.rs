@@ -44,8 +44,8 @@ impl Equation {
         let set = |name: &str, value: fn(&mechanism::Terms) -> f64| {
             found.set_item(name, PyArray1::from_iter(py, terms.iter().map(value)))
         };
-        set("M", |terms| terms.inertia.m)?;
-        set("half_dM", |terms| terms.inertia.half_dm)?;
+        set("M", |terms| terms.m)?;
+        set("half_dM", |terms| terms.half_dm)?;
         set("dV", |terms| terms.dv)?;
         set("x", |terms| terms.pose.x)?;
         set("dx", |terms| terms.pose.dx)?;

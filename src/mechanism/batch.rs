@@ -2,9 +2,8 @@
 
 use multiversion::multiversion;
 
-use super::lagrange::forward;
 use super::load::instant;
-use super::{CurveEquation, Equation, GuideForces, Inertia, LoadValue, Normal, Sense, Terms};
+use super::{CurveEquation, Equation, GuideForces, LoadValue, Normal, Sense, Terms};
 use crate::numeric::LANES;
 use crate::numeric::angle::Angle;
 use crate::numeric::trigonometry::sin_cos;
@@ -61,12 +60,18 @@ impl<const N: usize> TermArrays<N> {
     };
 
     #[inline(always)]
-    fn take(&mut self, i: usize, Terms { pose, inertia, dv }: &Terms) {
-        self.x[i] = pose.x;
-        self.dx[i] = pose.dx;
-        self.m[i] = inertia.m;
-        self.half_dm[i] = inertia.half_dm;
-        self.dv[i] = *dv;
+    fn take(&mut self, i: usize, terms: &Terms) {
+        self.x[i] = terms.pose.x;
+        self.dx[i] = terms.pose.dx;
+        self.m[i] = terms.m;
+        self.half_dm[i] = terms.half_dm;
+        self.dv[i] = terms.dv;
+    }
+
+    /// Returns θ̈, rad/s², at instant `i` under a generalized force Q, N m.
+    #[inline(always)]
+    fn acceleration(&self, i: usize, q: f64, omega: f64) -> f64 {
+        (q - self.dv[i] - self.half_dm[i] * omega * omega) / self.m[i]
     }
 }
 
@@ -88,12 +93,7 @@ impl Equation {
             let steady = loads.with_potential_at(x);
             let other = loads.damped(&now[i]).plus(at.of_time[i]).plus(called[i]);
             let spent = other.generalized(dx);
-            let inertia = Inertia {
-                m: sides.m[i],
-                half_dm: sides.half_dm[i],
-            };
-            let q = steady.generalized(dx) + spent;
-            alpha[i] = forward(&inertia, sides.dv[i], q, omega);
+            alpha[i] = sides.acceleration(i, steady.generalized(dx) + spent, omega);
             power[i] = spent * omega;
         }
     }
@@ -169,12 +169,7 @@ impl CurveEquation {
             let load = loads.with_potential_at(sides.x[i]).plus(other);
             let free = normal.place + normal.of_load(load) + normal.square * (omega * omega);
             let rubbed = GuideForces::rubbing(free, normal.force, c).friction * dx;
-            let inertia = Inertia {
-                m: sides.m[i],
-                half_dm: sides.half_dm[i],
-            };
-            let q = load.generalized(dx) + rubbed;
-            alpha[i] = forward(&inertia, sides.dv[i], q, omega);
+            alpha[i] = sides.acceleration(i, load.generalized(dx) + rubbed, omega);
             power[i] = (other.generalized(dx) + rubbed) * omega;
         }
     }

@@ -59,17 +59,6 @@ pub struct Path {
 }
 
 impl Path {
-    /// Returns the path of a point at (along, lateral) of the crank.
-    pub fn on_crank(pose: &Pose, along: f64, lateral: f64) -> Path {
-        let (sin, cos) = (pose.sin, pose.cos);
-        Path {
-            dp: [-along * sin - lateral * cos, along * cos - lateral * sin],
-            d2p: [-along * cos + lateral * sin, -along * sin - lateral * cos],
-            dpsi: 1.0,
-            d2psi: 0.0,
-        }
-    }
-
     /// Returns the path of a point at (along, lateral) of the rod: A plus the point in the rod's axes d = (s cos φ,
     /// −sin φ), n = (sin φ, s cos φ), which turn by ψ' = −s φ'.
     #[inline(always)]
@@ -93,7 +82,7 @@ impl Path {
     }
 
     /// Returns the path of the tip of a turning arm, from the first and second derivative of the arm's angle.
-    pub(super) fn turning([x, y]: [f64; 2], [first, second]: [f64; 2]) -> Path {
+    pub fn turning([x, y]: [f64; 2], [first, second]: [f64; 2]) -> Path {
         Path {
             dp: [-y * first, x * first],
             d2p: [

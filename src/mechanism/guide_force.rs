@@ -37,13 +37,13 @@ impl Equation {
     /// Computes the normal force at a position as [`CurveTerms::normal`] does, to rounding, without branches.
     #[inline(always)]
     pub(super) fn normal_without_cases(&self, terms: &Terms) -> Normal {
-        let Terms { pose, inertia, dv } = terms;
+        let pose = &terms.pose;
         let path = Path::on_rod(self.linkage(), pose, self.rod.along, self.rod.lateral);
         let curve_pose = CurvePose::of(self.linkage(), pose);
         CurveTerms {
-            m: inertia.m,
-            half_dm: inertia.half_dm,
-            dv: *dv,
+            m: terms.m,
+            half_dm: terms.half_dm,
+            dv: terms.dv,
             ..self.curve_terms(curve_pose, &path)
         }
         .normal()

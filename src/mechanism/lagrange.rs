@@ -6,33 +6,25 @@ use super::{Body, Linkage, LoadValue, Loads, Path, Pose};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, RodModel, Scene};
 
-/// M and ½ M' at one crank angle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inertia {
-    /// M, kg m²
-    pub m: f64,
-    /// ½ M', kg m²/rad
-    pub half_dm: f64,
-}
-
-impl Inertia {
-    /// Adds one kinetic term: M += m |p'|² + I ψ'², ½ M' += m p'·p'' + I ψ' ψ''.
-    #[inline(always)]
-    pub fn add(&mut self, mass: f64, inertia: f64, path: &Path) {
-        self.m += mass * dot(path.dp, path.dp) + inertia * path.dpsi * path.dpsi;
-        self.half_dm += mass * dot(path.dp, path.d2p) + inertia * path.dpsi * path.d2psi;
-    }
-}
-
 /// Terms of the equation that depend on the crank angle alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms {
     /// Position of the mechanism.
     pub pose: Pose,
-    /// M and ½ M'.
-    pub inertia: Inertia,
+    /// M, kg m²
+    pub m: f64,
+    /// ½ M', kg m²/rad
+    pub half_dm: f64,
     /// V', N m
     pub dv: f64,
+}
+
+impl Terms {
+    /// Returns θ̈, rad/s², under a generalized force Q, N m.
+    #[inline]
+    fn acceleration(&self, q: f64, omega: f64) -> f64 {
+        (q - self.dv - self.half_dm * omega * omega) / self.m
+    }
 }
 
 /// Equation of motion of one scene: immutable, shared by all evaluations.
@@ -143,28 +135,30 @@ impl Equation {
 
     #[inline(always)]
     fn terms_of(&self, pose: Pose, has_rod: bool, has_weight: bool) -> Terms {
-        let mut inertia = Inertia {
-            m: self.crank_inertia,
-            half_dm: 0.0,
-        };
+        let (mut m, mut half_dm, mut dv) = (self.crank_inertia, 0.0, 0.0);
         let mut path = Path::default();
         if has_rod {
             let rod = &self.rod;
             path = Path::on_rod(&self.linkage, &pose, rod.along, rod.lateral);
-            inertia.add(rod.mass, rod.inertia, &path);
+            m += rod.mass * dot(path.dp, path.dp) + rod.inertia * path.dpsi * path.dpsi;
+            half_dm += rod.mass * dot(path.dp, path.d2p) + rod.inertia * path.dpsi * path.d2psi;
         }
         if self.slider_mass != 0.0 {
-            inertia.m += self.slider_mass * pose.dx * pose.dx;
-            inertia.half_dm += self.slider_mass * pose.dx * pose.d2x;
+            m += self.slider_mass * pose.dx * pose.dx;
+            half_dm += self.slider_mass * pose.dx * pose.d2x;
         }
-        let mut dv = 0.0;
         if has_weight {
             let weight = &self.weight;
             dv = weight.sine * pose.sin + weight.cosine * pose.cos
                 - dot(weight.rod, path.dp)
                 - weight.slider[0] * pose.dx;
         }
-        Terms { pose, inertia, dv }
+        Terms {
+            pose,
+            m,
+            half_dm,
+            dv,
+        }
     }
 
     /// Returns θ̈ in rad/s² at time t (s), crank angle θ (rad, unwrapped) and speed θ̇ (rad/s). Not finite where the
@@ -181,17 +175,18 @@ impl Equation {
         omega: f64,
     ) -> (f64, f64) {
         let theta = theta.into();
-        let Terms { pose, inertia, dv } = self.terms(theta.rest);
+        let terms = self.terms(theta.rest);
+        let pose = &terms.pose;
         let now = pose.instant(t, theta, omega);
         let non_conservative = self.loads.without_potential(&now);
         let load = self.loads.with_potential_at(pose.x).plus(non_conservative);
-        let alpha = forward(&inertia, dv, load.generalized(pose.dx), omega);
+        let alpha = terms.acceleration(load.generalized(pose.dx), omega);
         (alpha, non_conservative.generalized(pose.dx) * omega)
     }
 
     /// Returns the generalized force Q (N m) of a motion, by inverse dynamics.
     pub fn generalized_force(&self, terms: &Terms, omega: f64, alpha: f64) -> f64 {
-        terms.inertia.m * alpha + terms.inertia.half_dm * omega * omega + terms.dv
+        terms.m * alpha + terms.half_dm * omega * omega + terms.dv
     }
 
     /// Returns the torque (N m) on the crank that a motion needs beside the loads of the scene, by inverse dynamics.
@@ -228,28 +223,29 @@ impl Equation {
         let lever = pose.dx.abs();
         let parts = self.linkage().r * (pose.cos * pose.sin_phi / pose.cos_phi).abs();
         let force = changed(here.force, there.force) * lever + here.force.abs() * parts;
-        let inertia = (terms.inertia.half_dm * omega * omega).abs();
+        let inertia = (terms.half_dm * omega * omega).abs();
         force + changed(here.torque, there.torque) + terms.dv.abs() + inertia
     }
 
     /// Returns the rounding error of M at a crank angle, relative to M: half a unit in the last place of each part of
     /// x' = −r (sin θ + cos θ tan φ), which may cancel, and of the angle (rad), if it `is_rounded`.
     pub fn inertia_rounding(&self, theta: f64, is_rounded: bool) -> f64 {
-        let Terms { pose, inertia, .. } = self.terms(theta);
+        let terms = self.terms(theta);
+        let pose = &terms.pose;
         let parts = pose.sin.abs() + (pose.cos * pose.sin_phi / pose.cos_phi).abs();
         let of_lever = self.slider_mass * pose.dx.abs() * self.linkage.r * parts;
         let of_angle = if is_rounded {
-            inertia.half_dm.abs() * theta.abs()
+            terms.half_dm.abs() * theta.abs()
         } else {
             0.0
         };
-        let rounding = f64::EPSILON * (of_lever + of_angle) / inertia.m;
+        let rounding = f64::EPSILON * (of_lever + of_angle) / terms.m;
         if rounding.is_finite() { rounding } else { 0.0 }
     }
 
     /// Returns the kinetic energy, J.
     pub fn kinetic_energy(&self, theta: f64, omega: f64) -> f64 {
-        0.5 * self.terms(theta).inertia.m * omega * omega
+        0.5 * self.terms(theta).m * omega * omega
     }
 
     /// Returns the potential energy of gravity and of the loads that have a potential, J. For the loads the angle
@@ -279,9 +275,4 @@ impl Equation {
         let slider = weight.slider[0] * x - weight.slider[1] * e;
         crank - dot(weight.rod, rod) - slider
     }
-}
-
-#[inline]
-pub(super) fn forward(inertia: &Inertia, dv: f64, q: f64, omega: f64) -> f64 {
-    (q - dv - inertia.half_dm * omega * omega) / inertia.m
 }

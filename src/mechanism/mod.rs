@@ -50,7 +50,7 @@ pub use first_order::FirstOrder;
 pub use friction::{Free, FromRest, GuideForces, Jam};
 pub use guide_force::Normal;
 pub use inverse_position::InversePosition;
-pub use lagrange::{Equation, Inertia, Terms};
+pub use lagrange::{Equation, Terms};
 pub use limits::{Class, DeadCentre, Limits};
 pub use linkage::{Linkage, Pose};
 pub use load::Loads;

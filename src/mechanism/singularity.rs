@@ -29,7 +29,7 @@ impl Equation {
             return Some(Singularity::Load);
         }
         if !self.acceleration(t, theta, omega).is_finite() {
-            let some = terms.inertia.m.is_normal();
+            let some = terms.m.is_normal();
             return Some(if some {
                 Singularity::TooLarge
             } else {

@@ -70,7 +70,10 @@ impl TorqueSlope {
     /// Returns the derivative of the path of the rod's centre of gravity with respect to the length.
     fn change_of_rod(&self, pose: &Pose, slope: &PoseSlope) -> Path {
         let (rod, s) = (&self.equation.rod, self.equation.linkage().s);
-        let pin = Path::on_crank(pose, slope.crank, 0.0);
+        let pin = Path::turning(
+            [pose.cos, pose.sin].map(|part| slope.crank * part),
+            [1.0, 0.0],
+        );
         let part = |[x, y]: [f64; 2], axis: [f64; 2]| {
             let [along, across] = rod.arm(axis);
             [x + along, y + across]
@@ -88,7 +91,7 @@ impl TorqueSlope {
     fn moved_mass(&self, pose: &Pose, squared: f64, length: Length) -> f64 {
         let Rod { mass, cg, .. } = self.rod;
         let linkage = self.equation.linkage();
-        let crank = Path::on_crank(pose, 1.0, 0.0);
+        let crank = Path::turning([pose.cos, pose.sin], [1.0, 0.0]);
         // V' of a unit mass on the crank, per length along it.
         let lift = -dot(self.gravity, crank.dp);
         match (length, self.rod.model) {

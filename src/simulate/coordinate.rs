@@ -42,7 +42,7 @@ impl Motion for Equation {
         let loads = self.loads();
         let seen = self.linkage().enclosed_state(reach, loads.slider_use());
         let force = loads.variation(&seen, seen.unit_load_effects(), ellipse);
-        force.times(1.0 / self.terms(reach.angle.middle()).inertia.m)
+        force.times(1.0 / self.terms(reach.angle.middle()).m)
     }
 
     fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {

@@ -74,7 +74,7 @@ impl RoundoffPropagation {
         let balanced_within = 0.1;
         if size < balanced_within * slopes.by_angle().abs() {
             let angle = step.angle(end.theta);
-            let inertia = equation.terms(end.theta).inertia.m;
+            let inertia = equation.terms(end.theta).m;
             let terms = equation.size_of_terms(end.t, angle, end.omega);
             // Several steps round in the same way.
             let correlation = 2.0;

@@ -106,7 +106,7 @@ impl<'a> RunSetup<'a> {
 
     /// Whether the inertia at an angle (rad) is at most a part of that a radian further on.
     pub fn inertia_is_below(&self, part: f64, theta: f64) -> bool {
-        let inertia = |theta: f64| self.equation().terms(theta).inertia.m;
+        let inertia = |theta: f64| self.equation().terms(theta).m;
         inertia(theta) <= part * inertia(theta + 1.0)
     }
 
@@ -129,7 +129,7 @@ impl<'a> RunSetup<'a> {
 
     /// Returns the settings of the integration in time.
     pub fn settings(&self) -> Settings<'_> {
-        let inertia = self.equation().terms(self.scene.motion.angle).inertia.m;
+        let inertia = self.equation().terms(self.scene.motion.angle).m;
         let unit = 0.5 * inertia * self.speed.powi(2).max(1.0);
         Settings {
             method: match self.plan.stepper {

@@ -233,7 +233,7 @@ fn a_deviation_is_left_as_the_damping_says() {
             .at((f64::from(i) * step).min(turn.summary.last.t_s))
             .unwrap();
         let terms = equation.terms(theta);
-        (c + d * terms.pose.dx.powi(2)) / terms.inertia.m
+        (c + d * terms.pose.dx.powi(2)) / terms.m
     };
     let left = (-step * (0..STEPS).map(rate).sum::<f64>()).exp();
     let multiplier = found.multiplier;

@@ -158,7 +158,7 @@ fn scene(
         Source::Repelling => bare.force(formula(format!("{stiffness}*(x - ({middle}))"))),
     };
     let (theta, rate) = top(&balanced, which)?;
-    let inertia = Equation::new(&balanced).terms(theta).inertia.m;
+    let inertia = Equation::new(&balanced).terms(theta).m;
     let scale = inertia * rate * rate;
     let scene = match beside {
         Beside::Nothing => balanced.clone(),
@@ -187,7 +187,7 @@ fn scene(
             let fall = there(theta) - there(from);
             let short = 10f64.powf(-2.0 - 8.0 * long);
             let sign = if long > 0.5 { 1.0 } else { -1.0 };
-            let inertia = Equation::new(&balanced).terms(from).inertia.m;
+            let inertia = Equation::new(&balanced).terms(from).m;
             if fall <= 0.0 {
                 return None;
             }

@@ -97,7 +97,9 @@ proptest! {
         };
         let (r, l) = (g.crank, g.rod);
         let point = exact.on_crank(along * r, left * r);
-        let turning = Path::on_crank(&pose, along * r, left * r);
+        let (a, b) = (along * r, left * r);
+        let arm = [a * pose.cos - b * pose.sin, a * pose.sin + b * pose.cos];
+        let turning = Path::turning(arm, [1.0, 0.0]);
         check(&turning, &point, [4.0 * r, 4.0 * r]);
         prop_assert_eq!((turning.dpsi, turning.d2psi), (1.0, 0.0));
         let sliding = Path { dp: [pose.dx, 0.0], d2p: [pose.d2x, 0.0], ..Path::default() };

@@ -14,7 +14,7 @@ use slider_crank::scene::{
 fn check_terms(case: &Case, tolerance: f64) {
     let run = Run::new(case);
     let terms = run.terms();
-    let got = [terms.inertia.m, terms.inertia.half_dm, terms.dv];
+    let got = [terms.m, terms.half_dm, terms.dv];
     let (expected, sizes) = (run.expected_terms(), run.parts.sizes());
     for (i, what) in ["M", "M'/2", "V'"].into_iter().enumerate() {
         close(what, got[i], expected[i], sizes[i], tolerance);

@@ -239,8 +239,8 @@ fn terms_of_the_equation_of_duarte() {
                 direction: -FRAC_PI_2,
             });
         let terms = Equation::new(&scene).terms(0.7);
-        agrees("M", terms.inertia.m, m);
-        agrees("M'/2", terms.inertia.half_dm, half_dm);
+        agrees("M", terms.m, m);
+        agrees("M'/2", terms.half_dm, half_dm);
         agrees("V'", terms.dv, dv);
         let slider_force = Equation::new(&scene).terms(0.7).pose.dx;
         agrees("work of a unit force", slider_force, -0.03739865745);

@@ -80,10 +80,9 @@ impl Motion<'_> {
             Unknown::Force => terms.pose.dx,
             _ => 1.0,
         };
-        let known =
-            load.generalized(terms.pose.dx) - terms.dv - terms.inertia.half_dm * omega * omega;
+        let known = load.generalized(terms.pose.dx) - terms.dv - terms.half_dm * omega * omega;
         let tones = tone::sum(self.tones, Carrier::Torque, t);
-        let m = terms.inertia.m;
+        let m = terms.m;
         [(known + tones + arm * unknown) / m, arm / m]
     }
 

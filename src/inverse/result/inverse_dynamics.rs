@@ -143,8 +143,8 @@ impl InverseDynamics<'_> {
             bent = [0, 1].map(|i| (0.5 * (a[i] + b[i]) - [force, torque][i]).abs());
         }
         let (arm, r) = (terms.pose.dx, self.equation.linkage().r);
-        let size = (terms.inertia.m * alpha).abs()
-            + (terms.inertia.half_dm * omega * omega).abs()
+        let size = (terms.m * alpha).abs()
+            + (terms.half_dm * omega * omega).abs()
             + terms.dv.abs()
             // At a dead centre, where the arm is 0, the force is not finite.
             + (force * arm).abs().max(torque.abs());

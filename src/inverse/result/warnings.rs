@@ -81,7 +81,7 @@ pub(in crate::inverse) fn of_sensor(
     equation: &Equation,
     rows: &[InverseRow],
 ) -> Option<String> {
-    let of_radian = |row: &InverseRow| equation.terms(row.theta).inertia.m * row.omega.powi(2);
+    let of_radian = |row: &InverseRow| equation.terms(row.theta).m * row.omega.powi(2);
     let of_milliradian = 1e-3 * median(rows.iter().map(of_radian))?;
     (fitted.told >= 1.0).then(|| {
         let told = fitted.told;

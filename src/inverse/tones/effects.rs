@@ -65,7 +65,7 @@ impl Problem<'_> {
         let rule = [(0.0, 1.0), (LOBATTO[0], 5.0), (LOBATTO[1], 5.0), (1.0, 1.0)];
         rule.map(|(part, weight)| {
             let [theta, _] = cubic([0.0, h], ends, part * h);
-            let speed = weight * h / 12.0 / self.equation.terms(theta).inertia.m;
+            let speed = weight * h / 12.0 / self.equation.terms(theta).m;
             Place {
                 t: times[0] + part * h,
                 added: [speed * h * (1.0 - part), speed],

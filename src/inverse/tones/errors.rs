@@ -17,7 +17,7 @@ impl Problem<'_> {
     pub fn accelerating_torque(&self, smoothed: &Smoothed) -> f64 {
         root_mean_square(smoothed.estimates.iter().map(|one| {
             let terms = self.equation.terms(one.state[0]);
-            terms.inertia.m * one.alpha
+            terms.m * one.alpha
         }))
     }
 

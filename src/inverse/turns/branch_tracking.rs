@@ -227,7 +227,7 @@ pub(in crate::inverse) fn reachable(
 /// Returns the mean inertia of a mechanism over the crank angles that it reaches, kg m².
 fn mean_inertia(equation: &Equation) -> f64 {
     let angles = (0..60).map(|k| TAU / 60.0 * f64::from(k));
-    let inertias = angles.map(|theta| equation.terms(theta).inertia.m);
+    let inertias = angles.map(|theta| equation.terms(theta).m);
     let told: Vec<f64> = inertias.filter(|m| m.is_finite()).collect();
     told.iter().sum::<f64>() / told.len() as f64
 }

@@ -13,7 +13,7 @@ impl Profile for AngleModel<'_> {
         let terms = self.equation.terms(theta);
         let angle = self.angle(theta);
         let load = self.equation.loads().value(0.0, angle, 0.0, &terms.pose);
-        (terms.inertia.m, load.generalized(terms.pose.dx) - terms.dv)
+        (terms.m, load.generalized(terms.pose.dx) - terms.dv)
     }
 
     fn tabulate(&self, angles: &Values) -> [Values; 2] {
@@ -51,7 +51,7 @@ impl Profile for AngleModel<'_> {
     }
 
     fn branch_points(&self) -> Vec<[f64; 2]> {
-        let inertia = |theta: f64| self.equation.terms(theta).inertia.m;
+        let inertia = |theta: f64| self.equation.terms(theta).m;
         // At dead centres x' vanishes. Where it is a sine around them, M does at this distance.
         let of_root = |theta: &f64| {
             let (least, largest) = (inertia(*theta), inertia(theta + FRAC_PI_2));

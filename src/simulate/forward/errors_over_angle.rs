@@ -75,7 +75,7 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState) -> ErrorE
         .map_or(TURN_ROUNDING, |place| place.min(TURN_ROUNDING));
     let mut error = error_of_delay(task, at, late, place);
     error.theta_rad = error.theta_rad.hypot(orbit.turning_point_error(t));
-    let momentum = task.equation().terms(angle.rest).inertia.m * speed.abs();
+    let momentum = task.equation().terms(angle.rest).m * speed.abs();
     // At rest: not a number.
     let kinetic = 0.5 * momentum * speed.abs();
     let by_energy = (orbit.energy_error(t, kinetic) / momentum).min(speed.abs());
@@ -87,7 +87,7 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState) -> ErrorE
 /// shows it.
 fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState, work: f64) -> f64 {
     let balance = EnergyBalance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
-    let momentum = task.equation().terms(at.angle.rest).inertia.m * at.speed.abs();
+    let momentum = task.equation().terms(at.angle.rest).m * at.speed.abs();
     let seen = (MARGIN * balance.residual.abs() + f64::EPSILON * balance.largest) / momentum;
     (orbit.speed_error(at.t) * at.speed.abs()).min(seen)
 }

@@ -239,7 +239,7 @@ impl SecondRunObserver<'_, '_> {
     }
 
     fn inertia(&self, at: &MotionState) -> f64 {
-        self.equation.terms(at.angle.rest).inertia.m
+        self.equation.terms(at.angle.rest).m
     }
 
     fn acceleration(&self, at: &MotionState) -> f64 {

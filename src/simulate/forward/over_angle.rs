@@ -66,7 +66,7 @@ impl Pass<'_, '_> {
             self.add_angle_piece(Engine::Angle, reason, run, MotionState { t, angle, speed })?;
             return Ok(PieceEnd::Ended);
         };
-        let inertia = pass.task.equation().terms(end.angle.rest).inertia.m;
+        let inertia = pass.task.equation().terms(end.angle.rest).m;
         let speed = from.speed.signum() * (2.0 * end.kinetic / inertia).sqrt();
         let (t, angle) = (from.t + run.end, end.angle.reduced());
         let soon = angle.minus(from.angle).abs() < 2.0 * self.resume_rotation;

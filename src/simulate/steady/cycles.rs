@@ -71,7 +71,7 @@ impl<'a> SceneCycleMap<'a> {
         SceneCycleMap {
             task,
             model,
-            inertia: task.equation().terms(task.start().rest).inertia.m,
+            inertia: task.equation().terms(task.start().rest).m,
             largest_kinetic: 0.0,
             noise: task.scene.run.tolerance,
             left: task.options.max_evaluations,

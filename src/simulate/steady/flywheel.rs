@@ -48,7 +48,7 @@ pub(super) fn size(
     let verified = Verified::new(&scene, find(&scene, speed, options)?, options)?;
     let fluctuation = verified.fluctuation();
     let crank = scene.crank.map_or(0.0, |crank| crank.inertia);
-    let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).inertia.m;
+    let step = 1e-4 * Equation::new(&scene).terms(scene.motion.angle).m;
     let slope = (excess(added + step)? - excess_of(fluctuation.value)) / step;
     let off = (fluctuation.value - wanted).abs() + fluctuation.error;
     Ok(Flywheel {
@@ -69,7 +69,7 @@ type Excess<'a> = dyn Fn(f64) -> Result<f64, Error> + 'a;
 
 /// Brackets the inertia to be added, kg m², for a smaller fluctuation, from none upwards.
 fn heavier(scene: &Scene, mut low: End, excess: &Excess<'_>) -> Result<[End; 2], Error> {
-    let own = Equation::new(scene).terms(scene.motion.angle).inertia.m;
+    let own = Equation::new(scene).terms(scene.motion.angle).m;
     // A tenth more than a fluctuation in proportion to the inverse of the inertia needs.
     let mut high = 1.1 * own * low.1 / (1.0 - low.1);
     // With a trillion times the inertia the fluctuation is next to rounding.
