@@ -11,14 +11,13 @@
 //! - at a change point h/r = 1 or h/l = 1: there cos((θ + 90°)/2) = cos q, or cos((90° − Φ)/2) = sin q, with
 //!   their signs, for the motion that keeps all velocities continuous.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use super::extremes::shown_distance;
 use super::linkage::SAME_LENGTHS;
 use super::rocker::Rocker;
-use super::{Class, CurvePose, Limits, Linkage};
-use crate::numeric::angle::{Angle, in_turn};
-use crate::scene::Branch;
+use super::{Class, CurvePose, Linkage};
+use crate::numeric::angle::Angle;
 
 /// Connected set of positions of a mechanism, with a coordinate q.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,40 +139,6 @@ impl Curve {
             Chart::Crank => self.linkage.shown_distance(q),
             Chart::Rod(swapped) => swapped.shown_distance(q),
             Chart::Rocker(rocker) => shown_distance(q, rocker.branch_points()),
-        }
-    }
-
-    /// Locates the dead centres: coordinates in [0, 2π) at which crank and rod are in line and the slider reverses.
-    pub fn dead_centres(&self) -> Vec<f64> {
-        let found = [Branch::Right, Branch::Left]
-            .into_iter()
-            .flat_map(|branch| {
-                let linkage = self.linkage.on_branch(branch);
-                let dead_centres = Limits::new(&linkage, 0.0).dead_centres;
-                dead_centres.into_iter().filter_map(move |dead_centre| {
-                    let (curve, q) = Curve::through(&linkage, Angle::from(dead_centre.theta))?;
-                    let same = match (&self.chart, &curve.chart) {
-                        (Chart::Crank, Chart::Crank) => self.linkage.s == linkage.s,
-                        (Chart::Rod(a), Chart::Rod(b)) => a.s == b.s,
-                        (Chart::Rocker(a), Chart::Rocker(b)) => a.joins(b),
-                        _ => false,
-                    };
-                    same.then_some(in_turn(q.rest))
-                })
-            });
-        let mut found: Vec<f64> = found.collect();
-        found.sort_by(f64::total_cmp);
-        found
-    }
-
-    /// Returns the coordinates in [0, 2π) at which the rod stands normal to the guide.
-    pub fn limits(&self) -> Vec<f64> {
-        match &self.chart {
-            Chart::Crank => Vec::new(),
-            Chart::Rocker(rocker) if rocker.crosses_where_folded() => {
-                vec![0.0, FRAC_PI_2, PI, 3.0 * FRAC_PI_2]
-            }
-            _ => vec![FRAC_PI_2, 3.0 * FRAC_PI_2],
         }
     }
 }

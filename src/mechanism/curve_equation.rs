@@ -4,8 +4,6 @@
 //! by one off the guide, virtual work gives the normal force
 //! N = A q̈ + B q̇² + V_n − Q_n with A = Σ m p_n·p' + I ψ_n ψ', B = Σ m p_n·p'' + I ψ_n ψ''.
 
-use std::sync::OnceLock;
-
 use super::friction::{Free, GuideForces};
 use super::virtual_displacement::VirtualDisplacement;
 use super::{Curve, CurvePose, Equation, Linkage, LoadValue, Loads, Path, Sense};
@@ -17,7 +15,6 @@ use crate::scene::{Friction, Instant, Scene, Variable};
 pub struct CurveEquation {
     equation: Equation,
     curve: Curve,
-    vanishing: OnceLock<bool>,
     friction: Option<Friction>,
 }
 
@@ -62,7 +59,6 @@ impl CurveEquation {
         CurveEquation {
             equation: Equation::new(scene),
             curve,
-            vanishing: OnceLock::new(),
             friction: scene.reduced().friction,
         }
     }
@@ -97,15 +93,6 @@ impl CurveEquation {
     /// Whether M vanishes at coordinate q (rad): it is below 1e-9 of M at q + 0.3 rad.
     pub fn vanishes_at(&self, q: f64) -> bool {
         self.terms(q).m < 1e-9 * self.terms(q + 0.3).m
-    }
-
-    /// Whether M vanishes at a limit or a dead centre.
-    pub fn vanishes_somewhere(&self) -> bool {
-        let curve = &self.curve;
-        let mut coordinates = curve.limits().into_iter().chain(curve.dead_centres());
-        *self
-            .vanishing
-            .get_or_init(|| coordinates.any(|q| self.vanishes_at(q)))
     }
 
     /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s); the crank angle only if a

@@ -110,16 +110,6 @@ impl Rocker {
         ]
     }
 
-    /// Whether two positions of the same lengths lie on one curve, on which the slider moves.
-    pub fn joins(&self, other: &Rocker) -> bool {
-        self.fold == other.fold && self.fold > 0.0
-    }
-
-    /// Whether the rod is normal to the guide also at q = 0 and 180°.
-    pub fn crosses_where_folded(&self) -> bool {
-        self.rod.rest == 0.0
-    }
-
     pub fn pose(&self, linkage: &Linkage, q: f64) -> CurvePose {
         let (sin_q, cos_q) = q.sin_cos();
         let Rocker { mirror, fold, .. } = *self;

@@ -5,7 +5,7 @@ use super::row::{Row, RowMaker};
 use super::stick_slip::CurveMotion;
 use crate::engine::step::Step;
 use crate::engine::time::MotionState;
-use crate::engine::{Batch, Counted, Motion, NODES};
+use crate::engine::{Batch, Motion, NODES};
 use crate::mechanism::{CurveEquation, Equation, Instants, LoadValue, Loads};
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -87,7 +87,7 @@ pub(super) fn of_times(loads: &Loads, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
 /// Coordinate of a step, with its equation of motion.
 pub(super) enum Coordinate<'a> {
     /// Crank angle.
-    Crank(&'a Counted<'a>),
+    Crank(&'a Equation),
     /// Coordinate of the configuration curve in one phase.
     Curve(CurveMotion<'a>),
 }
@@ -96,7 +96,7 @@ impl Coordinate<'_> {
     /// Equation of motion with which steps are refined.
     pub fn motion(&self) -> &dyn Motion {
         match self {
-            Coordinate::Crank(motion) => *motion,
+            Coordinate::Crank(equation) => *equation,
             Coordinate::Curve(motion) => motion,
         }
     }

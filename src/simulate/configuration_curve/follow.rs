@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::super::coordinate::crank_state;
+use super::super::coordinate::{Coordinate, crank_state};
 use super::super::stick_slip::EventIndex::{
     self, CrankRate, DeadCentre, JamDistance, Limit, NormalForce, Speed, TurnLimit,
 };
@@ -154,14 +154,12 @@ impl<'a, 'o> CurveRun<'a, 'o> {
         let [on_crank, on_slider] = equation.loads().dry_on();
         let along = self.curve_motion(sliding(equation, &self.signs));
         let motion = Counted::new(&along);
-        let looked_at = Counted::new(&along);
         let settings = Settings {
             limit: self.settings.limit.after(self.spent()),
             ..self.settings
         };
         let mut cut = None;
         let (mut reason, mut beyond) = (None, false);
-        let vanishing = equation.vanishes_somewhere();
         let no_inertia = || EndReason::Named(Why::NoInertiaOnCurve.into());
         let (events, observer) = (&self.events, &mut *self.observer);
         let signs = &mut self.signs;
@@ -170,12 +168,11 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             let mut step = *step;
             let mut after = *signs;
             let follows = step.start.t > begin;
-            let changes =
-                event_functions::changes(&mut step, &looked_at, events, follows, &mut after);
+            let changes = event_functions::changes(&mut step, &along, events, follows, &mut after);
             for change in changes {
                 let Change { t, .. } = change;
                 let (theta, speed) = step.at(t);
-                if vanishing && equation.vanishes_at(theta) {
+                if equation.vanishes_at(theta) {
                     (reason, beyond) = (Some(no_inertia()), true);
                     return true;
                 }
@@ -200,12 +197,9 @@ impl<'a, 'o> CurveRun<'a, 'o> {
                     observer.event(kind, MotionState { t, angle, speed });
                 }
             }
-            reason = match observer.step(&step, Some(along)) {
+            reason = match observer.step(&step, &Coordinate::Curve(along)) {
                 true => Some(EndReason::Stopped),
-                false => {
-                    let vanishes = vanishing && equation.vanishes_at(step.end.theta);
-                    vanishes.then(no_inertia)
-                }
+                false => equation.vanishes_at(step.end.theta).then(no_inertia),
             };
             reason.is_some()
         });
@@ -263,7 +257,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
             step
         };
         rested(&until(t, &mut |step| {
-            observer.step(&rested(step), Some(along));
+            observer.step(&rested(step), &Coordinate::Curve(along));
             false
         }))
     }

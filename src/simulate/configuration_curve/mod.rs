@@ -8,9 +8,9 @@ pub(super) use follow::CurveRun;
 
 use std::sync::Arc;
 
+use super::coordinate::Coordinate;
 use super::energy_balance::EnergyBalance;
 use super::run_setup::RunSetup;
-use super::stick_slip::CurveMotion;
 use super::stop::Why;
 use super::warning::Warning;
 use crate::engine::step::Step;
@@ -80,8 +80,8 @@ impl CurveProblem {
 
 /// Receiver of motion in time, step by step.
 pub(super) trait StepObserver {
-    /// Takes a step along the configuration curve, or with the crank angle as a smooth coordinate; true ends the run.
-    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool;
+    /// Takes a step along a coordinate; true ends the run.
+    fn step(&mut self, step: &Step, along: &Coordinate<'_>) -> bool;
 
     /// Takes an event on the curve.
     fn event(&mut self, _kind: &'static str, _at: MotionState) {}

@@ -1,5 +1,6 @@
 //! Transitions between motion and rest, and jamming, where rigid bodies leave the motion undetermined.
 
+use super::super::coordinate::Coordinate;
 use super::super::guide_friction::NEARBY_ANGLE;
 use super::super::stick_slip::EventIndex::{self, CrankRate, DeadCentre, NormalForce, Speed};
 use super::super::stick_slip::{Signs, StickSlipPhase, opposed, signs};
@@ -75,8 +76,8 @@ impl CurveRun<'_, '_> {
             ..Node::default()
         };
         let still = Step::new(angle.turns, node(t), node(until));
-        let along = self.curve_motion(StickSlipPhase::Sticking);
-        self.observer.step(&still, Some(along));
+        let along = Coordinate::Curve(self.curve_motion(StickSlipPhase::Sticking));
+        self.observer.step(&still, &along);
         self.arrive(still);
         if let Some(end) = ends {
             return Err(end);

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
+use super::super::coordinate::Coordinate;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
@@ -15,7 +16,6 @@ use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
 use super::super::state_transition::StateTransition;
-use super::super::stick_slip::CurveMotion;
 use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_at_angle, error_of_delay, row_error, worst_row_error,
@@ -276,16 +276,16 @@ impl PassObserver for SecondRunObserver<'_, '_> {
 }
 
 impl StepObserver for SecondRunObserver<'_, '_> {
-    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
-        match along {
-            Some(along) => {
+    fn step(&mut self, step: &Step, along: &Coordinate<'_>) -> bool {
+        match *along {
+            Coordinate::Curve(along) => {
                 let rate = |q: f64| along.equation.curve().pose(q).dtheta;
                 self.comparison.compare(step, rate);
                 self.rounding.step_on_curve(along, step);
             }
-            None => {
+            Coordinate::Crank(equation) => {
                 self.comparison.compare(step, |_| 1.0);
-                self.rounding.step(self.equation, self.motion, step);
+                self.rounding.step(equation, self.motion, step);
             }
         }
         false

@@ -27,7 +27,6 @@ use crate::trajectory::Trajectory;
 pub(super) struct ForwardRecorder<'a> {
     task: &'a RunSetup<'a>,
     recorder: Recorder<'a>,
-    motion: &'a Counted<'a>,
     /// Dead centres, rad in [0, 2π).
     dead_centres: Vec<f64>,
     /// Record of turning points, if the crank may never complete its turns.
@@ -44,15 +43,10 @@ pub(super) struct ForwardRecorder<'a> {
 }
 
 impl<'a> ForwardRecorder<'a> {
-    pub fn new(
-        task: &'a RunSetup<'a>,
-        motion: &'a Counted<'a>,
-        rows: &'a mut dyn RowSink,
-    ) -> ForwardRecorder<'a> {
+    pub fn new(task: &'a RunSetup<'a>, rows: &'a mut dyn RowSink) -> ForwardRecorder<'a> {
         ForwardRecorder {
             task,
             recorder: Recorder::new(task, rows, task.schedule()),
-            motion,
             dead_centres: task.dead_centres(),
             bounded_motion: BoundedMotion::new(task, task.start()),
             ends_at: None,
@@ -88,15 +82,14 @@ impl<'a> ForwardRecorder<'a> {
     }
 
     /// Records a step of the crank; true ends the run.
-    fn step_of_crank(&mut self, mut step: Step) -> bool {
+    fn step_of_crank(&mut self, mut step: Step, along: &Coordinate<'_>) -> bool {
         self.reach_turn_limit(&mut step);
         self.look_for_events(&mut step);
         if self.ends_at.is_none() {
             self.follow_speed(&mut step);
         }
         let until = self.ends_at.unwrap_or(step.end.t);
-        let crank = Coordinate::Crank(self.motion);
-        self.recorder.step(&mut step, until, &crank) || self.ends_at.is_some()
+        self.recorder.step(&mut step, until, along) || self.ends_at.is_some()
     }
 
     /// Records a step along the configuration curve; true ends the run.
@@ -120,7 +113,7 @@ impl<'a> ForwardRecorder<'a> {
 
     fn follow_speed(&mut self, step: &mut Step) {
         let speed = self.recorder.speed();
-        *speed = events::follow_speed(step, self.motion, *speed);
+        *speed = events::follow_speed(step, self.task.equation(), *speed);
     }
 
     /// Returns the rotation of the crank from the start of the run to the end of a step, rad.
@@ -160,7 +153,7 @@ impl<'a> ForwardRecorder<'a> {
         if turned.abs() < limit {
             return;
         }
-        step.refine(self.motion);
+        step.refine(self.task.equation());
         let target = step.end.theta - (turned - limit.copysign(turned));
         let t = step.time_of_angle(target, step.start.t, step.end.t);
         self.ends_at = Some(t.unwrap_or(step.end.t));
@@ -171,7 +164,7 @@ impl<'a> ForwardRecorder<'a> {
         events::crossings(step, &self.dead_centres, &mut crossings);
         let wanted = self.recorder.keeps_events() || self.bounded_motion.is_some();
         if !step.is_refined() && !crossings.is_empty() && wanted {
-            step.refine(self.motion);
+            step.refine(self.task.equation());
             events::crossings(step, &self.dead_centres, &mut crossings);
         }
         for &(t, what) in &crossings {
@@ -210,10 +203,10 @@ impl<'a> ForwardRecorder<'a> {
 }
 
 impl StepObserver for ForwardRecorder<'_> {
-    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
-        match along {
-            Some(along) => self.step_on_curve(*step, along),
-            None => self.step_of_crank(*step),
+    fn step(&mut self, step: &Step, along: &Coordinate<'_>) -> bool {
+        match *along {
+            Coordinate::Curve(along) => self.step_on_curve(*step, along),
+            Coordinate::Crank(_) => self.step_of_crank(*step, along),
         }
     }
 

@@ -5,9 +5,8 @@
 use super::super::configuration_curve::{
     self, CurveProblem, CurveRun, EndReason, StepObserver, TimePiece,
 };
-use super::super::coordinate::crank_state;
+use super::super::coordinate::{Coordinate, crank_state};
 use super::super::guide_friction::NEARBY_ANGLE;
-use super::super::stick_slip::CurveMotion;
 use super::super::stop;
 use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd, Reason};
 use super::stop_reason;
@@ -56,7 +55,11 @@ impl Pass<'_, '_> {
                 let turn_limit = limit.map(|limit| (pass.task.start(), limit));
                 CurveRun::run(&curve.equation, settings, start, turn_limit, &mut resume)
             }
-            None => of_crank(self.motion, from, &settings, &mut resume),
+            None => {
+                let along = Coordinate::Crank(pass.task.equation());
+                let mut sink = |step: &Step| resume.step(step, &along);
+                of_crank(self.motion, from, &settings, &mut sink)
+            }
         };
         let (is_met, largest_kinetic) = (resume.is_met, resume.largest_kinetic);
         self.other_evaluations += piece.evaluations;
@@ -103,10 +106,9 @@ fn of_crank(
     motion: &Counted<'_>,
     from: MotionState,
     settings: &Settings<'_>,
-    observer: &mut dyn StepObserver,
+    sink: &mut dyn FnMut(&Step) -> bool,
 ) -> TimePiece {
-    let mut sink = |step: &Step| observer.step(step, None);
-    let (finish, last, steps) = time::run(motion, from, settings, &mut sink);
+    let (finish, last, steps) = time::run(motion, from, settings, sink);
     let singular_state = motion.singular_state();
     TimePiece {
         last,
@@ -150,7 +152,7 @@ struct ResumeCondition<'a, 'o> {
 }
 
 impl StepObserver for ResumeCondition<'_, '_> {
-    fn step(&mut self, step: &Step, along: Option<CurveMotion<'_>>) -> bool {
+    fn step(&mut self, step: &Step, along: &Coordinate<'_>) -> bool {
         let ends = self.observer.step(step, along);
         self.is_met = !ends && self.is_met_at_end(step);
         ends || self.is_met

@@ -50,9 +50,8 @@ pub(super) fn run(
         resume_rotation: TAU,
         curve: OnceCell::new(),
     };
-    // Evaluations for rows and events are counted apart: they do not change how far a run goes.
-    let looked_at = Counted::new(task.equation());
-    let mut recorder = ForwardRecorder::new(task, &looked_at, rows);
+    // Evaluations for rows and events are not counted: they do not change how far a run goes.
+    let mut recorder = ForwardRecorder::new(task, rows);
     let result = pass.run(&Counted::new(task.equation()), &mut recorder)?;
     if matches!(result.end, EndReason::Integrator(Finish::NoStart)) && result.pieces_over_angle == 0
     {
