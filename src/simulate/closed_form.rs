@@ -7,7 +7,6 @@ use super::driving_torque::ConstantSpeedMotion;
 use super::energy_balance::EnergyBalance;
 use super::passages;
 use super::recorder::Recorder;
-use super::result::ErrorEstimate;
 use super::row::RowSink;
 use super::run_end::{Estimate, RunEnd};
 use super::run_setup::RunSetup;
@@ -74,10 +73,10 @@ pub(super) fn run<'a>(
         },
         engine: Engine::ClosedForm,
         turned: speed * end,
-        estimate: Some(Estimate::of_end(ErrorEstimate {
-            theta_rad: 2.0 * f64::EPSILON * last.radians().abs(),
-            omega_rad_per_s: 0.0,
-        })),
+        estimate: Some(Estimate::of_end(
+            2.0 * f64::EPSILON * last.radians().abs(),
+            0.0,
+        )),
         balance,
         evaluations: 0,
         steps: 0,

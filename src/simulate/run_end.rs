@@ -44,10 +44,13 @@ pub(super) struct Estimate {
 }
 
 impl Estimate {
-    /// Makes an estimate with the error of the last state alone.
-    pub fn of_end(error: ErrorEstimate) -> Estimate {
+    /// Makes an estimate with the errors of the last angle (rad) and speed (rad/s) alone.
+    pub fn of_end(theta_rad: f64, omega_rad_per_s: f64) -> Estimate {
         Estimate {
-            error,
+            error: ErrorEstimate {
+                theta_rad,
+                omega_rad_per_s,
+            },
             rows_error: None,
             cost: None,
         }
@@ -56,7 +59,7 @@ impl Estimate {
 
 impl RunEnd {
     /// Shows speeds as infinite where the inertia vanishes, at the dead centres of a crank without inertia.
-    pub fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> RunEnd {
+    fn with_bounded_speeds(mut self, task: &RunSetup<'_>) -> RunEnd {
         let usual = task.speed.abs().max(self.at.speed.abs());
         // An inertia that vanishes, of 1e-12 of that elsewhere, gives a speed of 1e6 times that elsewhere.
         let unbounded = 1e6 * usual;
@@ -88,7 +91,10 @@ impl RunEnd {
         self
     }
 
-    pub fn conclude(self, task: &RunSetup<'_>) -> Simulation {
+    pub fn conclude(mut self, task: &RunSetup<'_>) -> Simulation {
+        if matches!(self.engine, Engine::Energy | Engine::Angle) {
+            self = self.with_bounded_speeds(task);
+        }
         let (at, turned, balance, record) = (self.at, self.turned, self.balance, self.record);
         let mut warnings = self.warnings;
         let last = Final {

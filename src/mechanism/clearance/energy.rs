@@ -3,7 +3,7 @@
 use super::LooseMechanism;
 use crate::mechanism::LooseState;
 use crate::mechanism::plane::dot;
-use crate::scene::{ContactLaw, Joint};
+use crate::scene::Joint;
 
 impl LooseMechanism {
     /// Returns the sum of kinetic energy, potential energy of gravity and energy stored in the contact, J. The crank's
@@ -15,7 +15,7 @@ impl LooseMechanism {
     /// Returns the kinetic energy, J, without that of a crank of prescribed speed, which is constant.
     pub fn kinetic(&self, s: &LooseState) -> f64 {
         let f = self.frame(s);
-        let pin = match self.joint {
+        let pin = match self.clearance.joint {
             Joint::CrankPin => [s.v, 0.0],
             Joint::WristPin => [-s.omega * f.crank_pin[1], s.omega * f.crank_pin[0]],
         };
@@ -33,7 +33,7 @@ impl LooseMechanism {
 
     fn gravity_energy(&self, s: &LooseState) -> f64 {
         let f = self.frame(s);
-        let pinned = match self.joint {
+        let pinned = match self.clearance.joint {
             Joint::CrankPin => [s.x, -self.e],
             Joint::WristPin => f.crank_pin,
         };
@@ -45,7 +45,7 @@ impl LooseMechanism {
 
     /// Returns the energy stored in the contact, J.
     pub fn stored(&self, s: &LooseState) -> f64 {
-        if self.clearance.law == ContactLaw::MasslessLink {
+        if self.is_linked() {
             return 0.0;
         }
         self.force.stored(self.depth(s).0.max(0.0))

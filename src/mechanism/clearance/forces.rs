@@ -36,7 +36,7 @@ impl LooseMechanism {
         if self.friction != 0.0 {
             // Both surfaces at one point of contact: action equals reaction.
             let arm = self.bearing - distance;
-            let turning = match self.joint {
+            let turning = match self.clearance.joint {
                 Joint::CrankPin => s.omega,
                 Joint::WristPin => 0.0,
             };
@@ -87,7 +87,7 @@ impl LooseMechanism {
         rubbing: Rubbing,
     ) -> LooseRates {
         // Moment on the crank beside the torque of the loads, N m.
-        let (mut rates, on_crank) = match self.joint {
+        let (mut rates, on_crank) = match self.clearance.joint {
             Joint::CrankPin => self.loose_at_crank(s, f, &action, load, rubbing),
             Joint::WristPin => self.loose_at_slider(s, f, &action, load, rubbing),
         };
@@ -229,7 +229,7 @@ impl LooseMechanism {
     pub(super) fn guide_gain(&self, f: &Frame) -> f64 {
         let (m, [along, across]) = (self.rod_mass, f.centre);
         let mass = m + self.slider_mass;
-        match self.joint {
+        match self.clearance.joint {
             Joint::CrankPin => {
                 m * along * m * across / (mass * self.rod_inertia - (m * across).powi(2))
             }

@@ -46,8 +46,7 @@ impl NormalForce {
         self.stiffness * depth * depth.sqrt()
     }
 
-    /// Returns a value with the sign of the derivative of a positive force in time, at a penetration (m) with its first
-    /// two derivatives in time.
+    /// Returns a value with the sign of dF/dt of a positive force, at a penetration (m) with its first two derivatives.
     pub fn growth(&self, [depth, rate, acceleration]: [f64; 3], approach: f64) -> f64 {
         1.5 * rate * self.factor(rate, approach) + depth * self.damping * acceleration / approach
     }

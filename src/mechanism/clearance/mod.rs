@@ -19,7 +19,7 @@ pub use variation::SpeedSizes;
 
 use super::plane::dot;
 use super::{Loads, LooseRates, LooseState};
-use crate::scene::{Clearance, Friction, Joint};
+use crate::scene::{Clearance, ContactLaw, Friction};
 
 /// Depth of the contact with its time derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,7 +51,6 @@ pub enum JointTouch {
 /// Mechanism with a loose joint: immutable, shared by all evaluations.
 #[derive(Clone, Debug)]
 pub struct LooseMechanism {
-    joint: Joint,
     /// +1 where the crank carries the journal, −1 where the slider does.
     side: f64,
     r: f64,
@@ -72,9 +71,11 @@ pub struct LooseMechanism {
     gravity: [f64; 2],
     loads: Option<Loads>,
     turns: f64,
-    clearance: Clearance,
+    /// Clearance of the scene.
+    pub clearance: Clearance,
     bearing: f64,
-    force: NormalForce,
+    /// Law of the contact.
+    pub force: NormalForce,
     friction: f64,
     guide: Option<Friction>,
 }
@@ -180,24 +181,14 @@ impl LooseMechanism {
         ]
     }
 
-    /// Returns the joint that is loose.
-    pub fn joint(&self) -> Joint {
-        self.joint
-    }
-
-    /// Returns the clearance of the scene.
-    pub fn clearance(&self) -> &Clearance {
-        &self.clearance
+    /// Whether the contact is a massless link.
+    pub fn is_linked(&self) -> bool {
+        self.clearance.law == ContactLaw::MasslessLink
     }
 
     /// Returns the speed by which the contact law divides, m/s, for a contact that begins with this speed.
     pub fn approach(&self, speed: f64) -> f64 {
         speed.max(self.clearance.least_approach_speed)
-    }
-
-    /// Returns the law of the contact.
-    pub fn force(&self) -> &NormalForce {
-        &self.force
     }
 
     /// Computes accelerations, powers and forces at a state.

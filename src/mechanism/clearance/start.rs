@@ -47,7 +47,6 @@ impl LooseMechanism {
         let per_r = crank.mass / scene.geometry.crank;
         let (along, lateral) = (per_r * crank.cg, per_r * crank.cg_lateral);
         let mechanism = LooseMechanism {
-            joint: clearance.joint,
             side: match clearance.joint {
                 Joint::CrankPin => 1.0,
                 Joint::WristPin => -1.0,
@@ -95,7 +94,7 @@ impl LooseMechanism {
         }
         let coupled = self.rod_mass * self.rod_centre[0].hypot(self.rod_centre[1]);
         let movable = (self.rod_mass + self.slider_mass) * self.rod_inertia - coupled * coupled;
-        let alone = match self.joint {
+        let alone = match self.clearance.joint {
             // The mass that moves together with a rod without inertia is unknown.
             Joint::CrankPin if self.rod_inertia <= 0.0 => self.slider_mass > 0.0,
             Joint::CrankPin => movable > 1e-12 * coupled * coupled && movable > 0.0,
@@ -108,7 +107,7 @@ impl LooseMechanism {
                 "give the slider a mass in [slider]",
             );
         }
-        let carried = match self.joint {
+        let carried = match self.clearance.joint {
             Joint::CrankPin => self.crank_inertia,
             Joint::WristPin if self.rod_inertia <= 0.0 => self.crank_inertia,
             Joint::WristPin => {
@@ -126,8 +125,7 @@ impl LooseMechanism {
         problems
     }
 
-    /// Returns the initial state: the crank as the scene says, the journal at its eccentricity and at rest against the
-    /// bearing.
+    /// Returns the initial state: crank as the scene says, journal at its eccentricity and at rest against the bearing.
     ///
     /// # Errors
     /// [`Problems`] if the rod does not reach the guide.
@@ -162,8 +160,11 @@ impl LooseMechanism {
 
     /// Returns the vector from the bearing's centre to the journal's at the start, m.
     fn eccentricity(&self, scene: &Scene) -> [f64; 2] {
-        let linked = self.clearance.law == ContactLaw::MasslessLink;
-        let default = if linked { self.clearance.radial } else { 0.0 };
+        let default = if self.is_linked() {
+            self.clearance.radial
+        } else {
+            0.0
+        };
         let distance = self.clearance.eccentricity.unwrap_or(default);
         if distance == 0.0 {
             return [0.0; 2];
@@ -182,7 +183,7 @@ impl LooseMechanism {
         let forces = Reactor::new(scene)
             .map(|reactor| reactor.at(&equation, 0.0, theta, omega, alpha))
             .unwrap_or_default();
-        let [fx, fy] = match self.joint {
+        let [fx, fy] = match self.clearance.joint {
             Joint::CrankPin => forces.crank_pin,
             Joint::WristPin => forces.wrist_pin.map(|force| -force),
         };

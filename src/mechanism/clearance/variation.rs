@@ -61,7 +61,7 @@ impl LooseMechanism {
         let crank = (with.alpha - without.alpha).abs() / sizes.turning;
         let rod = (with.spin_rate - without.spin_rate).abs() / sizes.turning;
         let slider = (with.a - without.a).abs() / sizes.sliding;
-        match self.joint {
+        match self.clearance.joint {
             Joint::CrankPin => UnitLoadEffects {
                 torque: crank,
                 force: rod.max(slider),

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::energy_balance::EnergyBalance;
 use super::super::passages;
 use super::super::recorder::Record;
-use super::super::result::{ErrorEstimate, Peaks};
+use super::super::result::Peaks;
 use super::super::run_end::{Estimate, RunEnd};
 use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
@@ -65,10 +65,6 @@ impl<const N: usize> Loose<'_, N> {
             DRIVEN => Some((2.0 * f64::EPSILON * theta, 0.0)),
             _ => error(|s| s.theta, 1.0 + theta).zip(error(|s| s.omega, 1.0 + last.omega.abs())),
         };
-        let estimate = estimate.map(|(theta_rad, omega_rad_per_s)| ErrorEstimate {
-            theta_rad,
-            omega_rad_per_s,
-        });
         if N == FREE && estimate.is_none() && task.options.estimate && stopped.is_none() {
             warnings.push(Warning::BeyondHorizon);
         }
@@ -77,7 +73,7 @@ impl<const N: usize> Loose<'_, N> {
             engine: Engine::Contact,
             at,
             turned: last.theta - self.start.theta,
-            estimate: estimate.map(Estimate::of_end),
+            estimate: estimate.map(|(theta, omega)| Estimate::of_end(theta, omega)),
             balance: EnergyBalance {
                 residual: gained - work + lost,
                 largest: seen.energy,
@@ -102,7 +98,7 @@ impl<const N: usize> Loose<'_, N> {
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
     fn horizon(&self, seen: &ContactHistory, tighter: &SecondRun, end: &LooseState) -> Horizon {
-        let distance = 0.01 * self.mechanism.clearance().radial;
+        let distance = 0.01 * self.mechanism.clearance.radial;
         let parted = seen.record.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
         let statistics = |record: &JournalRecord| {
@@ -131,7 +127,7 @@ impl<const N: usize> Loose<'_, N> {
     fn struck(&self, seen: &ContactHistory, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
-        let mass = match self.mechanism.clearance().joint {
+        let mass = match self.mechanism.clearance.joint {
             Joint::WristPin => slider,
             Joint::CrankPin => slider + scene.rod.map_or(0.0, |rod| rod.mass),
         };
@@ -151,14 +147,14 @@ impl<const N: usize> Loose<'_, N> {
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
         horizon: Option<Horizon>,
     ) -> ClearanceSummary {
-        let clearance = self.mechanism.clearance();
+        let clearance = &self.mechanism.clearance;
         let whole = seen.total.statistics(0.0, last.t);
-        let linked = self.linked();
+        let linked = self.mechanism.is_linked();
         ClearanceSummary {
             joint: clearance.joint.name(),
             contact_law: clearance.law.name(),
             radial_m: clearance.radial,
-            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force().stiffness),
+            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force.stiffness),
             impacts: whole.impacts,
             separations: seen.separations,
             contact_share: whole.contact_share,

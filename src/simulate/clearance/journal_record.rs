@@ -104,8 +104,7 @@ impl JournalRecord {
         self.tallies[index.min(last)].add(tally);
     }
 
-    /// Adds contact statistics from one time (s) to another, shared between the intervals of the record in proportion;
-    /// impacts and largest values go to the middle.
+    /// Adds statistics from one time (s) to another, in proportion to the intervals; impacts and maxima to the middle.
     pub fn spread(&mut self, from: f64, to: f64, tally: &Tally) {
         self.tally(
             0.5 * (from + to),

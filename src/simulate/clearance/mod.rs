@@ -25,7 +25,7 @@ use crate::engine::contact::{self, ContactEnd, ContactSettings};
 use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
-use crate::scene::{ContactLaw, Extent, Load, MotionKind};
+use crate::scene::{Extent, Load, MotionKind};
 use contact_follower::{ContactFollower, ContactHistory};
 use journal_record::JournalRecord;
 use motion::{DRIVEN, FREE, Loose};
@@ -53,7 +53,7 @@ impl<'a, const N: usize> Loose<'a, N> {
         start: LooseState,
     ) -> Loose<'a, N> {
         let geometry = &task.scene.geometry;
-        let length = geometry.crank.min(100.0 * mechanism.clearance().radial);
+        let length = geometry.crank.min(100.0 * mechanism.clearance.radial);
         Loose {
             mechanism,
             task,
@@ -120,14 +120,10 @@ impl<'a, const N: usize> Loose<'a, N> {
             limit: task.options.limit(),
         };
         let y = self.numbers(start, [0.0; 2]);
-        let ended = contact::run(self, y, self.linked(), settings, &mut |step| {
+        let ended = contact::run(self, y, self.mechanism.is_linked(), settings, &mut |step| {
             follower.take(step)
         });
         (ended, follower)
-    }
-
-    fn linked(&self) -> bool {
-        self.mechanism.clearance().law == ContactLaw::MasslessLink
     }
 
     /// Runs again at a tighter tolerance: last state, record and cost; none if the run does not reach `t_end`.

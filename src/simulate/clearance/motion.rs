@@ -9,11 +9,9 @@ use crate::mechanism::{
 };
 use crate::numeric::enclosure::{Interval, Variation};
 
-/// Length of the state of a free crank: t, θ, ψ, x, the rates of θ, ψ and x, the work of the loads, and the energy lost
-/// in the contact and by friction at the guide.
+/// Length of the state of a free crank: t, θ, ψ, x, rates of θ, ψ, x, work of the loads, loss in contact and guide.
 pub(super) const FREE: usize = 9;
-/// Length of the state of a crank at prescribed speed: without θ and the rate of θ; the work includes that of the
-/// drive.
+/// Length of the state at prescribed speed: without θ and its rate; the work includes that of the drive.
 pub(super) const DRIVEN: usize = 7;
 
 /// Run of a mechanism, with scales for the error control; its state has N numbers.
@@ -97,7 +95,7 @@ impl<const N: usize> Loose<'_, N> {
             reactions: maker
                 .reactor
                 .as_ref()
-                .map(|reactor| reactor.loose(mechanism.joint(), s, &rates)),
+                .map(|reactor| reactor.loose(mechanism.clearance.joint, s, &rates)),
             driving_torque: maker.driving_torque.then_some(rates.driving_torque),
             clearance: Some(LooseRow {
                 ideal: [ideal.x, ideal.v, ideal.a],
@@ -224,7 +222,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
     }
 
     fn pressing(&self, approach: f64, rate: f64) -> f64 {
-        self.mechanism.force().factor(rate, approach)
+        self.mechanism.force.factor(rate, approach)
     }
 
     /// A crank angle rounds by more as it grows, and with it the crank pin.

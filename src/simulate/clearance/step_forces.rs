@@ -39,7 +39,7 @@ impl<const N: usize> ContactFollower<'_, N> {
             [length * s.depth_rate, bend]
         };
         let along = Quintic::new(end(&before), end(&after), after.depth - before.depth);
-        let law = self.model.mechanism.force();
+        let law = self.model.mechanism.force;
         let depth = |u: f64| {
             let [deeper, rate, bend] = along.at(u);
             let (rate, bend) = (rate / length, bend / (length * length));
@@ -124,7 +124,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         let rates = mechanism.rates(&s, touch(phase, None));
         let reactor = self.model.task.maker.reactor.as_ref();
         reactor.map_or([0.0; FORCES], |reactor| {
-            sizes(&reactor.loose(mechanism.joint(), &s, &rates))
+            sizes(&reactor.loose(mechanism.clearance.joint, &s, &rates))
         })
     }
 

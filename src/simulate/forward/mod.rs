@@ -69,14 +69,13 @@ pub(super) fn run(
         estimate = estimate::estimate(&pass, &result, &record, wants_rows);
         warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
     }
-    let (at, over_angle) = (result.state, result.pieces_over_angle > 0);
-    let work = Some(result.work);
+    let (at, work) = (result.state, Some(result.work));
     let end = RunEnd {
         at,
         // An engine over the angle names the run, if any piece was over the angle.
         engine: match &result.angle_piece {
             Some(piece) => piece.engine,
-            None if over_angle => Engine::Angle,
+            None if result.pieces_over_angle > 0 => Engine::Angle,
             None => Engine::Time,
         },
         turned: at.angle.minus(task.start()),
@@ -88,10 +87,6 @@ pub(super) fn run(
         warnings,
         stopped,
         record: with_motion(record, result),
-    };
-    let end = match over_angle {
-        true => end.with_bounded_speeds(task),
-        false => end,
     };
     Ok(Simulation {
         work,
