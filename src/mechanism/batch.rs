@@ -76,8 +76,7 @@ impl<const N: usize> TermArrays<N> {
 }
 
 impl Equation {
-    /// Computes θ̈ (rad/s²) at N instants, and the power (W) of the loads without a potential; equal to
-    /// [`Equation::acceleration_and_power`] to rounding.
+    /// Computes θ̈ (rad/s²) and power (W) at N instants; equal to [`Equation::acceleration_and_power`] to rounding.
     pub fn accelerations<const N: usize>(
         &self,
         at: &Instants<'_, N>,
@@ -137,8 +136,8 @@ impl Equation {
 }
 
 impl CurveEquation {
-    /// Whether the coordinate is the crank angle, all of which is far from limits: near them, sines that differ in the
-    /// last place are other motions.
+    /// Whether q is the crank angle and far from limits: near them, sines that differ in the last place are other
+    /// motions.
     pub fn may_be_batched(&self) -> bool {
         self.curve().is_crank_angle() && self.curve().linkage().stays_far_from_limits()
     }

@@ -1,5 +1,4 @@
-//! Bodies: each enters the equation only through the path p(θ) of one of its points and its turn angle ψ(θ), with two
-//! derivatives each.
+//! Bodies: each enters the equation by the path p(θ) of a point and its turn angle ψ(θ), with two derivatives each.
 
 use super::{Linkage, Pose};
 use crate::scene::{RodModel, Scene};

@@ -95,8 +95,7 @@ impl CurveEquation {
         self.terms(q).m < 1e-9 * self.terms(q + 0.3).m
     }
 
-    /// Returns the variables of the loads at a time (s), a coordinate and its speed (rad/s); the crank angle only if a
-    /// load reads it, as it costs an inverse tangent.
+    /// Returns the variables of the loads; the crank angle, which costs an inverse tangent, only if a load reads it.
     pub fn instant(&self, pose: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
         let theta = match self.loads().reads().has(Variable::Theta) {
             true => self.curve.crank_angle(q).radians(),
@@ -161,8 +160,7 @@ impl CurveEquation {
         }
     }
 
-    /// Returns normal and friction force of the guide where a drive of the crank keeps up an acceleration (rad/s² of
-    /// the coordinate); none where the guide locks itself.
+    /// Returns the guide's forces where a drive keeps up an acceleration (rad/s² of q); none where the guide locks.
     pub fn driven(&self, t: f64, q: Angle, speed: f64, acceleration: f64) -> Option<GuideForces> {
         let terms = self.terms(q.rest);
         let load = self.load(&terms.pose, t, q, speed);
@@ -184,8 +182,7 @@ impl CurveEquation {
         0.5 * self.terms(q.rest).m * speed * speed
     }
 
-    /// Returns the potential energy of gravity and of the loads that have a potential, J. The crank angle counts
-    /// without `turns` whole turns, which would cost digits.
+    /// Returns the potential energy of gravity and loads, J; the angle without `turns` turns, which would cost digits.
     pub fn potential_energy(&self, q: Angle, turns: f64) -> f64 {
         let pose = self.curve.pose(q.rest);
         let mut theta = self.curve.crank_angle(q);

@@ -86,8 +86,7 @@ pub(super) struct PoseRanges {
 }
 
 impl Linkage {
-    /// Encloses φ, φ', x and x' = −r sin(θ + sφ)/cos φ over crank angles; `by_sense`: by the sense of the slider between
-    /// dead centres.
+    /// Encloses φ, φ', x, x' = −r sin(θ + sφ)/cos φ over crank angles; `by_sense`: x' by its sign between dead centres.
     pub(super) fn enclose(&self, theta: Interval, by_sense: bool) -> PoseRanges {
         let point = Interval::point;
         let (sin, cos) = (theta.sin(), theta.cos());
@@ -113,8 +112,7 @@ impl Linkage {
         }
     }
 
-    /// Encloses x and x' for a crank that turns fully, from an enclosure of x and of 1/cos φ. Between dead centres the
-    /// ends of the range hold all of x.
+    /// Encloses x and x' for a crank that turns fully, from those of x and 1/cos φ. Between dead centres x is monotone.
     fn between_dead_centres(
         &self,
         theta: Interval,

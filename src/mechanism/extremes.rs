@@ -87,8 +87,7 @@ fn slopes(linkage: &Linkage, grid: &[f64]) -> Vec<[f64; 2]> {
     slopes
 }
 
-/// Locates the smallest and the largest value over a turn: roots of the slope, bracketed between the angles of a grid,
-/// at which the slope is known.
+/// Locates least and largest value over a turn: roots of the slope, bracketed by the angles of a grid of known slopes.
 fn range(
     grid: &[f64],
     at: impl Fn(usize) -> f64,
@@ -148,8 +147,7 @@ impl Linkage {
         [[-FRAC_PI_2, below], [FRAC_PI_2, above]]
     }
 
-    /// Returns the distance (rad) from a crank angle at which the next sample of a function of the geometry shows all
-    /// that it does between them.
+    /// Returns the distance (rad) from a crank angle at which the next sample shows all of the geometry between them.
     pub fn shown_distance(&self, theta: f64) -> f64 {
         shown_distance(theta, self.branch_points())
     }

@@ -2,8 +2,7 @@
 
 use super::{CurvePose, CurveTerms, Equation, LoadValue, Path, Terms};
 
-/// Normal force without friction: N = place + torque·τ + force·F + square·ω², with the loads τ (torque on the crank)
-/// and F (force on the slider).
+/// Normal force without friction: N = place + torque·τ + force·F + square·ω², for crank torque τ and slider force F.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Normal {
     /// Term of the position alone (weight), N.

@@ -50,8 +50,7 @@ impl Linkage {
         [self.r - self.l * cos, self.l * sin]
     }
 
-    /// Solves for the crank angles, in [−π, π), at which the angle at the crank pin has this size; a size just outside
-    /// the range is taken as its end.
+    /// Returns the crank angles in [−π, π) with a crank-pin angle of this size; one just outside the range is its end.
     pub fn angles_of_gamma(&self, gamma: f64) -> InversePosition {
         let [along, across] = self.pin(gamma);
         let reach = length(along, across);
@@ -71,8 +70,7 @@ impl Linkage {
         (reach - (r + l)).max((r - l).abs() - reach).max(0.0)
     }
 
-    /// Solves for the crank angles, in [−π, π), at which the slider is at x, m; a position just outside the range is
-    /// taken as its end.
+    /// Solves for the crank angles, in [−π, π), with the slider at x, m; a position just outside the range is its end.
     pub fn angles_of_x(&self, x: f64) -> InversePosition {
         let (r, l) = (self.r, self.l);
         let reach = length(x, self.e);

@@ -126,8 +126,7 @@ impl Equation {
         self.terms_of(pose, self.has_rod, self.has_weight)
     }
 
-    /// Computes the terms at one of many positions without branches, for vectorisation: an absent rod or weight counts
-    /// as zero.
+    /// Computes terms at one of many positions without branches, for vectorisation: absent rod and weight are zero.
     #[inline(always)]
     pub(super) fn terms_without_cases(&self, pose: Pose) -> Terms {
         self.terms_of(pose, true, true)
@@ -248,8 +247,7 @@ impl Equation {
         0.5 * self.terms(theta).m * omega * omega
     }
 
-    /// Returns the potential energy of gravity and of the loads that have a potential, J. For the loads the angle
-    /// counts from θ = 0 without wrapping.
+    /// Returns the potential energy of gravity and of loads with a potential, J; for these θ counts without wrapping.
     pub fn potential_energy(&self, theta: impl Into<Angle>) -> f64 {
         let theta = theta.into();
         let pose = self.linkage.pose(theta.rest);

@@ -72,8 +72,7 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// Computes the limits of a linkage, for a crank that turns in the direction of `speed` (only its sign counts; zero
-    /// means counter-clockwise).
+    /// Computes the limits for a crank that turns in the direction of `speed`; zero means counter-clockwise.
     pub fn new(linkage: &Linkage, speed: f64) -> Limits {
         let class = Class::of(linkage);
         let outer = dead_centre(linkage, true);
@@ -112,8 +111,7 @@ impl Limits {
         }
     }
 
-    /// Returns the reachable crank angles, rad, with the rod at least 0.001 rad off the normal of the guide; empty:
-    /// all.
+    /// Returns the reachable crank angles, rad, with the rod 0.001 rad or more off the guide's normal; empty: all.
     pub fn clear_reach(linkage: &Linkage) -> Vec<[f64; 2]> {
         // cos φ nearer to the normal, where the crank angle determines the position poorly.
         let nearest = 1e-3;

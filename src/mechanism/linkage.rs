@@ -3,7 +3,7 @@
 //! sin φ = (e + r sin θ)/l, x = r cos θ + s l cos φ, s = ±1 for the assembly branch.
 
 use crate::numeric::exact::sum3;
-use crate::scene::{Branch, Geometry};
+use crate::scene::Geometry;
 
 /// Difference of lengths, as a part of crank plus rod, below which they count as equal: reading rod, crank and offset
 /// rounds it by ε of that sum at most, and by 3 ε where the unit is no power of ten of a metre, like an inch.
@@ -104,14 +104,6 @@ impl Linkage {
         (mu > 0.0 && shorter.margin() <= 0.0).then_some(shorter)
     }
 
-    /// Returns the linkage on another branch.
-    pub fn on_branch(&self, branch: Branch) -> Linkage {
-        Linkage {
-            s: branch.sign(),
-            ..*self
-        }
-    }
-
     /// Returns the linkage with crank and rod exchanged: r sin θ = l sin Φ − e. `s` is the sign of cos θ.
     pub(super) fn exchanged(&self, s: f64) -> Linkage {
         Linkage::of(self.l, self.r, -self.e, s)
@@ -137,8 +129,7 @@ impl Linkage {
         self.above[0].min(self.below[0])
     }
 
-    /// Returns the position at crank angle θ (rad). Not finite where the rod does not reach the guide, and at the limit
-    /// itself.
+    /// Returns the position at crank angle θ (rad); not finite at a limit and where the rod does not reach the guide.
     ///
     /// l² cos²φ = (l − u)(l + u) with u = e + r sin θ. Both factors are counted from the nearest of the crank angles
     /// 90°, 0 and −90°, with 1 ∓ sin θ = cos²θ/(1 ± sin θ): neither does the difference of l and u cancel nor does a

@@ -5,8 +5,7 @@ use super::{LoadValue, Pose, Sense};
 use crate::numeric::angle::Angle;
 use crate::scene::{Instant, Load, Scene, Variables};
 
-/// Loads of a scene. Loads with a potential (constant torque and force, springs) are kept apart from loads whose work
-/// must be integrated.
+/// Loads of a scene; those with a potential (constants, springs) apart from those whose work must be integrated.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
     constant: LoadValue,
@@ -215,8 +214,7 @@ impl Loads {
         NonlinearLoads::sums([&self.timed], &now)
     }
 
-    /// Returns torque and force of the loads without a known potential that depend on the position alone, at slider
-    /// position x, m.
+    /// Returns torque and force of the loads of position alone without a known potential, at slider position x, m.
     pub fn of_place(&self, theta: impl Into<Angle>, x: f64) -> LoadValue {
         if self.placed.is_empty() {
             return LoadValue::default();

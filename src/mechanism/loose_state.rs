@@ -9,8 +9,7 @@ pub struct LooseState {
     pub t: f64,
     /// Crank angle θ, rad.
     pub theta: f64,
-    /// Direction ψ of the rod from the crank's end to the slider's, rad from +x; −φ on the right branch and
-    /// π + φ on the left one.
+    /// Direction ψ of the rod from crank to slider, rad from +x: −φ on the right branch, π + φ on the left one.
     pub psi: f64,
     /// Slider position, m.
     pub x: f64,

@@ -10,8 +10,8 @@ use crate::numeric::angle::in_turn;
 /// Named position, or named range of crank angles.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct NamedPosition {
-    /// `dead-centre`, `rod-normal-to-guide`, `crank-normal-to-rod`, `least-transmission-angle`, `blocked` or
-    /// `self-locking`.
+    /// `dead-centre`, `rod-normal-to-guide`, `crank-normal-to-rod`, `least-transmission-angle`, `blocked`, `self-
+    /// locking`.
     pub kind: &'static str,
     /// Crank angle in [0, 2 pi), rad; for a range the start.
     pub theta_rad: f64,
@@ -42,8 +42,7 @@ fn range(kind: &'static str, [from, to]: [f64; 2], reason: &'static str) -> Name
 }
 
 impl Linkage {
-    /// Returns dead centres, rod normal to the guide, crank normal to the rod, least transmission angle and blocked
-    /// ranges, by angle.
+    /// Returns the positions of note and the blocked ranges, by angle.
     pub fn named_positions(&self) -> Vec<NamedPosition> {
         let limits = Limits::new(self, 0.0);
         let mut found = Vec::new();

@@ -28,8 +28,7 @@ pub(super) struct HalfAngle {
 }
 
 impl Rocker {
-    /// Builds the half angles. At a change point, lengths that count as equal are taken as equal. `folded`: crank and
-    /// rod point to opposite sides.
+    /// Builds the half angles; at a change point lengths may count as equal. `folded`: crank and rod point apart.
     pub fn new(linkage: &Linkage, class: Class, folded: bool) -> Rocker {
         let Linkage { r, l, e, .. } = *linkage;
         let e = e.abs();

@@ -101,8 +101,7 @@ impl Statics {
         found
     }
 
-    /// Returns the crank torque (N m, counter-clockwise) that holds the scene in equilibrium, beside its loads:
-    /// τ = V' − F x'.
+    /// Returns the crank torque (N m, counter-clockwise) of equilibrium beside the loads of the scene: τ = V' − F x'.
     ///
     /// The normal force depends on the part of the slider force that reaches the rod: it is n₀ + n₁ R for a rod force R
     /// along +x on the slider, and |R + F| is at most μ |n₀ + n₁ R|. Where μ |n₁| ≥ 1 the mechanism locks itself and

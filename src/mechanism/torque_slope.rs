@@ -18,8 +18,7 @@ impl TorqueSlope {
     /// Builds the equation of a scene.
     ///
     /// # Errors
-    /// [`Error::Refused`] for slider forces of position or velocity other than springs and dampers: their slope is not
-    /// known.
+    /// [`Error::Refused`] for slider forces of position or velocity but springs and dampers: their slope is not known.
     pub fn new(scene: &Scene) -> Result<TorqueSlope, Error> {
         let scene = scene.reduced();
         let has_unknown_slope = |load: &&Load| {
@@ -40,8 +39,7 @@ impl TorqueSlope {
         })
     }
 
-    /// Returns d τ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that drives the crank at constant speed ω (rad/s)
-    /// at a crank angle (rad); time counts from θ = 0.
+    /// Returns dτ/d length, N, of the torque τ = ½ M' ω² + V' − F x' that keeps ω (rad/s); time counts from θ = 0.
     pub fn driving_torque(&self, theta: f64, omega: f64, length: Length) -> f64 {
         let Equation {
             rod,

@@ -89,8 +89,7 @@ impl Around<'_> {
 }
 
 impl Loads {
-    /// Whether a load may vary between nodes: formulas, tables, gas pressures, dry loads, and closures that state a
-    /// scale.
+    /// Whether a load may vary between nodes: formula, table, gas pressure, dry load, or closure that states a scale.
     pub fn vary_between_nodes(&self) -> bool {
         self.called().any(|load| match load {
             Load::Expression(_) | Load::Table(_) | Load::Gas { .. } | Load::Dry(_) => true,
@@ -133,8 +132,7 @@ impl Loads {
         self.called().find(unbounded)
     }
 
-    /// Returns the variation of the generalized force, N m, of the loads that depend on the position alone and may vary
-    /// between nodes.
+    /// Returns the variation of the generalized force, N m, of loads of the position alone that vary between nodes.
     pub fn variation_with_position(
         &self,
         linkage: &Linkage,

@@ -102,8 +102,8 @@ impl Plan {
     /// Plans a scene.
     ///
     /// # Errors
-    /// [`Error::Scene`] for impossible values and for what is not modelled, [`Error::Refused`] for a method that cannot
-    /// serve the scene, with the reason.
+    /// [`Error::Scene`] for impossible values and what is not modelled, [`Error::Refused`] for a method that cannot
+    /// serve.
     pub fn new(scene: &Scene, method: Method) -> Result<Plan, Error> {
         scene.check()?;
         let reduced = scene.reduced();

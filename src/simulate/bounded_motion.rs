@@ -57,8 +57,7 @@ impl BoundedMotion {
         }
     }
 
-    /// Whether the last turning points have led no further: at least `least_count` of them, and as many as all those
-    /// before.
+    /// Whether the last turning points, at least `least_count` and as many as all before, have led no further.
     pub fn is_bounded(&self) -> bool {
         let seen = self.since + self.before;
         seen > 0 && (self.least_count == 0 || self.since >= self.least_count.max(self.before))

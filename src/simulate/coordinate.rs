@@ -1,5 +1,5 @@
-//! Coordinates of integration in time, as rows and events see them: the crank angle, with its equation of motion, and
-//! the coordinate of the configuration curve.
+//! Coordinates of integration in time, as rows and events see them: crank angle, or coordinate of the configuration
+//! curve.
 
 use super::row::{Row, RowMaker};
 use super::stick_slip::CurveMotion;

@@ -126,8 +126,7 @@ impl ConstantSpeedMotion<'_> {
         TAU / self.speed.abs()
     }
 
-    /// Returns times close enough to resolve all that geometry and loads cause: of one turn if all turns are equal and
-    /// the run is longer, otherwise of the run.
+    /// Returns times that resolve geometry and loads: of a turn if all are equal and the run is longer, else of all.
     ///
     /// # Errors
     /// [`NoRange`] where there are too many.
@@ -170,8 +169,7 @@ impl ConstantSpeedMotion<'_> {
         })
     }
 
-    /// Returns the times, s, in any order, of angles that resolve the geometry, until the crank has turned by `until`
-    /// (rad), with both ends.
+    /// Returns times, s, in any order, of angles that resolve the geometry to a rotation `until` (rad), with both ends.
     fn times(&self, until: f64) -> Vec<f64> {
         let smooth = self.equation().loads().are_linear() && self.maker.guide.is_none();
         let grid = self.equation().linkage().turn_grid(smooth);
@@ -209,8 +207,8 @@ impl ConstantSpeedMotion<'_> {
         integral.map(|integral| integral / way)
     }
 
-    /// Compares the work that the equation asks for, by quadrature of ½ M' and V', with the change of the energies from
-    /// M and V, J. Whole turns cancel and are left out.
+    /// Compares the work by quadrature of ½ M' and V' with the change of the energies from M and V, J, but for whole
+    /// turns.
     pub fn energy_balance(&self) -> EnergyBalance {
         let (equation, speed) = (self.equation(), self.speed);
         let kinetic = |theta: f64| equation.kinetic_energy(theta, speed);
@@ -242,8 +240,7 @@ impl RowSource for ConstantSpeedMotion<'_> {
     }
 }
 
-/// Integrates f over a range of crank angles, cut at some angles and at ±90°, where a rod that is hardly long enough
-/// makes narrow peaks.
+/// Integrates f over crank angles, cut at some of them and at ±90°, where a rod that is hardly long enough makes peaks.
 fn integral_by_pieces(
     from: f64,
     to: f64,

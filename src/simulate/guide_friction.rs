@@ -74,8 +74,7 @@ impl PanelPlace {
     }
 }
 
-/// Returns the sign of x' on a panel between two dead centres from x' at its nodes, at the ends of which it may be
-/// rounding.
+/// Returns the sign of x' on a panel between two dead centres from x' at its nodes; at the ends it may be rounding.
 pub(super) fn sign_between_dead_centres(dx: &[f64]) -> f64 {
     let larger = |a: f64, b: &f64| if a.abs() < b.abs() { *b } else { a };
     dx.iter().fold(0.0, larger).signum()

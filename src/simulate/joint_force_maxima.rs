@@ -142,8 +142,7 @@ fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
     })
 }
 
-/// Parametrizes a run by time: at equal times between which the crank turns by at most a degree, and between them where
-/// geometry or loads vary on a smaller scale.
+/// Parametrizes a run by time: the crank turns by a degree at most between rows, less where geometry or loads vary.
 fn over_time<'a>(scene: &Scene, run: &'a Simulation) -> Option<Parametrization<'a>> {
     let end = run.summary.last.t_s;
     let period = run.trajectory.as_ref()?.period();

@@ -1,5 +1,4 @@
-//! Resolution of the loads by the rows of a search: rows are added where enclosures of the loads show more variation
-//! than the rows do.
+//! Resolution of the loads by rows of a search: rows are added where enclosures of the loads vary more than the rows.
 
 use super::row::Row;
 use crate::mechanism::{EnclosedState, Loads, UnitLoadEffects};
@@ -33,8 +32,7 @@ struct End {
     row: Row,
 }
 
-/// Finds the pieces on which rows at rising `parameters` do not resolve the loads: narrow pulses, rows of tables, jumps.
-/// None if there are too many, or a row has no value.
+/// Finds the pieces on which rows at rising `parameters` do not resolve the loads; none if too many or without a row.
 pub(super) fn unresolved(
     loads: &Loads,
     parameters: &[f64],

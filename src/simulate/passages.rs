@@ -78,8 +78,7 @@ pub(super) fn at_constant_speed(task: &RunSetup<'_>, end: f64) -> (Vec<Event>, u
 }
 
 impl OrbitPiece<'_> {
-    /// Lists the dead centres passed until a time (s) by a motion that does not turn back, in the time of the orbit: the
-    /// first, at most `kept`, and the number of all.
+    /// Lists the dead centres of a motion that does not turn back until an orbit time (s), at most `kept`; counts all.
     fn one_way(&self, until: f64, kept: usize) -> (Vec<MotionState>, u64) {
         let orbit = self.orbit;
         let from = (orbit.start(), orbit.direction());

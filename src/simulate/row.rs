@@ -61,8 +61,7 @@ pub trait RowSink {
     /// An error ends the run.
     fn row(&mut self, row: &Row) -> Result<(), Error>;
 
-    /// Whether states at steps of the computation are wanted in addition: impacts in a loose joint are shorter than the
-    /// time between rows.
+    /// Whether states at steps are wanted in addition: impacts in a loose joint are shorter than the time between rows.
     fn wants_steps(&self) -> bool {
         false
     }

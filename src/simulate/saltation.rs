@@ -9,8 +9,8 @@ use crate::engine::Motion;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
 
-/// Returns the saltation matrix at the start of a step that begins with another acceleration than the one `before`,
-/// rad/s². None for a jump in time, or none.
+/// Returns the saltation matrix at the start of a step, from the acceleration `before`, rad/s²; none for a jump in
+/// time.
 pub(super) fn saltation(motion: &dyn Motion, step: &Step, before: f64) -> Option<StateTransition> {
     let start = &step.start;
     let jump = start.alpha - before;

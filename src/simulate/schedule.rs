@@ -78,8 +78,7 @@ impl Schedule {
         }
     }
 
-    /// Returns the time of the row with this index, if rows are due at times and the row before the end; the row at the
-    /// end is that of the last state.
+    /// Returns the time of the row with an index, if rows are due at times and this one before that of the last state.
     pub fn time(&self, index: u64) -> Option<f64> {
         match *self {
             Schedule::Times { step, end } => {

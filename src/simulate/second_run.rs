@@ -1,8 +1,7 @@
 //! Second run of an error estimate: its tolerances, and its comparison with states of the first. Runs that return to
 //! one course may agree only at the end.
 
-use std::iter::{Chain, FlatMap, Peekable};
-use std::slice::Iter;
+use std::iter::Peekable;
 use std::sync::LazyLock;
 
 use super::result::ErrorEstimate;
@@ -16,8 +15,7 @@ pub(super) const LEAST_TAIL: f64 = 4e-15;
 /// Factor from the distance of two runs to the stated error, for the error of the second run.
 pub(super) const MARGIN: f64 = 1.5;
 
-/// Returns the tolerance of a second run of another method than collocation, whose error is then negligible beside that
-/// of the first.
+/// Returns the tolerance of a second run by another method than collocation, whose error is then negligible.
 pub(super) fn other_method_tolerance(tolerance: f64) -> f64 {
     let ratio = 1e3;
     above_rounding(tolerance / ratio, tolerance)
@@ -78,18 +76,12 @@ impl Checkpoints {
     }
 }
 
-/// Comparison of a second run with the checkpoints of the first, at the ends of their steps and inside them, where a
-/// collocation polynomial is less exact.
+/// Comparison of a second run with checkpoints of the first, at the ends of steps and where a polynomial errs most.
 pub(super) struct Comparison<'a> {
-    remaining: Peekable<Probes<'a>>,
+    remaining: Peekable<Box<dyn Iterator<Item = Probe<'a>> + 'a>>,
     /// Largest differences up to now: crank angle, rad, and crank speed, rad/s.
     largest_difference: [f64; 2],
 }
-
-/// Places in the steps of the first run, in order.
-type Probes<'a> = FlatMap<Chain<Iter<'a, Step>, Iter<'a, Step>>, [Probe<'a>; 3], Split<'a>>;
-
-type Split<'a> = fn(&'a Step) -> [Probe<'a>; 3];
 
 /// Place in a step of the first run.
 struct Probe<'a> {
@@ -112,9 +104,9 @@ fn probes(step: &Step) -> [Probe<'_>; 3] {
 impl<'a> Comparison<'a> {
     pub fn with(checkpoints: &'a Checkpoints) -> Comparison<'a> {
         let Checkpoints { first, later, .. } = checkpoints;
-        let split: Split<'a> = probes;
+        let all: Box<dyn Iterator<Item = _>> = Box::new(first.iter().chain(later).flat_map(probes));
         Comparison {
-            remaining: first.iter().chain(later).flat_map(split).peekable(),
+            remaining: all.peekable(),
             largest_difference: [0.0; 2],
         }
     }

@@ -98,8 +98,7 @@ impl AccelerationSlopes {
         let along = [step.start.omega, step.start.alpha];
         // The time changes the forces: this part of the state is no perturbation of the motion a little later.
         let then = [step.end.omega - pushed[0], step.end.alpha - pushed[1]];
-        // In this time an angle becomes a speed by the slope by the angle: in a much shorter step an angle does not tell
-        // how late a motion is.
+        // In this time an angle becomes a speed by the slope: in a much shorter step an angle does not tell a delay.
         let turns = (h * h * self.by_angle().abs()).clamp(f64::EPSILON, 1.0);
         let unit = h / turns.sqrt();
         let size = |[angle, speed]: [f64; 2]| angle.hypot(unit * speed);
@@ -113,8 +112,7 @@ impl AccelerationSlopes {
         if finite { found } else { magnus_transition }
     }
 
-    /// Computes the transition over a step of length h (s) from the slopes alone, and the change of angle and speed
-    /// that the time adds; exact for constant slopes.
+    /// Computes the transition over a step of length h (s) and the push of the time; exact for constant slopes.
     fn magnus_transition(&self, h: f64) -> (StateTransition, [f64; 2]) {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };

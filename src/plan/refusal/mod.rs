@@ -12,8 +12,7 @@ use crate::scene::{Problems, Scene};
 /// Refuses a scene that no method can simulate.
 ///
 /// # Errors
-/// [`Problems`] of the values; if all values are possible, [`Problems`] that keep the motion from being modelled,
-/// started or ended.
+/// [`Problems`] of the values, else those that keep the motion from being modelled, started or ended.
 pub fn refuse(scene: &Scene) -> Result<(), Problems> {
     modelled(scene).map(drop)
 }

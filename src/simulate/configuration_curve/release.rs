@@ -18,8 +18,7 @@ pub(super) enum Release {
     Unknown(f64),
 }
 
-/// Finds the first time between `from` and `to` (s) after which static friction gives way, and counts the evaluations
-/// of the margin.
+/// Finds the first time between `from` and `to` (s) after which static friction gives way; counts evaluations.
 pub(super) fn time(
     rest: &AtRest<'_>,
     mu_static: f64,

@@ -83,8 +83,7 @@ fn rounding_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState) -> ErrorE
     error
 }
 
-/// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy of the state
-/// shows it.
+/// Returns the error of the speed at its angle, rad/s: truncation of the series, or less if the energy shows it.
 fn truncation_error(task: &RunSetup<'_>, orbit: &Orbit, at: MotionState, work: f64) -> f64 {
     let balance = EnergyBalance::of_crank(task, &at, work, orbit.largest_kinetic(at.t));
     let momentum = task.equation().terms(at.angle.rest).m * at.speed.abs();
@@ -109,8 +108,7 @@ pub(super) fn row_error(orbits: [&Orbit; 2], t: f64, last: ErrorEstimate) -> Err
     }
 }
 
-/// Returns the error of a run that ends at an angle: there a lead of the angle is one of the time, and the speed has what the
-/// acceleration makes of that.
+/// Returns the error of a run that ends at an angle: a lead of the angle is one of the time, which changes the speed.
 pub(super) fn error_at_angle(
     task: &RunSetup<'_>,
     [result, best]: [&PassResult; 2],

@@ -134,8 +134,7 @@ impl<'a> SceneCycleMap<'a> {
         Ok(run)
     }
 
-    /// Returns the energy gained by a cycle, J: the work of its loads, which keeps its digits, and its sign, where it is
-    /// nothing beside the energy.
+    /// Returns the energy gained by a cycle, J: the work of its loads, exact also where it is small beside the energy.
     fn gained(&self, run: &Simulation) -> f64 {
         let rotation = self.task.extent.angle().unwrap_or_default();
         let torque = self.task.equation().loads().constant_torque();

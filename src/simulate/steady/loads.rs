@@ -79,8 +79,7 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
     cuts
 }
 
-/// Computes the work over a period, J. Speeds are uncertain by a part `relative`: the resulting uncertainty of the work
-/// of a piece is not resolved.
+/// Computes the work over a period, J, resolved as far as the uncertainty of the speeds, a part `relative`, allows.
 fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit) -> f64 {
     let sense = found.cycle.speed.signum();
     let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
