@@ -9,7 +9,8 @@ use crate::numeric::exact::SUM_ROUNDING;
 
 /// Mechanism at rest at a coordinate q.
 pub struct AtRest<'a> {
-    equation: &'a CurveEquation,
+    /// Equation on the curve.
+    pub equation: &'a CurveEquation,
     terms: CurveTerms,
     q: Angle,
 }
@@ -37,11 +38,6 @@ pub struct Held {
 }
 
 impl AtRest<'_> {
-    /// Returns the next time after `t` at which a load has a corner, s.
-    pub fn next_corner(&self, t: f64) -> f64 {
-        self.equation.loads().next_corner(t)
-    }
-
     /// Returns the margin at a time (s) of all that holds, zero where it gives way: static friction at the guide in N,
     /// or N m with dry loads. The dry loads hold first, the guide holds the rest.
     pub fn margin(&self, t: f64, mu_static: f64) -> f64 {

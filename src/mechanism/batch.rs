@@ -151,7 +151,7 @@ impl CurveEquation {
         alpha: &mut [f64; N],
         power: &mut [f64; N],
     ) {
-        let equation = self.over_crank_angle();
+        let equation = &self.equation;
         let (sides, normals) = match c {
             0.0 => (equation.term_arrays(at.theta), [Normal::default(); N]),
             _ => equation.first_guided(at.theta, N),

@@ -13,7 +13,8 @@ use crate::scene::{Friction, Instant, Scene, Variable};
 /// Lagrange equation of one scene on its configuration curve.
 #[derive(Clone, Debug)]
 pub struct CurveEquation {
-    equation: Equation,
+    /// Equation over the crank angle.
+    pub(super) equation: Equation,
     curve: Curve,
     friction: Option<Friction>,
 }
@@ -66,11 +67,6 @@ impl CurveEquation {
     /// Returns the curve.
     pub fn curve(&self) -> &Curve {
         &self.curve
-    }
-
-    /// Returns the equation over the crank angle.
-    pub(super) fn over_crank_angle(&self) -> &Equation {
-        &self.equation
     }
 
     /// Returns the loads.

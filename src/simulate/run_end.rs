@@ -186,26 +186,22 @@ mod tests {
 
     #[test]
     fn a_run_short_of_its_goal_never_ends_in_silence() {
-        let says = |extent, t_s, turned| {
+        let says = |extent, t_s, theta_rad, turned| {
             let last = Final {
                 t_s,
-                theta_rad: turned,
+                theta_rad,
                 omega_rad_per_s: 1.0,
             };
             unexplained_end(extent, &last, turned).is_some()
         };
         let (second, turn) = (Extent::Duration(1.0), Extent::Revolutions(1.0));
-        assert!(!says(second, 1.0, 0.3) && !says(turn, 0.2, -TAU) && !says(turn, 0.2, TAU));
-        assert!(says(second, 0.999, 0.3) && says(turn, 0.2, -6.2));
-        assert!(says(second, 1.0, f64::NAN) && says(second, f64::NAN, 0.3));
+        assert!(!says(second, 1.0, 0.3, 0.3) && !says(turn, 0.2, -TAU, -TAU));
+        assert!(!says(turn, 0.2, TAU, TAU) && !says(Extent::Duration(0.0), 0.0, 0.3, 0.3));
+        assert!(says(second, 0.999, 0.3, 0.3) && says(turn, 0.2, -6.2, -6.2));
+        assert!(says(second, 1.0, f64::NAN, f64::NAN) && says(second, f64::NAN, 0.3, 0.3));
+        assert!(says(turn, 0.2, f64::INFINITY, f64::INFINITY));
         // Angles near 1 rad differ by a multiple of their rounding.
-        let last = Final {
-            t_s: 1e-9,
-            theta_rad: 1.0,
-            omega_rad_per_s: 1.0,
-        };
-        let short = 6.28e-9 - 2.0 * f64::EPSILON;
-        assert!(unexplained_end(Extent::Revolutions(6.28e-9 / TAU), &last, short).is_none());
-        assert!(says(turn, 0.2, f64::INFINITY) && !says(Extent::Duration(0.0), 0.0, 0.3));
+        let (goal, reached) = (6.28e-9, 6.28e-9 - 2.0 * f64::EPSILON);
+        assert!(!says(Extent::Revolutions(goal / TAU), 1e-9, 1.0, reached));
     }
 }

@@ -186,11 +186,6 @@ impl LooseMechanism {
         self.clearance.law == ContactLaw::MasslessLink
     }
 
-    /// Returns the speed by which the contact law divides, m/s, for a contact that begins with this speed.
-    pub fn approach(&self, speed: f64) -> f64 {
-        speed.max(self.clearance.least_approach_speed)
-    }
-
     /// Computes accelerations, powers and forces at a state.
     pub fn rates(&self, s: &LooseState, touch: JointTouch) -> LooseRates {
         self.rates_in(s, &self.frame(s), touch, self.rubbing(s, touch))

@@ -126,11 +126,6 @@ impl<'a> AngleModel<'a> {
         }
     }
 
-    /// Returns the number of positions evaluated up to now.
-    pub fn evaluations(&self) -> u64 {
-        self.evaluations.get()
-    }
-
     /// Whether loads of the state are not analytic where the slider reverses, like v |v|.
     fn has_kinks_at_dead_centres(&self) -> bool {
         let point = Interval::point;
@@ -159,7 +154,7 @@ impl Dynamics for AngleModel<'_> {
     type Place = PanelPlace;
 
     fn positions(&self) -> u64 {
-        self.evaluations()
+        self.evaluations.get()
     }
 
     fn fill_table(

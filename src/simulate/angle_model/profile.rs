@@ -81,7 +81,7 @@ impl Profile for AngleModel<'_> {
     }
 
     fn is_spent(&self) -> bool {
-        self.limit.is_reached(self.evaluations())
+        self.limit.is_reached(self.evaluations.get())
     }
 
     fn repeats(&self) -> bool {

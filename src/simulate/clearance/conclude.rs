@@ -57,7 +57,11 @@ impl<const N: usize> Loose<'_, N> {
         );
         let mut warnings = self.warnings(&summary, seen, tighter.is_some() || stopped.is_some());
         if N == DRIVEN {
-            self.add_dead_centres(&mut record, last.t);
+            let (passages, count) = passages::at_constant_speed(task, last.t);
+            record.events.extend(passages);
+            record.events_total += count;
+            record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+            record.events.truncate(task.options.events_kept);
         }
         let at = self.crank(last);
         let theta = at.angle.radians().abs();
@@ -198,14 +202,5 @@ impl<const N: usize> Loose<'_, N> {
         .into_iter()
         .flatten()
         .collect()
-    }
-
-    /// Adds the dead centres of a crank at constant speed to impacts and separations, in order of time.
-    fn add_dead_centres(&self, record: &mut Record, end: f64) {
-        let (passages, count) = passages::at_constant_speed(self.task, end);
-        record.events.extend(passages);
-        record.events_total += count;
-        record.events.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        record.events.truncate(self.task.options.events_kept);
     }
 }

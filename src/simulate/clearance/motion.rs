@@ -239,7 +239,7 @@ impl<const N: usize> Contact<N> for Loose<'_, N> {
     }
 
     fn approach(&self, speed: f64) -> f64 {
-        self.mechanism.approach(speed)
+        speed.max(self.mechanism.clearance.least_approach_speed)
     }
 
     fn relinked(&self, y: &[f64; N]) -> [f64; N] {

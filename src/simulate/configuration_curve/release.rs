@@ -32,7 +32,8 @@ pub(super) fn time(
     let [longest, shortest] = [1.0 / 317.0, 1e-9].map(|part| part * (to - from));
     let (mut t, mut length) = (from, longest);
     while t < to && !allowed.is_reached(count) {
-        let end = rest.next_corner(t).min(to).min(t + length);
+        let corner = rest.equation.loads().next_corner(t);
+        let end = corner.min(to).min(t + length);
         let times = SAMPLE_PLACES.map(|part| match part {
             1.0 => end,
             _ => t + part * (end - t),

@@ -7,7 +7,7 @@ use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
 use super::super::run_setup::RunSetup;
 use super::stop_reason;
-use crate::engine::angle::{AngleRun, Resolution};
+use crate::engine::angle::{AngleRun, Dynamics, Resolution};
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
 use crate::engine::time::{Finish, MotionState, Settings};
@@ -29,8 +29,8 @@ pub(super) struct PassSettings<'a> {
     pub time_settings: Settings<'a>,
     /// Crank rotation in one direction, rad, after which the angle engine resumes.
     pub resume_rotation: f64,
-    /// Configuration curve through the start, once a piece follows it.
-    pub curve: OnceCell<CurveProblem>,
+    /// Configuration curve through the start, once a piece follows it, if there is one.
+    pub curve: OnceCell<Option<CurveProblem>>,
 }
 
 /// Reason for an engine, in words.
@@ -136,7 +136,7 @@ impl PassSettings<'_> {
                 state: self.task.first_state(),
                 ..PassResult::default()
             },
-            positions_before: self.model.evaluations(),
+            positions_before: self.model.positions(),
             other_evaluations: 0,
             resume_rotation: self.resume_rotation,
         };
@@ -152,7 +152,7 @@ impl PassSettings<'_> {
 impl<'a> Pass<'a, '_> {
     /// Returns the number of evaluations beside those of `motion`.
     pub fn spent_beside_motion(&self) -> u64 {
-        self.settings.model.evaluations() - self.positions_before + self.other_evaluations
+        self.settings.model.positions() - self.positions_before + self.other_evaluations
     }
 
     fn spent(&self) -> u64 {
@@ -206,7 +206,7 @@ impl<'a> Pass<'a, '_> {
                 return Err(stop_reason::refusal(task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.
-            self.positions_before = model.evaluations();
+            self.positions_before = model.positions();
         }
         Ok(match (engine, why) {
             (Engine::Energy, TooLong | TooSlow) if task.plan.has(Engine::Angle) => {

@@ -24,7 +24,14 @@ impl Pass<'_, '_> {
         let pass = self.settings;
         let from = self.result.state;
         let is_followed = configuration_curve::is_followed(pass.task);
-        let curve = is_followed.then(|| pass.curve_through_start());
+        let curve = is_followed.then(|| {
+            let curve = pass
+                .curve
+                .get_or_init(|| CurveProblem::through_start(pass.task));
+            curve
+                .as_ref()
+                .ok_or_else(|| stop_reason::no_start(pass.task))
+        });
         let curve = curve.transpose()?;
         // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
         let start = match curve {
@@ -124,18 +131,6 @@ fn of_crank(
     }
 }
 
-impl PassSettings<'_> {
-    /// Returns the motion along the curve through the start.
-    fn curve_through_start(&self) -> Result<&CurveProblem, Error> {
-        if let Some(curve) = self.curve.get() {
-            return Ok(curve);
-        }
-        let curve = CurveProblem::through_start(self.task);
-        let curve = curve.ok_or_else(|| stop_reason::no_start(self.task))?;
-        Ok(self.curve.get_or_init(|| curve))
-    }
-}
-
 /// Observer of a crank in time until it turns safely again and the angle engine may take over.
 struct ResumeCondition<'a, 'o> {
     pass: &'a PassSettings<'a>,
@@ -180,14 +175,10 @@ impl ResumeCondition<'_, '_> {
         self.kinetic_since_turning = self.kinetic_since_turning.max(kinetic);
         // Part of the largest energy since then: a slower crank may be near to rest, where the angle does not serve.
         let fast = 0.25;
+        // Apart from all places of events.
+        let is_apart = |corner: &f64| circular_distance(angle.rest, *corner) > NEARBY_ANGLE;
         angle.minus(self.turning_point).abs() >= self.rotation
             && kinetic >= fast * self.kinetic_since_turning
-            && self.is_apart(angle)
-    }
-
-    /// Whether an angle is apart from all places of events.
-    fn is_apart(&self, angle: Angle) -> bool {
-        let mut corners = self.pass.model.cycle_corners.iter();
-        corners.all(|corner| circular_distance(angle.rest, *corner) > NEARBY_ANGLE)
+            && self.pass.model.cycle_corners.iter().all(is_apart)
     }
 }

@@ -82,7 +82,7 @@ fn search(
         ..Options::default()
     };
     let found = first(scene, rests, of_runs)?;
-    let (any_speed, approached) = (found.any_speed, found.approached);
+    let (any_speed, approached) = (found.any_speed, found.fixed.approached);
     let speed = found.cycle.speed;
     let mut steady = Verified::new(scene, found, of_runs)?.described(scene);
     steady.approached_from_start = (!rests).then_some(approached);
@@ -207,10 +207,8 @@ impl Verified {
                 error: sum.error + load.power_w.error,
             })
         };
-        let multiplier = self.of(
-            |f| f.multiplier,
-            found.multiplier_error.max(check.multiplier_error),
-        );
+        let error = found.fixed.slope_error.max(check.fixed.slope_error);
+        let multiplier = self.of(PeriodicOrbit::multiplier, error);
         SteadyState {
             scene: scene.title.clone().unwrap_or_default(),
             theta_rad: scene.motion.angle,

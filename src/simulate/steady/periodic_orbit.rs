@@ -31,10 +31,8 @@ pub(super) struct PeriodicOrbit {
     pub turns: u32,
     /// Least and largest speed, without regard to sign.
     pub extremes: [Extreme; 2],
-    /// Floquet multiplier: factor on a small energy deviation over one period.
-    pub multiplier: f64,
-    pub multiplier_error: f64,
-    pub approached: bool,
+    /// Fixed point of the cycle map.
+    pub fixed: FixedPoint,
     /// Whether every speed is periodic.
     pub any_speed: bool,
 }
@@ -44,6 +42,12 @@ impl PeriodicOrbit {
     pub fn fluctuation(&self) -> f64 {
         let [slow, fast] = self.extremes;
         (fast.omega - slow.omega).abs() * self.cycle.period / self.rotation()
+    }
+
+    /// Returns the Floquet multiplier: factor on a small energy deviation over one period.
+    pub fn multiplier(&self) -> f64 {
+        // Motions do not cross: a negative multiplier is rounding.
+        (1.0 + self.fixed.slope).max(0.0)
     }
 
     /// Returns the rotation of the crank in a period, rad.
@@ -155,10 +159,7 @@ fn found(
             turned: 0.0,
             omega: cycle.speed,
         }; 2],
-        // Motions do not cross: a negative multiplier is rounding.
-        multiplier: (1.0 + fixed.slope).max(0.0),
-        multiplier_error: fixed.slope_error,
-        approached: fixed.approached,
+        fixed,
         any_speed,
         cycle,
     };
