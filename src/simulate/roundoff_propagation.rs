@@ -40,12 +40,6 @@ impl RoundoffPropagation {
         }
     }
 
-    /// Adds the rounding of the angle at a start in motion. Tolerances are absolute below one radian: the start is
-    /// resolved to a unit in the last place of one, however small the angle.
-    pub fn round_start(&mut self) {
-        self.round(1.0, 0.0);
-    }
-
     /// Adds the rounding of a state: angle, rad, and speed, rad/s.
     pub fn round(&mut self, theta: f64, omega: f64) {
         let [angle, speed] = [theta, omega].map(|size| ROUNDING_DEVIATION * size.abs());
@@ -165,14 +159,9 @@ impl CovarianceFactor {
         if finite { self } else { *before }
     }
 
-    /// Returns the standard deviation of the angle, rad.
-    pub fn angle_deviation(&self) -> f64 {
-        self.0[0][0].hypot(self.0[1][0])
-    }
-
-    /// Returns the standard deviation of the speed, rad/s.
-    pub fn speed_deviation(&self) -> f64 {
-        self.0[0][1].hypot(self.0[1][1])
+    /// Returns the standard deviations of angle (rad) and speed (rad/s).
+    pub fn deviations(&self) -> [f64; 2] {
+        [0, 1].map(|i| self.0[0][i].hypot(self.0[1][i]))
     }
 
     /// Adds independent errors of angle (rad) and speed (rad/s).
@@ -239,10 +228,10 @@ mod tests {
         let covariance = CovarianceFactor::default()
             .plus_independent(3.0, 5.0)
             .plus_error(4.0, 12.0);
-        assert_close(covariance.angle_deviation(), 5.0);
-        assert_close(covariance.speed_deviation(), 13.0);
+        assert_close(covariance.deviations()[0], 5.0);
+        assert_close(covariance.deviations()[1], 13.0);
         let faster = covariance.with_speed_times(2.0);
-        assert_close(faster.speed_deviation(), 26.0);
+        assert_close(faster.deviations()[1], 26.0);
     }
 
     /// A limit that is passed fast changes the speed much with the angle, and back again.
@@ -253,7 +242,7 @@ mod tests {
             .plus_independent(1.0, 3.0)
             .propagated(&steep(1e12));
         let back = covariance.plus_error(1e-3, 1e9).propagated(&steep(-1e12));
-        assert!((back.speed_deviation() - 3.0).abs() < 1e-3, "{back:?}");
-        assert_close(back.angle_deviation(), 1f64.hypot(1e-3));
+        assert!((back.deviations()[1] - 3.0).abs() < 1e-3, "{back:?}");
+        assert_close(back.deviations()[0], 1f64.hypot(1e-3));
     }
 }

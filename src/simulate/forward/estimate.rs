@@ -194,7 +194,7 @@ fn distance(
 
 /// Converts the covariance of a coordinate at the end to that of crank angle and crank speed.
 fn of_crank(result: &PassResult, covariance: CovarianceFactor) -> [f64; 2] {
-    let (angle, speed) = (covariance.angle_deviation(), covariance.speed_deviation());
+    let [angle, speed] = covariance.deviations();
     let (Some(Step { end, .. }), Some(curve)) = (result.last_step, &result.curve) else {
         return [angle, speed];
     };
@@ -268,7 +268,8 @@ impl PassObserver for SecondRunObserver<'_, '_> {
     fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, _: Reason) {
         // Panels over the angle state their roundoff themselves.
         if from.t == 0.0 && self.moves {
-            self.rounding.round_start();
+            // Tolerances are absolute below one radian: a start in motion is rounded as an angle of one.
+            self.rounding.round(1.0, 0.0);
         } else if from.t > 0.0 && curve.is_none() {
             self.rounding.round(from.angle.rest, from.speed);
         }

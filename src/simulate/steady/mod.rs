@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::options::Options;
 use super::second_run::MARGIN;
 use crate::error::Error;
-use crate::mechanism::{Class, Limits, Linkage};
+use crate::mechanism::{Class, Linkage};
 use crate::numeric::fourier;
 use crate::plan::Cycle;
 use crate::scene::{MotionKind, Scene};
@@ -100,7 +100,7 @@ fn search(
 
 fn refuse_what_has_none(scene: &Scene) -> Result<(), Error> {
     scene.check()?;
-    let class = Limits::new(&Linkage::new(&scene.geometry), 0.0).class;
+    let class = Class::of(&Linkage::new(&scene.geometry));
     let (what, help) = if scene.motion.kind == MotionKind::ConstantSpeed {
         (
             "a steady state is sought, but the scene prescribes the crank's speed".to_owned(),
