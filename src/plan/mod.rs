@@ -18,7 +18,7 @@ pub use method::Method;
 pub use refusal::refuse;
 use refusal::{modelled, not_modelled};
 pub use terms::Term;
-use terms::{Terms, terms};
+use terms::{TermLists, terms};
 
 use crate::error::Error;
 use crate::mechanism::{Class, Curve, Linkage, Loads};
@@ -125,7 +125,7 @@ impl Plan {
         let linkage = Linkage::new(&scene.geometry);
         let loads = Loads::new(&reduced);
         let Candidate { engine, reason } = choose(method, &reduced, &loads)?;
-        let Terms { kept, left_out } = terms(scene, &reduced);
+        let TermLists { kept, left_out } = terms(scene, &reduced);
         Ok(Plan {
             engine,
             reason,

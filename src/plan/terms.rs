@@ -17,7 +17,7 @@ pub struct Term {
 
 /// Terms kept and terms left out.
 #[derive(Default)]
-pub(super) struct Terms {
+pub(super) struct TermLists {
     pub kept: Vec<Term>,
     pub left_out: Vec<Term>,
 }
@@ -25,8 +25,8 @@ pub(super) struct Terms {
 const ZERO: &str = "its strength is zero";
 
 /// Returns the terms of a scene; `reduced` is `scene` without parts of zero strength.
-pub(super) fn terms(scene: &Scene, reduced: &Scene) -> Terms {
-    let mut terms = Terms::default();
+pub(super) fn terms(scene: &Scene, reduced: &Scene) -> TermLists {
+    let mut terms = TermLists::default();
     terms.part("crank inertia", [scene.crank, reduced.crank], |crank| {
         format!("{} kg m2 about O", crank.inertia)
     });
@@ -73,7 +73,7 @@ fn of_clearance(clearance: Clearance) -> String {
     format!("{radial} m at the {joint}, contact law {law}")
 }
 
-impl Terms {
+impl TermLists {
     /// Adds a part as given in the scene and as kept, absent where its strength is zero.
     fn part<T>(&mut self, name: &'static str, of: [Option<T>; 2], shown: fn(T) -> String) {
         let [given, kept] = of;

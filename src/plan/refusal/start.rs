@@ -55,7 +55,14 @@ fn free(scene: &Scene, linkage: &Linkage, list: &mut Vec<Problem>) {
             "give the crank an inertia, or start away from the dead centre",
         ));
     } else if list.len() == before && !equation.free(0.0, q, pace).acceleration.is_finite() {
-        list.push(too_large(theta));
+        list.push(Problem::new(
+            "motion",
+            format!(
+                "the loads or the speed are too large to be computed with at the start, theta = {} rad: the acceleration has no value in double precision",
+                theta.radians()
+            ),
+            "check the units of loads, speed and inertia",
+        ));
     }
 }
 
@@ -93,17 +100,6 @@ fn no_value(field: &str, load: &Load, value: f64, now: &Instant) -> Problem {
             "a load has no finite value at the start: {field} is {value} at t = 0, theta = {theta} rad, omega = {omega} rad/s"
         ),
         help,
-    )
-}
-
-fn too_large(theta: Angle) -> Problem {
-    Problem::new(
-        "motion",
-        format!(
-            "the loads or the speed are too large to be computed with at the start, theta = {} rad: the acceleration has no value in double precision",
-            theta.radians()
-        ),
-        "check the units of loads, speed and inertia",
     )
 }
 

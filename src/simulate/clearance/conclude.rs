@@ -158,7 +158,7 @@ impl<const N: usize> Loose<'_, N> {
             joint: clearance.joint.name(),
             contact_law: clearance.law.name(),
             radial_m: clearance.radial,
-            stiffness_n_per_m_1_5: (!linked).then(|| self.mechanism.force.stiffness),
+            stiffness_n_per_m_1_5: (!linked).then_some(self.mechanism.force.stiffness),
             impacts: whole.impacts,
             separations: seen.separations,
             contact_share: whole.contact_share,
