@@ -12,6 +12,11 @@ pub enum Warning {
     /// The second run of the error estimate did not reach the end within its share of work.
     #[error("the error could not be estimated: the second, tighter run did not finish")]
     NotEstimated,
+    /// The error of the crank angle at the end exceeds half a turn.
+    #[error(
+        "the error is not stated: on the way it has grown to more than half a turn, and only the statistics of the motion mean something; a shorter run states its error"
+    )]
+    Undetermined,
     /// The lengths make a change point.
     #[error(
         "the lengths make a change point: it is passed so that all velocities stay continuous, and the branch changes there; a slightly longer or shorter rod moves differently"

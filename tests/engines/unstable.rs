@@ -11,7 +11,7 @@ use proptest::test_runner::TestRunner;
 use slider_crank::mechanism::Equation;
 use slider_crank::plan::Method;
 use slider_crank::scene::{Crank, Expression, Gravity, Load, Scene, Slider};
-use slider_crank::simulate::{Options, simulate};
+use slider_crank::simulate::{Options, Summary, Warning, simulate};
 
 const SCENES: usize = 30;
 
@@ -269,5 +269,53 @@ fn what_grows_in_a_balance_is_stated() {
                 "{method} 1e-{exponent}: {error:e} {stated:e}"
             );
         }
+    }
+}
+
+/// A crank that is shaken swings and turns without order: each second multiplies an error by ten or more. The linearised
+/// motion would state 1e9 rad, which is no error of an angle.
+#[test]
+fn the_error_of_a_chaotic_motion_is_stated_while_it_means_something() {
+    let force = Load::Expression(Expression::parse("69.1*sin(45.3*t)").unwrap());
+    let scene = Scene::new(0.0617, 0.2151)
+        .crank(Crank {
+            inertia: 0.01,
+            ..Crank::default()
+        })
+        .slider(Slider { mass: 0.85 })
+        .force(force)
+        .start(0.89, -0.24);
+    let runs = |duration: f64| {
+        [(Method::Auto, 1e-10), (Method::Dop853, 1e-12)].map(|(method, tolerance)| {
+            let scene = scene.clone().duration(duration).tolerance(tolerance);
+            let options = Options {
+                method,
+                ..Options::default()
+            };
+            simulate(&scene, &options).expect("a run").summary
+        })
+    };
+    let apart = |[one, other]: &[Summary; 2]| (one.last.theta_rad - other.last.theta_rad).abs();
+
+    let short = runs(6.0);
+    let stated = short
+        .each_ref()
+        .map(|run| run.error_estimate.expect("an estimate").theta_rad);
+    let far = apart(&short);
+    assert!(
+        1e-6 < far && far < stated[0] + stated[1],
+        "{far:e} {stated:?}"
+    );
+
+    // The two methods go different ways.
+    let long = runs(20.0);
+    assert!(apart(&long) > PI);
+    for run in &long {
+        assert!(run.error_estimate.is_none());
+        assert!(
+            matches!(run.warnings[..], [Warning::Undetermined]),
+            "{:?}",
+            run.warnings
+        );
     }
 }

@@ -103,6 +103,31 @@ impl Collocation<'_> {
         self.tableau.lebesgue * f64::EPSILON * t.abs() * slope
     }
 
+    /// Judges a step by its last Legendre term, rad/s²: returns its error in units of the tolerance, and the ratio of the
+    /// next step to this one.
+    pub(super) fn judged(
+        &mut self,
+        state: &State,
+        h: f64,
+        last_term: f64,
+        coefficients: &[f64; NODES],
+    ) -> (f64, f64) {
+        // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
+        let next_factor = |error: f64| 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
+        let error = self.error(state, h, last_term, coefficients);
+        let factor = next_factor(error);
+        let may_be_rounding =
+            || last_term <= self.possible_rounding_of_times(state, h, coefficients);
+        let shrinks = error > 1.0 || factor < 1.0 && may_be_rounding();
+        if !shrinks || !self.motion.depends_on_time() {
+            return (error, factor);
+        }
+        self.by_time = self.rounding_of_times(h);
+        let error = self.error(state, h, last_term, coefficients);
+        // What is left of a term in its rounding says little of how much longer a step may be.
+        (error, next_factor(error).min(1.0 / factor))
+    }
+
     /// Returns the error due to a Legendre term (rad/s²) beyond the last, less the rounding error of accelerations.
     pub(super) fn error(
         &self,

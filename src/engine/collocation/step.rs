@@ -122,19 +122,7 @@ impl<'a> Collocation<'a> {
         let ends = jumps.into_iter().zip(corners);
         let jump = ends.filter_map(|(jump, at_corner)| (!at_corner).then_some(share * jump.abs()));
         let last_term = jump.fold(last_term(&coefficients), f64::max);
-        let mut error = self.error(state, h, last_term, &coefficients);
-        // The error grows as the power NODES of the length: the next step aims at 1 % of the tolerance.
-        let next_factor = |error: f64| 0.7 * error.max(1e-20).powf(-1.0 / NODES as f64);
-        let mut factor = next_factor(error);
-        let shrinks = factor < 1.0;
-        let is_rounding =
-            shrinks && last_term <= self.possible_rounding_of_times(state, h, &coefficients);
-        if (error > 1.0 || is_rounding) && self.motion.depends_on_time() {
-            self.by_time = self.rounding_of_times(h);
-            error = self.error(state, h, last_term, &coefficients);
-            // What is left of a term in its rounding says little of how much longer a step may be.
-            factor = next_factor(error).min(1.0 / factor);
-        }
+        let (error, mut factor) = self.judged(state, h, last_term, &coefficients);
         if error > 1.0 {
             return Err(Rejection::TooLong(factor));
         }

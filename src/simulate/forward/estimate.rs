@@ -4,47 +4,48 @@
 //! angle changes the acceleration. The linearised motion carries these errors to the end, as they grow with it near a
 //! balance; independent errors add up by their squares.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
-use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
-use super::super::coordinate::Coordinate;
+use super::super::configuration_curve::EndReason;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
 use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
-use super::super::state_transition::StateTransition;
-use super::engine_loop::{AnglePiece, PassObserver, PassResult, PassSettings, Reason};
+use super::super::warning::Warning;
+use super::engine_loop::{PassResult, PassSettings};
 use super::errors_over_angle::{
     TURN_ROUNDING, by_energy, error_at_angle, error_of_delay, row_error, worst_row_error,
 };
 use super::over_angle::second_run_resolution;
+use super::second_run_observer::SecondRunObserver;
 use super::stop_reason;
-use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::{Method, MotionState, Settings};
 use crate::engine::{Counted, Motion, WorkLimit};
-use crate::error::Error;
-use crate::mechanism::Equation;
 use crate::plan::Engine;
 use crate::scene::Extent;
 
 /// Stated roundoff, in standard deviations: exceeded by 5 % of normally distributed errors.
-const STATED_DEVIATIONS: f64 = 2.0;
+pub(super) const STATED_DEVIATIONS: f64 = 2.0;
 
 /// Estimates the global error of a run: from the energy engine, or by a second run, by collocation or, where that does
-/// not arrive, by the method of the run; none where no second run reaches the end.
+/// not arrive, by the method of the run.
+///
+/// # Errors
+/// [`Warning::NotEstimated`] where no second run reaches the end; [`Warning::Undetermined`] where the error reaches half a
+/// turn: the linearised motion says nothing of larger ones.
 pub(super) fn estimate(
     pass: &PassSettings<'_>,
     result: &PassResult,
     record: &Record,
     wants_rows: bool,
-) -> Option<Estimate> {
+) -> Result<Estimate, Warning> {
     let piece = result.angle_piece.as_ref();
     if let Some(piece) = piece.filter(|piece| piece.engine == Engine::Energy) {
-        return Some(by_energy(pass.task, &piece.run, result, wants_rows));
+        return Ok(by_energy(pass.task, &piece.run, result, wants_rows));
     }
     let begun = Instant::now();
     let guide = piece.map(|piece| &piece.run);
@@ -87,7 +88,8 @@ pub(super) fn estimate(
         Some((best, observer.rounding.covariance, observer.comparison))
     };
     let mut settings = second_settings(pass, result, record).into_iter();
-    let (best, covariance, comparison) = settings.find_map(second)?;
+    let found = settings.find_map(second).ok_or(Warning::NotEstimated);
+    let (best, covariance, comparison) = found?;
     let cost = Cost {
         evaluations,
         wall_s: begun.elapsed().as_secs_f64(),
@@ -95,6 +97,9 @@ pub(super) fn estimate(
     let mut error = distance(pass.task, result, &best, covariance);
     if matches!(pass.extent, Extent::Revolutions(_)) {
         error = error.max(error_at_angle(pass.task, [result, &best], error));
+    }
+    if error.theta_rad > PI {
+        return Err(Warning::Undetermined);
     }
     let rows = match (&result.angle_piece, &best.angle_piece) {
         _ if !result.is_one_piece() => None,
@@ -105,7 +110,7 @@ pub(super) fn estimate(
         (Some(_), None) => None,
         (None, _) => Some(comparison.worst(error)),
     };
-    Some(Estimate {
+    Ok(Estimate {
         error,
         rows_error: rows,
         cost: Some(cost),
@@ -202,93 +207,4 @@ fn of_crank(result: &PassResult, covariance: CovarianceFactor) -> [f64; 2] {
     let bend = Some((place.d2theta * end.omega).abs()).filter(|bend| bend.is_finite());
     let dtheta = place.dtheta.abs();
     [dtheta * angle, dtheta * speed + bend.unwrap_or(0.0) * angle]
-}
-
-/// Observer of the second run: propagates roundoff and compares with the states of the first.
-struct SecondRunObserver<'m, 'a> {
-    equation: &'m Equation,
-    motion: &'m Counted<'m>,
-    /// Whether the motion does not begin in a balance.
-    moves: bool,
-    rounding: RoundoffPropagation,
-    comparison: Comparison<'a>,
-}
-
-impl SecondRunObserver<'_, '_> {
-    /// Computes the transition over a piece over the angle: a lead in time stays, and an energy error adds to it.
-    fn transition(&self, [from, to]: [&MotionState; 2], errors: &Errors) -> StateTransition {
-        let [inertia, then] = [from, to].map(|at| self.inertia(at));
-        let [alpha, after] = [from, to].map(|at| self.acceleration(at));
-        let energy = [-inertia * alpha, inertia * from.speed];
-        // A piece that loses nearly all of its energy forgets an energy error. Half or twice this fraction changes none
-        // of 200 random runs.
-        let forgotten = 0.1;
-        let by_energy = if errors.retained < forgotten {
-            0.0
-        } else {
-            errors.advance
-        };
-        let early = [
-            1.0 / from.speed + by_energy * energy[0],
-            by_energy * energy[1],
-        ];
-        let angle = early.map(|early| to.speed * early);
-        let speed =
-            [0, 1].map(|k| (errors.retained * energy[k] / then + after * angle[k]) / to.speed);
-        [angle, speed]
-    }
-
-    fn inertia(&self, at: &MotionState) -> f64 {
-        self.equation.terms(at.angle.rest).m
-    }
-
-    fn acceleration(&self, at: &MotionState) -> f64 {
-        self.equation.acceleration(at.t, at.angle, at.speed)
-    }
-}
-
-impl PassObserver for SecondRunObserver<'_, '_> {
-    fn over_angle(&mut self, piece: &AnglePiece, _: Reason) -> Result<(), Error> {
-        let AnglePiece { run, from, to, .. } = piece;
-        let (angle, speed) = run.orbit.state(run.end);
-        let t = to.t;
-        let to = MotionState { t, angle, speed };
-        let errors = &run.errors;
-        let transition = self.transition([from, &to], errors);
-        // The roundoff of the piece is a stated error, no standard deviation.
-        let unit = STATED_DEVIATIONS * f64::EPSILON;
-        let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
-        let carried = self.rounding.covariance.propagated(&transition);
-        self.rounding.covariance = carried
-            .plus_error(speed * late, self.acceleration(&to) * late)
-            .plus_independent(0.0, off / (self.inertia(&to) * speed));
-        Ok(())
-    }
-
-    fn begin_in_time(&mut self, from: MotionState, curve: Option<&CurveProblem>, _: Reason) {
-        // Panels over the angle state their roundoff themselves.
-        if from.t == 0.0 && self.moves {
-            // Tolerances are absolute below one radian: a start in motion is rounded as an angle of one.
-            self.rounding.round(1.0, 0.0);
-        } else if from.t > 0.0 && curve.is_none() {
-            self.rounding.round(from.angle.rest, from.speed);
-        }
-    }
-}
-
-impl StepObserver for SecondRunObserver<'_, '_> {
-    fn step(&mut self, step: &Step, along: &Coordinate<'_>) -> bool {
-        match *along {
-            Coordinate::Curve(along) => {
-                let rate = |q: f64| along.equation.curve().pose(q).dtheta;
-                self.comparison.compare(step, rate);
-                self.rounding.step_on_curve(along, step);
-            }
-            Coordinate::Crank(equation) => {
-                self.comparison.compare(step, |_| 1.0);
-                self.rounding.step(equation, self.motion, step);
-            }
-        }
-        false
-    }
 }

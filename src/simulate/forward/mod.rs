@@ -6,6 +6,7 @@ mod estimate;
 mod forward_recorder;
 mod in_time;
 mod over_angle;
+mod second_run_observer;
 mod stop_reason;
 
 use std::cell::OnceCell;
@@ -24,7 +25,6 @@ use super::run_end::RunEnd;
 use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stop::Why;
-use super::warning::Warning;
 use crate::engine::Counted;
 use crate::engine::time::Finish;
 use crate::error::Error;
@@ -66,8 +66,10 @@ pub(super) fn run(
     let mut estimate = None;
     let is_exact = stopped.as_ref().is_none_or(Why::is_at_a_place);
     if task.options.estimate && is_exact {
-        estimate = estimate::estimate(&pass, &result, &record, wants_rows);
-        warnings.extend(estimate.is_none().then_some(Warning::NotEstimated));
+        match estimate::estimate(&pass, &result, &record, wants_rows) {
+            Ok(found) => estimate = Some(found),
+            Err(warning) => warnings.push(warning),
+        }
     }
     let (at, work) = (result.state, Some(result.work));
     let end = RunEnd {
