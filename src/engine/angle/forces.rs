@@ -113,17 +113,51 @@ impl Forces {
     /// Returns the error of the work on a panel due to times rounded at the points, independently, over machine epsilon,
     /// J: a late load acts at another angle. A load that does not change in time is not late.
     pub fn uncertain_by_time(&self, problem: &Problem<'_, impl Dynamics>) -> f64 {
-        let (panel, start) = (problem.panel, problem.start);
-        let count = panel.rule.degree() + 1;
+        let count = problem.panel.rule.degree() + 1;
+        let changes = self.changes_in_time(problem).map(|change| change.powi(2));
+        let change = changes.sum::<f64>().sqrt();
+        // Two deviations of two roundings: of the time, and of what a load makes of it.
+        let roundings = 2.0 * ROUNDING_DEVIATION * std::f64::consts::SQRT_2;
+        roundings * (problem.start.t * largest(&self.speeds[..count])).abs() * change
+    }
+
+    /// Whether the last two terms of the forces, N m, may be what rounded times at the points leave of them, which no
+    /// shorter panel reduces; counts the evaluations for it.
+    pub fn may_be_rounded_times(
+        &self,
+        problem: &Problem<'_, impl Dynamics>,
+        terms: f64,
+        evaluations: &mut u64,
+    ) -> bool {
+        let count = problem.panel.rule.degree() + 1;
+        let of_all = self.non_conservative[..count].windows(2);
+        // Needs no evaluation, and tells most terms that do not decay apart.
+        if terms > self.last_terms_by_time(problem.start.t, of_all.map(|pair| pair[1] - pair[0])) {
+            return false;
+        }
+        *evaluations += count as u64;
+        terms <= self.last_terms_by_time(problem.start.t, self.changes_in_time(problem))
+    }
+
+    /// Bounds the last two terms that times rounded near t leave of forces with these changes from point to point, N m:
+    /// each is at most twice the largest error at a point.
+    fn last_terms_by_time(&self, t: f64, changes: impl Iterator<Item = f64>) -> f64 {
+        let lasts = self.times.windows(2).map(|pair| pair[1] - pair[0]);
+        let slopes = changes.zip(lasts).filter(|(_, last)| *last > 0.0);
+        let steepest = slopes.fold(0.0, |most: f64, (change, last)| {
+            most.max((change / last).abs())
+        });
+        4.0 * f64::EPSILON * t.abs() * steepest
+    }
+
+    /// Returns the changes of the forces from point to point by the time alone, N m.
+    fn changes_in_time(&self, problem: &Problem<'_, impl Dynamics>) -> impl Iterator<Item = f64> {
+        let panel = problem.panel;
         let [mut frozen, zero] = [[0.0; MAX_DEGREE + 1]; 2];
         tabulated(panel, &self.speeds, &mut frozen);
         add_state_loads(problem, [&self.speeds, &zero], &mut frozen);
-        let due_to_time = |j: usize| self.non_conservative[j] - frozen[j];
-        let between = (1..count).map(|j| (due_to_time(j) - due_to_time(j - 1)).powi(2));
-        let change = between.sum::<f64>().sqrt();
-        // Two deviations of two roundings: of the time, and of what a load makes of it.
-        let roundings = 2.0 * ROUNDING_DEVIATION * std::f64::consts::SQRT_2;
-        roundings * (start.t * largest(&self.speeds[..count])).abs() * change
+        let due_to_time = move |j: usize| self.non_conservative[j] - frozen[j];
+        (1..=panel.rule.degree()).map(move |j| due_to_time(j) - due_to_time(j - 1))
     }
 
     /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.

@@ -76,7 +76,7 @@ pub(super) fn sweep(
             solution.first_change = largest;
         }
         // The forces are as accurate as the motion: more sweeps would not resolve them.
-        if solution.forces_are_left_out(panel, start, tail, largest) {
+        if solution.forces_are_left_out(problem, tail, largest) {
             return Err(Unsolved::TooLong);
         }
         // The remaining error is the last change times the convergence factor; Newton's method squares it, as far as
@@ -97,7 +97,7 @@ pub(super) fn sweep(
         if newton {
             if largest * factor.min(SLOW_FACTOR) <= tail || at_rounding {
                 solution.evaluate(problem)?;
-                return solution.finish(panel, start, tail);
+                return solution.finish(problem, tail);
             }
         } else if largest * factor <= largest_error || at_rounding {
             // A linearised sweep corrects the forces with the energy.
@@ -106,7 +106,7 @@ pub(super) fn sweep(
             } else {
                 solution.evaluate(problem)?;
             }
-            solution.finish(panel, start, tail)?;
+            solution.finish(problem, tail)?;
             // Value at the last point, rounded once more; under steep loads the gain would be less accurate.
             solution.end = start.kinetic + solution.gain;
             return Ok(());
@@ -159,7 +159,7 @@ impl PanelSolution {
             return Err(Unsolved::Stops);
         }
         self.evaluate(problem)?;
-        self.finish(panel, start, tail)
+        self.finish(problem, tail)
     }
 
     /// Returns the change that a sweep makes, J.
@@ -182,12 +182,8 @@ impl PanelSolution {
     }
 
     /// Checks that the series are resolved, at the speeds of the last evaluation.
-    fn finish<P: Copy>(
-        &mut self,
-        panel: &PanelTable<P>,
-        start: PanelStart,
-        tail: f64,
-    ) -> Result<(), Unsolved> {
+    fn finish(&mut self, problem: &Problem<'_, impl Dynamics>, tail: f64) -> Result<(), Unsolved> {
+        let panel = problem.panel;
         let (rule, half) = (panel.rule, panel.half());
         let known = self.forces.fill_slopes(panel, &mut self.slopes);
         known.ok_or(Unsolved::TooLong)?;
@@ -199,7 +195,7 @@ impl PanelSolution {
         if self.slope.tail() > wanted.max(noise) {
             return Err(Unsolved::TooLong);
         }
-        if self.forces_are_left_out(panel, start, tail, 0.0) {
+        if self.forces_are_left_out(problem, tail, 0.0) {
             return Err(Unsolved::TooLong);
         }
         self.end = self.kinetic[rule.degree()];
@@ -208,21 +204,27 @@ impl PanelSolution {
     }
 
     /// True if the last terms of the forces, with relative error `uncertain`, are too large for their series to end.
-    fn forces_are_left_out<P: Copy>(
-        &self,
-        panel: &PanelTable<P>,
-        start: PanelStart,
+    fn forces_are_left_out(
+        &mut self,
+        problem: &Problem<'_, impl Dynamics>,
         tail: f64,
         uncertain: f64,
     ) -> bool {
+        let panel = problem.panel;
         let (rule, half) = (panel.rule, panel.half());
         let last = (1.0 - uncertain) * rule.last_terms(&self.forces.total);
         let largest = largest(&self.forces.total[..=rule.degree()]);
-        let energy = half.abs() / start.kinetic;
+        let energy = half.abs() / problem.start.kinetic;
         // Large forces in equilibrium leave their rounding.
         let allowed = tail + SUM_ROUNDING * panel.largest_force * energy;
         let of_angle = tail.max(noise_of_angle(panel));
-        last * energy > allowed && last > of_angle * largest && last / largest > allowed
+        let is_large =
+            last * energy > allowed && last > of_angle * largest && last / largest > allowed;
+        if !is_large || !problem.dynamics.reads_time() {
+            return is_large;
+        }
+        let (forces, evaluations) = (&self.forces, &mut self.evaluations);
+        !forces.may_be_rounded_times(problem, last, evaluations)
     }
 }
 
