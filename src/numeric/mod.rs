@@ -3,6 +3,7 @@
 pub mod angle;
 pub mod chebyshev;
 pub mod cholesky;
+pub mod covariance_factor;
 pub mod difference;
 pub mod dip;
 pub mod double_double;

@@ -1,18 +1,19 @@
 //! Roundoff propagation: standard deviations of angle and speed, carried along a motion in time by state transitions.
 
 use super::saltation::saltation;
-use super::state_transition::{AccelerationSlopes, StateTransition};
+use super::state_transition::AccelerationSlopes;
 use super::stick_slip::{CurveMotion, StickSlipPhase};
 use crate::engine::step::Step;
 use crate::engine::time::Method;
 use crate::engine::{Counted, Motion, NODES};
 use crate::mechanism::Equation;
 use crate::numeric::ROUNDING_DEVIATION;
+use crate::numeric::covariance_factor::{CovarianceFactor, Transition};
 
 /// Roundoff of a run in time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RoundoffPropagation {
-    /// Standard deviations at the last step, in units of the last place.
+    /// Standard deviations of angle (rad) and speed (rad/s) at the last step, in units of the last place.
     pub covariance: CovarianceFactor,
     /// Whether the states at the ends of steps are rounded: collocation carries the digits below the last place.
     rounds_states: bool,
@@ -75,7 +76,8 @@ impl RoundoffPropagation {
             size = size.max(correlation * terms / inertia);
         }
         let carried = self.covariance.propagated(&transition);
-        self.covariance = carried.plus_acceleration_error(
+        self.covariance = plus_acceleration_error(
+            carried,
             place.hypot(size).hypot(clock),
             &transition,
             step.length(),
@@ -92,7 +94,7 @@ impl RoundoffPropagation {
         let motion = Counted::new(&motion);
         if phase == StickSlipPhase::Sticking {
             // At rest an error of the speed is lost.
-            self.covariance = self.covariance.with_speed_times(0.0);
+            self.covariance = self.covariance.scaled([1.0, 0.0]);
             return;
         }
         let (start, end) = (&step.start, &step.end);
@@ -100,7 +102,7 @@ impl RoundoffPropagation {
         match before {
             // An early or late turning point: the acceleration before and after it differs by the friction.
             Some(StepEnd { alpha, .. }) if turned && alpha != 0.0 => {
-                self.covariance = self.covariance.with_speed_times(start.alpha / alpha);
+                self.covariance = self.covariance.scaled([1.0, start.alpha / alpha]);
             }
             Some(before) if before.phase == phase => self.pass_jump(&motion, step, before.alpha),
             _ => {}
@@ -108,8 +110,8 @@ impl RoundoffPropagation {
         if turned || before.is_none_or(|before| before.phase != phase) {
             // A piece begins at a rounded time.
             let late = ROUNDING_DEVIATION * start.t.abs();
-            let [angle, speed] = [start.omega, start.alpha].map(|rate| late * rate);
-            self.covariance = self.covariance.plus_error(angle, speed);
+            let error = [start.omega, start.alpha].map(|rate| late * rate);
+            self.covariance = self.covariance.plus_error(error);
         }
         self.before = Some(StepEnd {
             alpha: end.alpha,
@@ -127,7 +129,7 @@ impl RoundoffPropagation {
         // States at the ends of the steps are rounded.
         let [angle, speed] = [1.0 + end.theta.abs(), end.omega.abs()].map(|size| 0.5 * size);
         let carried = self.covariance.propagated(&transition);
-        let pushed = carried.plus_acceleration_error(within, &transition, step.length());
+        let pushed = plus_acceleration_error(carried, within, &transition, step.length());
         self.covariance = pushed.plus_independent(angle, speed);
     }
 
@@ -146,103 +148,13 @@ fn by_rounded_times(t: f64, slopes: &AccelerationSlopes) -> f64 {
     ROUNDING_DEVIATION * t.abs() * slopes.by_time() * (2.0 / NODES as f64).sqrt()
 }
 
-/// Standard deviations of angle (rad) and speed (rad/s) in units of the last place, as two independent perturbations
-/// (angle, speed). Near a limit both point along the motion for a while: a covariance matrix would lose the part across
-/// it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct CovarianceFactor([[f64; 2]; 2]);
-
-impl CovarianceFactor {
-    /// Returns this covariance, or the one before if a number overflowed.
-    fn or(self, before: &CovarianceFactor) -> CovarianceFactor {
-        let finite = self.0.iter().flatten().all(|size| size.is_finite());
-        if finite { self } else { *before }
-    }
-
-    /// Returns the standard deviations of angle (rad) and speed (rad/s).
-    pub fn deviations(&self) -> [f64; 2] {
-        [0, 1].map(|i| self.0[0][i].hypot(self.0[1][i]))
-    }
-
-    /// Adds independent errors of angle (rad) and speed (rad/s).
-    pub fn plus_independent(self, angle: f64, speed: f64) -> CovarianceFactor {
-        self.plus_error(angle, 0.0).plus_error(0.0, speed)
-    }
-
-    /// Adds an error of the acceleration (rad/s²) that lasts over a step of length h (s), seen at the end of the step.
-    pub fn plus_acceleration_error(
-        self,
-        acceleration: f64,
-        transition: &StateTransition,
-        h: f64,
-    ) -> CovarianceFactor {
-        let speed = transition[0][1] * acceleration;
-        self.plus_error(0.5 * h * speed, speed)
-    }
-
-    /// Adds one error with components in angle (rad) and speed (rad/s).
-    pub fn plus_error(self, angle: f64, speed: f64) -> CovarianceFactor {
-        // Rotated until only the first has an angle, three perturbations become two.
-        let [first, second] = self.0;
-        let [first, second] = rotated(first, second);
-        let [first, third] = rotated(first, [angle, speed]);
-        CovarianceFactor([first, [0.0, second[1].hypot(third[1])]]).or(&self)
-    }
-
-    /// Multiplies the speed of both perturbations by a factor.
-    pub fn with_speed_times(self, factor: f64) -> CovarianceFactor {
-        CovarianceFactor(self.0.map(|[angle, speed]| [angle, factor * speed])).or(&self)
-    }
-
-    /// Applies a transition matrix.
-    pub fn propagated(self, [[c11, c12], [c21, c22]]: &StateTransition) -> CovarianceFactor {
-        let carried =
-            |[angle, speed]: [f64; 2]| [c11 * angle + c12 * speed, c21 * angle + c22 * speed];
-        CovarianceFactor(self.0.map(carried)).or(&self)
-    }
-}
-
-/// Rotates two perturbations until the second has no angle.
-fn rotated(a: [f64; 2], b: [f64; 2]) -> [[f64; 2]; 2] {
-    let angle = a[0].hypot(b[0]);
-    if angle == 0.0 {
-        return [a, b];
-    }
-    let (cos, sin) = (a[0] / angle, b[0] / angle);
-    [
-        [angle, cos * a[1] + sin * b[1]],
-        [0.0, cos * b[1] - sin * a[1]],
-    ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::CovarianceFactor;
-
-    fn assert_close(value: f64, exact: f64) {
-        assert!((value - exact).abs() < 1e-9 * exact, "{value}, not {exact}");
-    }
-
-    #[test]
-    fn independent_errors_add_up_by_their_squares() {
-        let covariance = CovarianceFactor::default()
-            .plus_independent(3.0, 5.0)
-            .plus_error(4.0, 12.0);
-        assert_close(covariance.deviations()[0], 5.0);
-        assert_close(covariance.deviations()[1], 13.0);
-        let faster = covariance.with_speed_times(2.0);
-        assert_close(faster.deviations()[1], 26.0);
-    }
-
-    /// A limit that is passed fast changes the speed much with the angle, and back again.
-    #[test]
-    fn what_is_small_beside_a_large_spread_is_kept() {
-        let steep = |slope: f64| [[1.0, 0.0], [slope, 1.0]];
-        let covariance = CovarianceFactor::default()
-            .plus_independent(1.0, 3.0)
-            .propagated(&steep(1e12));
-        let back = covariance.plus_error(1e-3, 1e9).propagated(&steep(-1e12));
-        assert!((back.deviations()[1] - 3.0).abs() < 1e-3, "{back:?}");
-        assert_close(back.deviations()[0], 1f64.hypot(1e-3));
-    }
+/// Adds an error of the acceleration (rad/s²) that lasts over a step of length h (s), seen at the end of the step.
+fn plus_acceleration_error(
+    covariance: CovarianceFactor,
+    acceleration: f64,
+    transition: &Transition,
+    h: f64,
+) -> CovarianceFactor {
+    let speed = transition[(0, 1)] * acceleration;
+    covariance.plus_error([0.5 * h * speed, speed])
 }

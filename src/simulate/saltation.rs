@@ -4,14 +4,14 @@
 //! A load that jumps where the crank passes an angle jumps earlier on a motion that is ahead, by δθ/θ̇; one that jumps
 //! with the speed, by δθ̇/θ̈. One that jumps in time jumps on all motions at once.
 
-use super::state_transition::StateTransition;
 use crate::engine::Motion;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
+use crate::numeric::covariance_factor::Transition;
 
 /// Returns the saltation matrix at the start of a step, from the acceleration `before`, rad/s²; none for a jump in
 /// time.
-pub(super) fn saltation(motion: &dyn Motion, step: &Step, before: f64) -> Option<StateTransition> {
+pub(super) fn saltation(motion: &dyn Motion, step: &Step, before: f64) -> Option<Transition> {
     let start = &step.start;
     let jump = start.alpha - before;
     // A jump in the last half of the digits changes no more of a perturbation.
@@ -28,8 +28,8 @@ pub(super) fn saltation(motion: &dyn Motion, step: &Step, before: f64) -> Option
     let speed = speed.copysign(before);
     let is_jump = |change: f64| (change - jump).abs() < 0.5 * jump.abs();
     if start.omega != 0.0 && is_jump(at(angle, 0.0) - at(-angle, 0.0)) {
-        return Some([[1.0, 0.0], [jump / start.omega, 1.0]]);
+        return Some(Transition::new(1.0, 0.0, jump / start.omega, 1.0));
     }
     let over_speed = before != 0.0 && is_jump(at(0.0, speed) - at(0.0, -speed));
-    over_speed.then_some([[1.0, 0.0], [0.0, start.alpha / before]])
+    over_speed.then(|| Transition::new(1.0, 0.0, 0.0, start.alpha / before))
 }

@@ -9,10 +9,11 @@
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector2};
 
 use crate::engine::step::Step;
 use crate::engine::{Batch, Motion};
+use crate::numeric::covariance_factor::Transition;
 
 /// Values at the nodes of the rule.
 type AtNodes<T> = [T; 3];
@@ -23,9 +24,6 @@ const GAUSS_RULE: AtNodes<(f64, f64)> = [
     (0.5, 8.0 / 18.0),
     (0.887_298_334_620_741_7, 5.0 / 18.0),
 ];
-
-/// Transition matrix of angle and speed, 2 by 2, row by row.
-pub(super) type StateTransition = [[f64; 2]; 2];
 
 /// Partial derivatives of the acceleration at the nodes of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +89,7 @@ impl AccelerationSlopes {
     }
 
     /// Computes the transition over the step, from the slopes and, where exact enough, the motion a little later.
-    pub fn transition(&self, step: &Step) -> StateTransition {
+    pub fn transition(&self, step: &Step) -> Transition {
         let h = step.length();
         let (magnus_transition, pushed) = self.magnus_transition(h);
         let travel = (step.end.theta - step.start.theta).abs();
@@ -108,12 +106,12 @@ impl AccelerationSlopes {
             return magnus_transition;
         }
         let found = self.with_exact_motion(&magnus_transition, along, then, [h, unit]);
-        let finite = found.iter().flatten().all(|entry| entry.is_finite());
+        let finite = found.iter().all(|entry| entry.is_finite());
         if finite { found } else { magnus_transition }
     }
 
     /// Computes the transition over a step of length h (s) and the push of the time; exact for constant slopes.
-    fn magnus_transition(&self, h: f64) -> (StateTransition, [f64; 2]) {
+    fn magnus_transition(&self, h: f64) -> (Transition, [f64; 2]) {
         let largest = self.by_time.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let unit = if largest > 0.0 { h * h * largest } else { 1.0 };
         // State of the linear system: angle, speed times h, and one.
@@ -123,10 +121,8 @@ impl AccelerationSlopes {
             Matrix3::new(0.0, 1.0, 0.0, by_angle, by_speed, push, 0.0, 0.0, 0.0)
         });
         let end = exponential([first, middle, last]);
-        let transition = [
-            [end[(0, 0)], h * end[(0, 1)]],
-            [end[(1, 0)] / h, end[(1, 1)]],
-        ];
+        let transition =
+            Transition::new(end[(0, 0)], h * end[(0, 1)], end[(1, 0)] / h, end[(1, 1)]);
         let pushed = [unit * end[(0, 2)], unit * end[(1, 2)] / h];
         (transition, pushed)
     }
@@ -135,11 +131,11 @@ impl AccelerationSlopes {
     /// the rest comes from `other`. The metric multiplies speeds by a unit of time, s.
     fn with_exact_motion(
         &self,
-        other: &StateTransition,
+        other: &Transition,
         along: [f64; 2],
         then: [f64; 2],
         [h, unit]: [f64; 2],
-    ) -> StateTransition {
+    ) -> Transition {
         let product = |x: [f64; 2], y: [f64; 2]| x[0] * y[0] + unit * unit * x[1] * y[1];
         // Vector across the motion, with along ∧ across = 1.
         let across = |[speed, acceleration]: [f64; 2]| {
@@ -147,17 +143,18 @@ impl AccelerationSlopes {
             [-unit * unit * acceleration / squared, speed / squared]
         };
         let [before, after] = [along, then].map(across);
-        let image = other.map(|row| row[0] * before[0] + row[1] * before[1]);
+        let [image] = (other * Vector2::from(before)).data.0;
         let gained = product(image, then) / product(then, then);
         let left = (mean(&self.by_speed) * h).exp();
         let square = product(along, along);
-        from_fn(|i| {
+        let rows = [0, 1].map(|i| {
             let of_across = gained * then[i] + left * after[i];
             [
                 then[i] * along[0] / square - of_across * along[1],
                 then[i] * unit * unit * along[1] / square + of_across * along[0],
             ]
-        })
+        });
+        Transition::from(rows).transpose()
     }
 }
 
@@ -265,7 +262,7 @@ mod tests {
                     let (more, less) = (end(part), end(part.map(|part| -part)));
                     for row in 0..2 {
                         let exact = (more[row] - less[row]) / (2.0 * aside);
-                        let off = (found[row][column] - exact).abs();
+                        let off = (found[(row, column)] - exact).abs();
                         assert!(off < 1e-4, "{step:?}: {found:?}, not {exact}");
                     }
                 }

@@ -340,3 +340,44 @@ tolerance = 1e-9
         assert!(part <= 3.0, "{part}");
     }
 }
+
+/// A slow crank that turns now and then, over the angle, under a force in time that shakes it. Errors of such a motion stay
+/// as they are: an error of the time changes the force. Reference: extrapolation (Gragg, Bulirsch and Stoer) in 34 digits; a
+/// transition without the force in time stated 1e-3 rad for 7e-11.
+#[test]
+fn over_the_angle_a_force_in_time_acts_on_errors_of_the_time() {
+    let text = r#"
+[geometry]
+crank = "51.8795 mm"
+rod = "172.748 mm"
+[crank]
+inertia = "0.016659 kg m^2"
+[rod]
+mass = "1.02824 kg"
+inertia = "0.00470595 kg m^2"
+cg = "54.4559 mm"
+[slider]
+mass = "1.09925 kg"
+[[force]]
+kind = "expression"
+value = "34.2359 * sin(124.185*t)"
+[motion]
+angle = "4.23896 rad"
+speed = "1.56262 rad/s"
+[run]
+duration = "109.375 s"
+tolerance = 1e-12
+"#;
+    let scene = Scene::parse(std::path::Path::new("scene.toml"), text).expect("a scene");
+    let run = simulate(&scene, &Options::default())
+        .expect("a run")
+        .summary;
+    let stated = run.error_estimate.expect("an estimate");
+    assert!((run.last.theta_rad - 235.063_562_994_475_98).abs() <= 2.0 * stated.theta_rad);
+    assert!(
+        (run.last.omega_rad_per_s - 2.215_035_080_807_773).abs() <= 2.0 * stated.omega_rad_per_s
+    );
+    assert!(stated.theta_rad < 1e-8, "{stated:?}");
+    let over_angle = run.pieces.iter().filter(|piece| piece.engine == "angle");
+    assert!(over_angle.count() > 0, "{:?}", run.pieces);
+}

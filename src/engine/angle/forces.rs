@@ -111,11 +111,14 @@ impl Forces {
     }
 
     /// Returns the error of the work on a panel due to times rounded at the points, independently, over machine epsilon,
-    /// J: a late load acts at another angle. A load that does not change in time is not late.
-    pub fn uncertain_by_time(&self, problem: &Problem<'_, impl Dynamics>) -> f64 {
+    /// J, from the slopes of the forces by the time at the points, N m/s: a late load acts at another angle.
+    pub fn uncertain_by_time(&self, problem: &Problem<'_, impl Dynamics>, by_time: &Values) -> f64 {
         let count = problem.panel.rule.degree() + 1;
-        let changes = self.changes_in_time(problem).map(|change| change.powi(2));
-        let change = changes.sum::<f64>().sqrt();
+        let lasts = self.times[..count].windows(2);
+        let changes = lasts
+            .zip(by_time)
+            .map(|(pair, slope)| slope * (pair[1] - pair[0]));
+        let change = changes.map(|change| change.powi(2)).sum::<f64>().sqrt();
         // Two deviations of two roundings: of the time, and of what a load makes of it.
         let roundings = 2.0 * ROUNDING_DEVIATION * std::f64::consts::SQRT_2;
         roundings * (problem.start.t * largest(&self.speeds[..count])).abs() * change
@@ -130,34 +133,66 @@ impl Forces {
         evaluations: &mut u64,
     ) -> bool {
         let count = problem.panel.rule.degree() + 1;
-        let of_all = self.non_conservative[..count].windows(2);
+        let pairs = self.non_conservative[..count]
+            .windows(2)
+            .zip(self.times.windows(2));
+        let slopes = pairs.map(|(force, time)| (force[1] - force[0]) / (time[1] - time[0]));
+        // Each error at a point leaves at most twice itself in the last two terms.
+        let left_by = |slope: f64| 4.0 * f64::EPSILON * problem.start.t.abs() * slope;
         // Needs no evaluation, and tells most terms that do not decay apart.
-        if terms > self.last_terms_by_time(problem.start.t, of_all.map(|pair| pair[1] - pair[0])) {
+        let steepest = slopes.fold(0.0, |most: f64, slope| most.max(slope.abs()));
+        if terms > left_by(steepest) {
             return false;
         }
         *evaluations += count as u64;
-        terms <= self.last_terms_by_time(problem.start.t, self.changes_in_time(problem))
+        terms <= left_by(largest(&self.slopes_by_time(problem)[..count]))
     }
 
-    /// Bounds the last two terms that times rounded near t leave of forces with these changes from point to point, N m:
-    /// each is at most twice the largest error at a point.
-    fn last_terms_by_time(&self, t: f64, changes: impl Iterator<Item = f64>) -> f64 {
-        let lasts = self.times.windows(2).map(|pair| pair[1] - pair[0]);
-        let slopes = changes.zip(lasts).filter(|(_, last)| *last > 0.0);
-        let steepest = slopes.fold(0.0, |most: f64, (change, last)| {
-            most.max((change / last).abs())
-        });
-        4.0 * f64::EPSILON * t.abs() * steepest
+    /// Returns the derivatives of the forces with respect to the time at the points, N m/s; one evaluation.
+    pub fn slopes_by_time(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
+        let later = self.towards_middle(problem, &self.times);
+        let at = [&self.speeds, &from_fn(|j| self.times[j] + later[j])];
+        self.state_load_slopes(problem, at, &later)
     }
 
-    /// Returns the changes of the forces from point to point by the time alone, N m.
-    fn changes_in_time(&self, problem: &Problem<'_, impl Dynamics>) -> impl Iterator<Item = f64> {
+    /// Returns the derivatives of the forces with respect to the kinetic energy at the points, 1/rad; one evaluation, if
+    /// there are state loads of the speed.
+    pub fn slopes_by_energy(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
         let panel = problem.panel;
-        let [mut frozen, zero] = [[0.0; MAX_DEGREE + 1]; 2];
-        tabulated(panel, &self.speeds, &mut frozen);
-        add_state_loads(problem, [&self.speeds, &zero], &mut frozen);
-        let due_to_time = move |j: usize| self.non_conservative[j] - frozen[j];
-        (1..=panel.rule.degree()).map(move |j| due_to_time(j) - due_to_time(j - 1))
+        let mut slopes = self.rates_of_table(panel);
+        if depend_on_energy(problem.dynamics) {
+            let faster = self.towards_middle(problem, &self.speeds);
+            let at = [&from_fn(|j| self.speeds[j] + faster[j]), &self.times];
+            let by_speed = self.state_load_slopes(problem, at, &faster);
+            for j in 0..=panel.rule.degree() {
+                slopes[j] += by_speed[j] / (panel.table.inertia[j] * self.speeds[j]);
+            }
+        }
+        slopes
+    }
+
+    /// Returns small differences towards the value in the middle of the panel: loads may jump at its ends.
+    fn towards_middle(&self, problem: &Problem<'_, impl Dynamics>, values: &Values) -> Values {
+        let degree = problem.panel.rule.degree();
+        // Larger than the square root of a rounding, as times are rounded more the later they are.
+        let size = 1e-5 * largest(&values[..=degree]);
+        let middle = values[degree / 2];
+        values.map(|value| size.copysign(middle - value))
+    }
+
+    /// Returns the changes of the state loads to these speeds, rad/s, and times, s, divided by differences.
+    fn state_load_slopes(
+        &self,
+        problem: &Problem<'_, impl Dynamics>,
+        at: [&Values; 2],
+        differences: &Values,
+    ) -> Values {
+        let mut slopes = [0.0; MAX_DEGREE + 1];
+        add_state_loads(problem, at, &mut slopes);
+        for j in 0..=problem.panel.rule.degree() {
+            slopes[j] = (slopes[j] - self.of_state[j]) / differences[j];
+        }
+        slopes
     }
 
     /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.
@@ -181,7 +216,7 @@ impl Forces {
     pub fn rates(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
         let (dynamics, panel) = (problem.dynamics, problem.panel);
         let mut rates = self.rates_of_table(panel);
-        if !dynamics.has_state_loads() || dynamics.state_variable() == Some(StateVariable::Time) {
+        if !depend_on_energy(dynamics) {
             return rates;
         }
         // Relative step of least error for a central difference.
@@ -197,6 +232,11 @@ impl Forces {
         }
         rates
     }
+}
+
+/// True if there are state loads that depend on the speed.
+pub(super) fn depend_on_energy(dynamics: &impl Dynamics) -> bool {
+    dynamics.has_state_loads() && dynamics.state_variable() != Some(StateVariable::Time)
 }
 
 /// Computes the tabulated forces without potential at the points, at these speeds, rad/s.

@@ -3,10 +3,10 @@
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::Errors;
+use super::errors::PanelErrors;
 use super::panel::PanelTable;
 use super::solution::PanelSolution;
 use crate::numeric::exact::two_sum;
-use crate::numeric::median::range;
 
 /// Sums over the panels since the start of a run or of a turn.
 pub(super) struct Progress {
@@ -16,7 +16,7 @@ pub(super) struct Progress {
     pub kinetic: f64,
     /// Rounding remainder of the kinetic energy, J.
     pub kinetic_low: f64,
-    /// Propagated rounding errors.
+    /// Propagated rounding errors, of a second run.
     pub errors: Errors,
     /// Whole turns, with sign.
     pub turns: f64,
@@ -49,14 +49,13 @@ impl Progress {
         }
     }
 
-    /// Moves on over a piece of a panel and returns the motion on it; `mistimed`: work of rounded times over epsilon,
-    /// J.
+    /// Moves on over a piece of a panel, with its errors, if they are known, and returns the motion on it.
     pub fn pass<P: Copy>(
         &mut self,
         table: &PanelTable<P>,
         piece: Piece,
         solution: &PanelSolution,
-        mistimed: f64,
+        errors: Option<&PanelErrors>,
     ) -> Panel {
         let rule = table.rule;
         let work = solution.work(rule, piece.span(), 1.0);
@@ -70,22 +69,12 @@ impl Progress {
         self.gain += solution.gain;
         self.fastest = self.fastest.max(self.kinetic);
         self.work += work;
-        let retained = (0.5 * work.min(0.0) / self.kinetic).exp();
-        let count = rule.degree() + 1;
-        // Error of the work due to rounded angles, over machine epsilon, J.
-        let misplaced = [&table.table.force, &table.table.push].map(|forces| {
-            let (low, high) = range(&forces[..count]);
-            0.5 * piece.from.abs().max(piece.to.abs()) * (high - low)
-        });
-        let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1] + mistimed);
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;
-        // The noise arises mainly where the energy is large.
-        let largest = solution.kinetic[0].max(solution.kinetic[rule.degree()]);
-        let advance_of_noise = 0.5 * panel.duration.0 / largest;
-        let advance = solution.advance(rule);
-        self.errors.pass(retained, noise, advance, advance_of_noise);
+        if let Some(errors) = errors {
+            self.errors.pass(errors);
+        }
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
         panel

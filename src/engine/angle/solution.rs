@@ -73,10 +73,4 @@ impl PanelSolution {
             .into_iter()
             .find(|degree| *degree >= next && *degree as f64 >= needed)
     }
-
-    /// Returns the advance of the end time per error of the kinetic energy at the start, ∫ dt/2K, s/J.
-    pub fn advance(&self, rule: &Rule) -> f64 {
-        let advance: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
-        rule.rounded_integral(&advance)
-    }
 }

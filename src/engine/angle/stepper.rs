@@ -4,6 +4,7 @@ use super::super::energy::NotApplicable;
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::cycle_panels::{self, CyclePanels};
+use super::errors::PanelErrors;
 use super::load_resolution::unresolved_at;
 use super::panel::{Fineness, PanelStart, PanelTable, Problem};
 use super::progress::Progress;
@@ -202,15 +203,11 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
         piece: Piece,
         rest: Option<PanelTable<D::Place>>,
     ) -> Panel {
-        let (panel, solution) = (self.panels.next(), &self.solution);
-        let mistimed = if self.resolution.is_second && self.dynamics.reads_time() {
-            self.evaluations += panel.rule.degree() as u64 + 1;
-            let problem = Problem::new(self.dynamics, panel, start);
-            solution.forces.uncertain_by_time(&problem)
-        } else {
-            0.0
-        };
-        let solved = self.progress.pass(panel, piece, solution, mistimed);
+        let (panel, solution) = (self.panels.next(), &mut self.solution);
+        let problem = Problem::new(self.dynamics, panel, start);
+        let is_second = self.resolution.is_second;
+        let errors = is_second.then(|| PanelErrors::of(&problem, piece, solution));
+        let solved = self.progress.pass(panel, piece, solution, errors.as_ref());
         self.evaluations += self.solution.evaluations;
         if self.panels.advance(rest) {
             self.progress.turns += self.start.speed.signum();

@@ -1,7 +1,7 @@
 //! Axis of a figure: label, range, mapping of values to positions, and ticks.
 
 use super::clip::{POSITION_ROUNDING, inside};
-use super::layout;
+use super::layout::LAYOUT;
 use super::words::{fitted, width};
 
 /// Tick distances of angles: parts and multiples of a turn, degrees.
@@ -91,7 +91,7 @@ impl Axis {
 
     /// Returns the label that fits into a length, pixels.
     pub(super) fn label_within(&self, length: f64) -> String {
-        match width(&self.label, layout::TEXT) <= length || self.short.is_empty() {
+        match width(&self.label, LAYOUT.text) <= length || self.short.is_empty() {
             true => fitted(&self.label, length),
             false => fitted(&self.short, length),
         }

@@ -2,7 +2,7 @@
 
 use super::axis::{Scale, Tick};
 use super::clip::{Place, inside, pieces};
-use super::layout;
+use super::layout::LAYOUT;
 use super::svg::Svg;
 use super::words::{fitted, line_height, width, wrapped};
 use super::{Figure, Series, SeriesStyle};
@@ -11,17 +11,17 @@ use super::{Figure, Series, SeriesStyle};
 type Entry<'f> = (String, Vec<&'f Series>);
 
 fn entry_width(label: &str) -> f64 {
-    layout::SAMPLE + width(label, layout::TEXT) + layout::ENTRY_GAP
+    LAYOUT.sample + width(label, LAYOUT.text) + LAYOUT.entry_gap
 }
 
 /// Returns the height of a legend of this many rows, pixels.
 fn legend_height(rows: usize) -> f64 {
-    rows as f64 * (line_height(layout::TEXT) + 4.0)
+    rows as f64 * (line_height(LAYOUT.text) + 4.0)
 }
 
 /// Returns the width of a panel of width `room` between its edges, pixels.
 fn inner_width(room: f64) -> f64 {
-    room - 2.0 * layout::EDGE_SPACE
+    room - 2.0 * LAYOUT.edge_space
 }
 
 /// Returns the entries of the legend, in rows that fit into the width `room`, pixels.
@@ -33,7 +33,7 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
         match entries.iter_mut().find(known) {
             Some((_, of)) => of.push(series),
             None => {
-                let room = inner_width(room) - layout::SAMPLE - layout::ENTRY_GAP;
+                let room = inner_width(room) - LAYOUT.sample - LAYOUT.entry_gap;
                 let label = fitted(&series.label, room);
                 entries.push((label, vec![series]));
             }
@@ -56,28 +56,28 @@ fn legend(figure: &Figure, room: f64) -> Vec<Vec<Entry<'_>>> {
 }
 
 fn title(figure: &Figure, room: f64) -> Vec<String> {
-    wrapped(&figure.title, layout::TITLE, inner_width(room))
+    wrapped(&figure.title, LAYOUT.title, inner_width(room))
 }
 
 /// Returns the height that title and legend add to a panel of width `room`, pixels.
 pub(super) fn height_of_texts(figure: &Figure, room: f64) -> f64 {
     let lines = title(figure, room).len() as f64;
-    lines * line_height(layout::TITLE) + legend_height(legend(figure, room).len())
+    lines * line_height(LAYOUT.title) + legend_height(legend(figure, room).len())
 }
 
 /// Returns the height of label and ticks of the x axis, pixels.
 fn x_area(figure: &Figure) -> f64 {
     let lines = if figure.x.label.is_empty() { 1.0 } else { 2.0 };
-    lines * line_height(layout::TEXT) + 20.0
+    lines * line_height(LAYOUT.text) + 20.0
 }
 
 fn widest(ticks: &[Tick]) -> f64 {
-    let widths = ticks.iter().map(|tick| width(&tick.label, layout::TEXT));
+    let widths = ticks.iter().map(|tick| width(&tick.label, LAYOUT.text));
     widths.fold(0.0, f64::max)
 }
 
 fn y_ticks(scale: &Scale, figure: &Figure, height: f64) -> Vec<Tick> {
-    scale.ticks(((height - x_area(figure)) / layout::TICK_DISTANCE).max(2.0) as usize)
+    scale.ticks(((height - x_area(figure)) / LAYOUT.tick_distance).max(2.0) as usize)
 }
 
 fn y_scale(figure: &Figure) -> Scale {
@@ -86,7 +86,7 @@ fn y_scale(figure: &Figure) -> Scale {
 
 /// Returns the width of label and ticks of the y axis, in a panel of `height`, pixels.
 pub(super) fn y_area(figure: &Figure, height: f64) -> f64 {
-    widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(layout::TEXT) + 22.0
+    widest(&y_ticks(&y_scale(figure), figure, height)) + line_height(LAYOUT.text) + 22.0
 }
 
 /// Draws a panel: upper left corner, width and height with texts, and width `y_area` of the y axis, pixels.
@@ -98,14 +98,14 @@ pub(super) fn panel(
     y_area: f64,
 ) {
     let titles = title(figure, room);
-    let edge = layout::EDGE_SPACE;
-    svg.lines((left + 0.5 * room, top + edge), layout::TITLE, &titles);
+    let edge = LAYOUT.edge_space;
+    svg.lines((left + 0.5 * room, top + edge), LAYOUT.title, &titles);
     let legend = legend(figure, room);
     let mut y = top + height - 0.5 * edge - legend_height(legend.len());
-    let high = top + edge + titles.len() as f64 * line_height(layout::TITLE) + 6.0;
+    let high = top + edge + titles.len() as f64 * line_height(LAYOUT.title) + 6.0;
     let corner = (left + edge + y_area, high);
     let size = (
-        room - y_area - edge - layout::RIGHT_SPACE,
+        room - y_area - edge - LAYOUT.right_space,
         y - high - x_area(figure),
     );
     axes(svg, figure, corner, size, y_area);
@@ -115,8 +115,8 @@ pub(super) fn panel(
         y += 0.5 * legend_height(1);
         for (label, of) in row {
             of.iter().for_each(|series| svg.sample((x, y), series));
-            let begin = (x + layout::SAMPLE + layout::SAMPLE_GAP, y);
-            svg.text(begin, "start", layout::TEXT, 0.0, &label);
+            let begin = (x + LAYOUT.sample + LAYOUT.sample_gap, y);
+            svg.text(begin, "start", LAYOUT.text, 0.0, &label);
             x += entry_width(&label);
         }
         y += 0.5 * legend_height(1);
@@ -136,34 +136,34 @@ fn axes(svg: &mut Svg, figure: &Figure, (left, high): Place, (long, tall): Place
     let place = |(u, v): Place| (left + u * long, low - v * tall);
     // The largest number of ticks whose labels fit.
     let fits =
-        |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + layout::TICK_LABEL_GAP) <= long;
+        |ticks: &Vec<Tick>| ticks.len() as f64 * (widest(ticks) + LAYOUT.tick_label_gap) <= long;
     let mut fewer = (2..=10).rev().map(|most| x.ticks(most));
     for tick in fewer.find(fits).unwrap_or_default() {
         let (x, _) = place((tick.at, 0.0));
         svg.segment((x, low), (x, high), "#DEDEDE");
-        svg.segment((x, low), (x, low + layout::TICK), "black");
-        svg.text((x, low + 14.0), "middle", layout::TEXT, 0.0, &tick.label);
+        svg.segment((x, low), (x, low + LAYOUT.tick), "black");
+        svg.text((x, low + 14.0), "middle", LAYOUT.text, 0.0, &tick.label);
     }
     for tick in y_ticks(&y, figure, tall + x_area(figure)) {
         let (_, y) = place((0.0, tick.at));
         svg.segment((left, y), (right, y), "#DEDEDE");
-        svg.segment((left - layout::TICK, y), (left, y), "black");
-        svg.text((left - 9.0, y), "end", layout::TEXT, 0.0, &tick.label);
+        svg.segment((left - LAYOUT.tick, y), (left, y), "black");
+        svg.text((left - 9.0, y), "end", LAYOUT.text, 0.0, &tick.label);
     }
     svg.segment((left, low), (right, low), "black");
     svg.segment((left, low), (left, high), "black");
     let middle = place((0.5, 0.5));
     if !figure.x.label.is_empty() {
-        let label = figure.x.label_within(long + layout::RIGHT_SPACE);
-        svg.text((middle.0, low + 34.0), "middle", layout::TEXT, 0.0, &label);
+        let label = figure.x.label_within(long + LAYOUT.right_space);
+        svg.text((middle.0, low + 34.0), "middle", LAYOUT.text, 0.0, &label);
     }
     if !figure.y.label.is_empty() {
         let label = figure.y.label_within(tall);
-        let x = left - y_area + 0.5 * line_height(layout::TEXT);
-        svg.text((x, middle.1), "middle", layout::TEXT, -90.0, &label);
+        let x = left - y_area + 0.5 * line_height(LAYOUT.text);
+        svg.text((x, middle.1), "middle", LAYOUT.text, -90.0, &label);
     }
     if figure.values(|(_, low, high)| [low, high]).all(f64::is_nan) {
-        svg.text(middle, "middle", layout::TEXT, 0.0, "nothing to show");
+        svg.text(middle, "middle", LAYOUT.text, 0.0, "nothing to show");
     }
     // Bands lie under lines, lines under points.
     for layer in 0..3 {

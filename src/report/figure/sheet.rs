@@ -1,6 +1,6 @@
 //! Layout of a sheet: aligned panels under a common title, as SVG.
 
-use super::layout;
+use super::layout::LAYOUT;
 use super::panel;
 use super::svg::Svg;
 use super::words::{escaped, line_height, wrapped};
@@ -22,12 +22,12 @@ pub fn sheet(
         let pixels = |mm: f64| (pixels_per_mm * mm).round();
         (pixels(size.width), pixels(size.height))
     });
-    let (panel, least) = (layout::PANEL, layout::LEAST_PANEL);
+    let (panel, least) = (LAYOUT.panel, LAYOUT.least_panel);
     let width = asked.map_or(panel.0, |(width, _)| (width / across).floor());
-    let head = wrapped(title, layout::TITLE, width * across - 40.0);
+    let head = wrapped(title, LAYOUT.title, width * across - 40.0);
     let above = match head.len() {
         0 => 0.0,
-        lines => line_height(layout::TITLE) * lines as f64 + 14.0,
+        lines => line_height(LAYOUT.title) * lines as f64 + 14.0,
     };
     let texts = figures.chunks(columns).map(|row| {
         let heights = row.iter().map(|one| panel::height_of_texts(one, width));
@@ -49,7 +49,7 @@ pub fn sheet(
     let y_areas = figures.iter().map(|one| panel::y_area(one, inner));
     let y_area = y_areas.fold(0.0, f64::max);
     let mut svg = Svg::default();
-    svg.lines((0.5 * width * across, 8.0), layout::TITLE, &head);
+    svg.lines((0.5 * width * across, 8.0), LAYOUT.title, &head);
     let mut top = above;
     for (row, texts) in figures.chunks(columns).zip(&texts) {
         let size = (width, inner + texts);

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::clip::Place;
-use super::layout;
+use super::layout::LAYOUT;
 use super::words::{escaped, line_height};
 use super::{Series, SeriesStyle};
 
@@ -97,7 +97,7 @@ impl Svg {
     }
 
     pub fn marker(&mut self, (x, y): Place, series: &Series) {
-        let radius = layout::MARKER_RADIUS;
+        let radius = LAYOUT.marker_radius;
         let fill = format!("fill=\"{}\"", series.colour());
         match SHAPES[series.colour % SHAPES.len()] {
             [] => {
@@ -116,7 +116,7 @@ impl Svg {
 
     /// Draws the sample of a series in the legend.
     pub fn sample(&mut self, (x, y): Place, series: &Series) {
-        let (middle, end) = ((x + 0.5 * layout::SAMPLE, y), x + layout::SAMPLE);
+        let (middle, end) = ((x + 0.5 * LAYOUT.sample, y), x + LAYOUT.sample);
         match series.style {
             SeriesStyle::Band => {
                 let (low, high) = (y + 5.0, y - 5.0);

@@ -1,6 +1,6 @@
 //! Texts in figures: estimated widths, wrapping and cutting.
 
-use super::layout;
+use super::layout::LAYOUT;
 
 /// Returns the height of a line of text of a font size, pixels.
 pub(super) fn line_height(size: f64) -> f64 {
@@ -46,6 +46,6 @@ pub(super) fn wrapped(text: &str, size: f64, room: f64) -> Vec<String> {
 
 /// Returns the part of a label that fits into one line of width `room`, pixels.
 pub(super) fn fitted(label: &str, room: f64) -> String {
-    let mut lines = wrapped(label, layout::TEXT, room).into_iter();
+    let mut lines = wrapped(label, LAYOUT.text, room).into_iter();
     lines.next().unwrap_or_default()
 }

@@ -7,7 +7,7 @@ use toml::de::DeTable;
 use toml_edit::{DocumentMut, Item, TomlError, Value};
 
 use super::key_path::KeyPath;
-use super::keys::SECTIONS;
+use super::keys::{SECTIONS, Tables};
 use super::read::Contents;
 use super::{NumberKey, Varied, VariedValue, assemble};
 use crate::error::Error;
@@ -117,9 +117,9 @@ impl Draft {
             self.takes(varied)?;
             let (path, key) = (varied.path, varied.path.key.name);
             let table = &mut document[path.section.name];
-            let table = match path.section.repeated {
-                true => &mut table[path.index],
-                false => table,
+            let table = match path.section.tables {
+                Tables::Many => &mut table[path.index],
+                Tables::One => table,
             };
             let mut value = Value::from(text);
             if let Some(old) = table.get(key).and_then(Item::as_value) {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::keys::{self, Key, Section};
+use super::keys::{self, Key, Section, Tables};
 use crate::scene::unit::Quantity;
 
 /// Path of a value in a scene, as `geometry.offset` or `torque[2].value`.
@@ -49,7 +49,7 @@ impl FromStr for KeyPath {
             let help = did_you_mean(name, table, known);
             format!("`{name}` is not a key of {table}; {help}")
         })?;
-        let is_known = index == 0 || section.repeated;
+        let is_known = index == 0 || section.tables == Tables::Many;
         let path = is_known.then_some(KeyPath {
             section,
             index,
@@ -62,9 +62,9 @@ impl FromStr for KeyPath {
 impl fmt::Display for KeyPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (section, key) = (self.section.name, self.key.name);
-        match self.section.repeated {
-            true => write!(f, "{section}[{}].{key}", self.index + 1),
-            false => write!(f, "{section}.{key}"),
+        match self.section.tables {
+            Tables::Many => write!(f, "{section}[{}].{key}", self.index + 1),
+            Tables::One => write!(f, "{section}.{key}"),
         }
     }
 }

@@ -60,11 +60,18 @@ impl Key {
     }
 }
 
+/// Number of tables that a section may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tables {
+    One,
+    /// Any number, written `[[name]]`.
+    Many,
+}
+
 #[derive(Clone, Copy, Debug)]
 pub struct Section {
     pub name: &'static str,
-    /// Whether the file may have any number of these tables, as `[[name]]`.
-    pub repeated: bool,
+    pub tables: Tables,
     pub keys: &'static [Key],
     /// Names of the keys that must be present.
     pub required: &'static [&'static str],
@@ -141,25 +148,21 @@ const MOTIONS: &[KindKeys] = &[
 
 const VARIABLES: &[&str] = &["theta", "t", "omega", "x", "v"];
 
-/// Number of tables of a section, as [`Section::repeated`].
-const ONE: bool = false;
-const EACH: bool = true;
-
 macro_rules! keys {
     ($($name:ident: $kind:expr, $meaning:literal;)*) => {
         [$(Key { name: stringify!($name), kind: $kind, meaning: $meaning }),*]
     };
 }
 
-/// Sections as `ONE` or `EACH` (written `[[name]]`), the name, the required keys, the meaning, the keys, and `+ BOX`
+/// Sections as the number of tables, the name, the required keys, the meaning, the keys, and `+ BOX`
 /// for a body that may be a box.
 macro_rules! sections {
-    ($($repeated:ident $section:ident($($required:literal),*) $meaning:literal {
+    ($($tables:ident $section:ident($($required:literal),*) $meaning:literal {
         $($name:ident: $kind:expr, $what:literal;)*
     } $(+ $box:ident)?)*) => {
         &[$(Section {
             name: stringify!($section),
-            repeated: $repeated,
+            tables: Tables::$tables,
             required: &[$($required),*],
             meaning: $meaning,
             keys: &[
@@ -179,19 +182,19 @@ const BOX: [Key; 4] = keys! {
 
 /// Sections of a scene file.
 pub const SECTIONS: &[Section] = sections! {
-    ONE geometry("crank", "rod") "lengths of the mechanism" {
+    One geometry("crank", "rod") "lengths of the mechanism" {
         crank: Of(Length), "crank length r";
         rod: Of(Length), "connecting rod length l";
         offset: Of(Length), "offset e: the slider moves along y = -e; default 0";
         branch: Choice(Branch::NAMES), "side of the crank pin on which the slider is assembled; default right";
     }
-    ONE crank() "mass properties of the crank; absent: massless" {
+    One crank() "mass properties of the crank; absent: massless" {
         mass: Of(Mass), "mass";
         cg: Of(Length), "centre of gravity from O along the crank; default 0";
         cg_lateral: Of(Length), "centre of gravity to the left of O->A; default 0";
         inertia: Of(Inertia), "moment of inertia about O";
     } + BOX
-    ONE rod() "mass properties of the connecting rod; absent: massless" {
+    One rod() "mass properties of the connecting rod; absent: massless" {
         model: Choice(RodModel::NAMES), "how its mass is modelled; default rigid";
         mass: Of(Mass), "mass";
         cg: Of(Length), "centre of gravity from the crank pin along the rod; default the middle of a box";
@@ -199,14 +202,14 @@ pub const SECTIONS: &[Section] = sections! {
         inertia: Of(Inertia), "moment of inertia about the point named by inertia_about";
         inertia_about: Choice(InertiaAbout::NAMES), "reference point of the inertia; default cg";
     } + BOX
-    ONE slider() "mass of the slider; absent: massless" {
+    One slider() "mass of the slider; absent: massless" {
         mass: Of(Mass), "mass";
     } + BOX
-    ONE gravity("acceleration") "uniform gravity; absent: none" {
+    One gravity("acceleration") "uniform gravity; absent: none" {
         acceleration: Of(Acceleration), "strength";
         direction: Of(Angle), "angle of the gravity vector from +x; default -90 deg, that is -y";
     }
-    EACH torque("kind") "a torque on the crank, counter-clockwise positive; all add up" {
+    Many torque("kind") "a torque on the crank, counter-clockwise positive; all add up" {
         kind: Kinds(TORQUES), "kind of load";
         value: Formula(Torque),
             "the torque; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
@@ -218,7 +221,7 @@ pub const SECTIONS: &[Section] = sections! {
         period: TimeOrAngle, "table over theta or t: the angle or time after which it repeats";
         interpolation: Choice(Interpolation::NAMES), "table: default pchip";
     }
-    EACH force("kind") "a force on the slider, along +x; all add up" {
+    Many force("kind") "a force on the slider, along +x; all add up" {
         kind: Kinds(FORCES), "kind of load";
         value: Formula(Force),
             "the force; for kind dry its magnitude against motion, for kind expression a formula in SI of t, theta, omega, x, v";
@@ -232,11 +235,11 @@ pub const SECTIONS: &[Section] = sections! {
         bore: Of(Length), "gas: cylinder bore";
         ambient: Of(Pressure), "gas: pressure on the other side; default 1 atm";
     }
-    ONE friction("coefficient") "Coulomb friction at the slider guide; absent: none" {
+    One friction("coefficient") "Coulomb friction at the slider guide; absent: none" {
         coefficient: Of(Number), "kinetic coefficient";
         static_coefficient: Of(Number), "static coefficient; default the kinetic one";
     }
-    ONE clearance("joint", "radial") "clearance at one revolute joint; absent: ideal joints" {
+    One clearance("joint", "radial") "clearance at one revolute joint; absent: ideal joints" {
         joint: Choice(Joint::NAMES), "the joint";
         radial: Of(Length), "radial clearance";
         bearing_radius: Of(Length), "radius of the bearing";
@@ -252,12 +255,12 @@ pub const SECTIONS: &[Section] = sections! {
         eccentricity_angle: Of(Angle),
             "direction from the bearing's centre to the journal's at the start, from +x; default: as the ideal joint is loaded";
     }
-    ONE motion() "initial or prescribed motion of the crank; absent: free, at rest at 0" {
+    One motion() "initial or prescribed motion of the crank; absent: free, at rest at 0" {
         kind: Kinds(MOTIONS), "default free";
         angle: Of(Angle), "initial crank angle; default 0";
         speed: Of(AngularSpeed), "initial crank speed, default 0, or the constant one";
     }
-    ONE run() "extent, output and accuracy of a run" {
+    One run() "extent, output and accuracy of a run" {
         duration: Of(Time), "the run ends after this time";
         revolutions: Of(Number), "or after this many turns of the crank";
         output_every: TimeOrAngle, "distance of the output rows; default 500 rows over the run";

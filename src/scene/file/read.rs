@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::VariedValue;
 use super::key_path::{KeyPath, did_you_mean};
-use super::keys::{self, Key, Kind, Section};
+use super::keys::{self, Key, Kind, Section, Tables};
 use super::value::{self, Value};
 use crate::scene::check::Check;
 use crate::scene::problem::Spans;
@@ -139,9 +139,11 @@ impl Contents {
     /// Reads the tables of one section: one, or each `[[name]]`.
     fn section(&mut self, section: &'static Section, value: &DeValue<'_>) {
         let name = section.name;
-        match (value, section.repeated) {
-            (DeValue::Table(table), false) => self.read(section, name.to_owned(), table),
-            (DeValue::Array(array), true) if array.iter().all(|item| item.get_ref().is_table()) => {
+        match (value, section.tables) {
+            (DeValue::Table(table), Tables::One) => self.read(section, name.to_owned(), table),
+            (DeValue::Array(array), Tables::Many)
+                if array.iter().all(|item| item.get_ref().is_table()) =>
+            {
                 for (i, item) in array.iter().enumerate() {
                     let path = format!("{name}[{}]", i + 1);
                     self.spans.insert(path.clone(), item.span());
@@ -150,11 +152,11 @@ impl Contents {
                     }
                 }
             }
-            (_, true) => {
+            (_, Tables::Many) => {
                 let what = format!("`{name}` must be a list of tables");
                 self.problem(name, what, format!("begin each {name} with [[{name}]]"));
             }
-            (_, false) => {
+            (_, Tables::One) => {
                 let what = format!("`{name}` must be a table");
                 self.problem(name, what, format!("begin it with [{name}], once"));
             }
@@ -193,7 +195,7 @@ impl Contents {
     pub fn table(&mut self, path: &KeyPath) -> Result<&mut Values, Problem> {
         let (section, name) = (path.section, path.section.name);
         let count = self.of_section(section).count();
-        if count == 0 && !section.repeated {
+        if count == 0 && section.tables == Tables::One {
             let values = Values::new(section, name.to_owned());
             self.tables.push(Arc::new(values));
         }

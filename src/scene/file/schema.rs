@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::keys::{Key, Kind, SECTIONS, Section};
+use super::keys::{Key, Kind, SECTIONS, Section, Tables};
 use crate::scene::unit::{self, Quantity};
 
 /// Returns the schema, draft 2020-12.
@@ -46,7 +46,7 @@ fn table(section: &Section) -> Value {
     if !section.kinds().is_empty() {
         one["allOf"] = kinds(section);
     }
-    if section.repeated {
+    if section.tables == Tables::Many {
         json!({"type": "array", "items": one})
     } else {
         one

@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::super::configuration_curve::EndReason;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
-use super::super::roundoff_propagation::{CovarianceFactor, RoundoffPropagation};
+use super::super::roundoff_propagation::RoundoffPropagation;
 use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
@@ -25,6 +25,7 @@ use super::stop_reason;
 use crate::engine::step::Step;
 use crate::engine::time::{Method, MotionState, Settings};
 use crate::engine::{Counted, Motion, WorkLimit};
+use crate::numeric::covariance_factor::CovarianceFactor;
 use crate::plan::Engine;
 use crate::scene::Extent;
 

@@ -4,15 +4,14 @@ use super::super::configuration_curve::{CurveProblem, StepObserver};
 use super::super::coordinate::Coordinate;
 use super::super::roundoff_propagation::RoundoffPropagation;
 use super::super::second_run::Comparison;
-use super::super::state_transition::StateTransition;
 use super::engine_loop::{AnglePiece, PassObserver, Reason};
 use super::estimate::STATED_DEVIATIONS;
 use crate::engine::Counted;
-use crate::engine::angle::Errors;
 use crate::engine::step::Step;
 use crate::engine::time::MotionState;
 use crate::error::Error;
 use crate::mechanism::Equation;
+use crate::numeric::covariance_factor::Transition;
 
 /// Observer of the second run: propagates roundoff and compares with the states of the first.
 pub(super) struct SecondRunObserver<'m, 'a> {
@@ -25,27 +24,19 @@ pub(super) struct SecondRunObserver<'m, 'a> {
 }
 
 impl SecondRunObserver<'_, '_> {
-    /// Computes the transition over a piece over the angle: a lead in time stays, and an energy error adds to it.
-    fn transition(&self, [from, to]: [&MotionState; 2], errors: &Errors) -> StateTransition {
-        let [inertia, then] = [from, to].map(|at| self.inertia(at));
-        let [alpha, after] = [from, to].map(|at| self.acceleration(at));
-        let energy = [-inertia * alpha, inertia * from.speed];
-        // A piece that loses nearly all of its energy forgets an energy error. Half or twice this fraction changes none
-        // of 200 random runs.
-        let forgotten = 0.1;
-        let by_energy = if errors.retained < forgotten {
-            0.0
-        } else {
-            errors.advance
-        };
-        let early = [
-            1.0 / from.speed + by_energy * energy[0],
-            by_energy * energy[1],
-        ];
-        let angle = early.map(|early| to.speed * early);
-        let speed =
-            [0, 1].map(|k| (errors.retained * energy[k] / then + after * angle[k]) / to.speed);
-        [angle, speed]
+    /// Returns the map from errors of angle (rad) and speed (rad/s) at a time to those of time (s) and kinetic energy
+    /// (J) at the angle.
+    fn departure(&self, at: &MotionState) -> Transition {
+        let inertia = self.inertia(at);
+        let by_angle = -inertia * self.acceleration(at);
+        Transition::new(-1.0 / at.speed, 0.0, by_angle, inertia * at.speed)
+    }
+
+    /// Returns the map from errors of time (s) and kinetic energy (J) at an angle to those of angle (rad) and speed
+    /// (rad/s) at the time.
+    fn arrival(&self, at: &MotionState) -> Transition {
+        let of_energy = 1.0 / (self.inertia(at) * at.speed);
+        Transition::new(-at.speed, 0.0, -self.acceleration(at), of_energy)
     }
 
     fn inertia(&self, at: &MotionState) -> f64 {
@@ -63,15 +54,13 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         let (angle, speed) = run.orbit.state(run.end);
         let t = to.t;
         let to = MotionState { t, angle, speed };
-        let errors = &run.errors;
-        let transition = self.transition([from, &to], errors);
         // The roundoff of the piece is a stated error, no standard deviation.
-        let unit = STATED_DEVIATIONS * f64::EPSILON;
-        let [late, off] = [errors.time, errors.energy].map(|error| error / unit);
-        let carried = self.rounding.covariance.propagated(&transition);
-        self.rounding.covariance = carried
-            .plus_error(speed * late, self.acceleration(&to) * late)
-            .plus_independent(0.0, off / (self.inertia(&to) * speed));
+        let unit = 1.0 / (STATED_DEVIATIONS * f64::EPSILON);
+        let errors = &run.errors;
+        let over_angle = self.rounding.covariance.propagated(&self.departure(from));
+        let carried = over_angle.propagated(&errors.transition);
+        let whole = carried.plus(errors.rounding.scaled([unit, unit]));
+        self.rounding.covariance = whole.propagated(&self.arrival(&to));
         Ok(())
     }
 

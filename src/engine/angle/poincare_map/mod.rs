@@ -9,7 +9,7 @@ use super::super::energy::interpolated_turns::{Cycle, Interpolated, TurnStart};
 use super::super::energy::segment::Segment;
 use super::super::energy::turns::{Map, RecentTurn, Turns};
 use super::stepper::PanelStepper;
-use super::{AngleRun, Dynamics, Errors, Goal};
+use super::{AngleRun, Dynamics, Goal};
 use crate::engine::WorkLimit;
 
 /// Degree of the interpolation over the energy: a cell costs one turn more than this.
@@ -56,11 +56,7 @@ pub(super) fn run<D: Dynamics>(
     Ok(AngleRun {
         shapes: Vec::new(),
         // Errors grow as in the first turns.
-        errors: Errors {
-            time: errors.time * run.end / first,
-            advance: errors.advance * run.end / first,
-            ..errors
-        },
+        errors: errors.over(run.end / first),
         ..run
     })
 }
