@@ -5,12 +5,10 @@
 
 use super::super::energy::piece::Piece;
 use super::Dynamics;
-use super::forces::depend_on_energy;
 use super::panel::Problem;
 use super::solution::PanelSolution;
 use crate::numeric::chebyshev::{MAX_DEGREE, Rule, Values};
 use crate::numeric::covariance_factor::{CovarianceFactor, Transition};
-use crate::numeric::exponential;
 use crate::numeric::median::range;
 
 /// Errors of the time (s) and of the kinetic energy (J) at an angle.
@@ -97,27 +95,26 @@ impl PanelSolution {
         by_time: Option<&Values>,
     ) -> Transition {
         let (panel, rule) = (problem.panel, problem.panel.rule);
-        let (half, end) = (self.share * panel.half(), rule.degree());
+        let (forces, half) = (&self.forces, self.share * panel.half());
+        // Losses are spread evenly over the panel.
+        let exponent = 2.0 * half * forces.mean_rate(problem, &mut self.evaluations);
+        let retained = exponent.exp();
         let mut lead: Values = std::array::from_fn(|j| 0.5 * self.slopes[j] / self.kinetic[j]);
-        // Part of an energy error that remains: with the energy error over it the trace of the equations is zero.
-        let mut remains = [1.0; MAX_DEGREE + 1];
-        if panel.varies_with_speed() || depend_on_energy(problem.dynamics) {
-            if depend_on_energy(problem.dynamics) {
-                self.evaluations += end as u64 + 1;
-            }
-            let slopes = self.forces.slopes_by_energy(problem);
-            let exponents = rule.integrals(&slopes).map(|integral| half * integral);
-            remains = exponential::of(&exponents);
-        }
-        for (lead, remains) in lead.iter_mut().zip(&remains) {
-            *lead *= remains;
-        }
-        let retained = remains[end];
-        let apart = Transition::new(1.0, -rule.rounded_integral(&lead), 0.0, retained);
         let Some(by_time) = by_time else {
-            return apart;
+            let mean = if exponent == 0.0 {
+                1.0
+            } else {
+                exponent.exp_m1() / exponent
+            };
+            return Transition::new(1.0, -rule.rounded_integral(&lead) * mean, 0.0, retained);
         };
-        let push: Values = std::array::from_fn(|j| half * by_time[j] / remains[j]);
+        // Of an energy error over the part of it that remains, the equations have no trace.
+        let mut push = [0.0; MAX_DEGREE + 1];
+        for (j, x) in rule.points().iter().enumerate() {
+            let remains = (0.5 * (1.0 + x) * exponent).exp();
+            lead[j] *= remains;
+            push[j] = half * by_time[j] / remains;
+        }
         let late = coupled(rule, [&lead.map(|lead| -lead), &push]);
         let fast = coupled(rule, [&push, &lead.map(|lead| -lead)]);
         let coupled = Transition::new(late[0], fast[1], late[1], fast[0]);
@@ -125,7 +122,8 @@ impl PanelSolution {
         let exact = coupled / coupled.determinant().sqrt();
         let transition = Transition::new(1.0, 0.0, 0.0, retained) * exact;
         let finite = transition.iter().all(|entry| entry.is_finite());
-        if finite { transition } else { apart }
+        let uncoupled = Transition::new(1.0, -rule.rounded_integral(&lead), 0.0, retained);
+        if finite { transition } else { uncoupled }
     }
 }
 

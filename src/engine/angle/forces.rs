@@ -150,49 +150,40 @@ impl Forces {
 
     /// Returns the derivatives of the forces with respect to the time at the points, N m/s; one evaluation.
     pub fn slopes_by_time(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
-        let later = self.towards_middle(problem, &self.times);
+        let later = towards_middle(problem, &self.times);
         let at = [&self.speeds, &from_fn(|j| self.times[j] + later[j])];
-        self.state_load_slopes(problem, at, &later)
-    }
-
-    /// Returns the derivatives of the forces with respect to the kinetic energy at the points, 1/rad; one evaluation, if
-    /// there are state loads of the speed.
-    pub fn slopes_by_energy(&self, problem: &Problem<'_, impl Dynamics>) -> Values {
-        let panel = problem.panel;
-        let mut slopes = self.rates_of_table(panel);
-        if depend_on_energy(problem.dynamics) {
-            let faster = self.towards_middle(problem, &self.speeds);
-            let at = [&from_fn(|j| self.speeds[j] + faster[j]), &self.times];
-            let by_speed = self.state_load_slopes(problem, at, &faster);
-            for j in 0..=panel.rule.degree() {
-                slopes[j] += by_speed[j] / (panel.table.inertia[j] * self.speeds[j]);
-            }
-        }
-        slopes
-    }
-
-    /// Returns small differences towards the value in the middle of the panel: loads may jump at its ends.
-    fn towards_middle(&self, problem: &Problem<'_, impl Dynamics>, values: &Values) -> Values {
-        let degree = problem.panel.rule.degree();
-        // Larger than the square root of a rounding, as times are rounded more the later they are.
-        let size = 1e-5 * largest(&values[..=degree]);
-        let middle = values[degree / 2];
-        values.map(|value| size.copysign(middle - value))
-    }
-
-    /// Returns the changes of the state loads to these speeds, rad/s, and times, s, divided by differences.
-    fn state_load_slopes(
-        &self,
-        problem: &Problem<'_, impl Dynamics>,
-        at: [&Values; 2],
-        differences: &Values,
-    ) -> Values {
         let mut slopes = [0.0; MAX_DEGREE + 1];
         add_state_loads(problem, at, &mut slopes);
         for j in 0..=problem.panel.rule.degree() {
-            slopes[j] = (slopes[j] - self.of_state[j]) / differences[j];
+            slopes[j] = (slopes[j] - self.of_state[j]) / later[j];
         }
         slopes
+    }
+
+    /// Returns the mean derivative of the forces with respect to the kinetic energy over a panel, 1/rad, by Clenshaw and
+    /// Curtis's rule with five of its points; counts the evaluations for it.
+    pub fn mean_rate(&self, problem: &Problem<'_, impl Dynamics>, evaluations: &mut u64) -> f64 {
+        let (dynamics, panel) = (problem.dynamics, problem.panel);
+        let weights = [1.0, 8.0, 12.0, 8.0, 1.0].map(|weight| weight / 30.0);
+        let points: [usize; 5] = from_fn(|k| k * panel.rule.degree() / 4);
+        let of_table = self.rates_of_table(panel);
+        let mut rates = points.map(|j| of_table[j]);
+        if depend_on_energy(dynamics) {
+            *evaluations += points.len() as u64;
+            let faster = towards_middle(problem, &self.speeds);
+            let time = |j: usize| problem.start.t + self.times[j];
+            let states = points.map(|j| problem.state(j, time(j), self.speeds[j] + faster[j]));
+            let changed = dynamics.state_loads(&states);
+            for (k, j) in points.into_iter().enumerate() {
+                let by_speed = (changed[k] - self.of_state[j]) / faster[j];
+                rates[k] += by_speed / (panel.table.inertia[j] * self.speeds[j]);
+            }
+        }
+        rates
+            .iter()
+            .zip(weights)
+            .map(|(rate, weight)| rate * weight)
+            .sum()
     }
 
     /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.
@@ -234,8 +225,17 @@ impl Forces {
     }
 }
 
+/// Returns small differences towards the value in the middle of the panel: loads may jump at its ends.
+fn towards_middle(problem: &Problem<'_, impl Dynamics>, values: &Values) -> Values {
+    let degree = problem.panel.rule.degree();
+    // Larger than the square root of a rounding, as times are rounded more the later they are.
+    let size = 1e-5 * largest(&values[..=degree]);
+    let middle = values[degree / 2];
+    values.map(|value| size.copysign(middle - value))
+}
+
 /// True if there are state loads that depend on the speed.
-pub(super) fn depend_on_energy(dynamics: &impl Dynamics) -> bool {
+fn depend_on_energy(dynamics: &impl Dynamics) -> bool {
     dynamics.has_state_loads() && dynamics.state_variable() != Some(StateVariable::Time)
 }
 
