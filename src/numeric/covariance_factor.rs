@@ -33,7 +33,7 @@ impl CovarianceFactor {
         let [first, second] = self.perturbations();
         let [first, second] = rotated(first, second);
         let [first, third] = rotated(first, error);
-        let rest = second[1].hypot(third[1]);
+        let rest = length([second[1], third[1]]);
         CovarianceFactor(Matrix2::new(first[0], 0.0, first[1], rest)).or(&self)
     }
 
@@ -58,9 +58,14 @@ impl CovarianceFactor {
     }
 }
 
+/// Returns the length of a vector of moderate size; faster than a hypotenuse without overflow.
+fn length([a, b]: [f64; 2]) -> f64 {
+    (a * a + b * b).sqrt()
+}
+
 /// Rotates two perturbations until the second has no first component.
 fn rotated(a: [f64; 2], b: [f64; 2]) -> [[f64; 2]; 2] {
-    let length = a[0].hypot(b[0]);
+    let length = length([a[0], b[0]]);
     if length == 0.0 {
         return [a, b];
     }

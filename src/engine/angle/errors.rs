@@ -3,7 +3,7 @@
 //! At an angle, δt' = −δK/(2K|ω|) and δK' = ∂F/∂K δK + ∂F/∂t δt: an error of the energy shifts the time, the more the
 //! slower the motion, and under loads in time a shifted time changes the energy.
 
-use super::super::energy::piece::Piece;
+use super::super::energy::panel::Panel;
 use super::Dynamics;
 use super::panel::Problem;
 use super::solution::PanelSolution;
@@ -14,7 +14,7 @@ use crate::numeric::median::range;
 /// Errors of the time (s) and of the kinetic energy (J) at an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Rounding errors.
+    /// Rounding errors, over machine epsilon.
     pub rounding: CovarianceFactor,
     /// Transition of errors at the start of the run to those at its end.
     pub transition: Transition,
@@ -23,7 +23,7 @@ pub struct Errors {
 impl Errors {
     /// Returns the errors at the start for a kinetic energy, J, with an error `off` beyond its rounding, J.
     pub(super) fn at(kinetic: f64, off: f64) -> Errors {
-        let energy = off.hypot(0.5 * f64::EPSILON * kinetic);
+        let energy = (off / f64::EPSILON).hypot(0.5 * kinetic);
         Errors {
             rounding: CovarianceFactor::default().plus_error([0.0, energy]),
             transition: Transition::identity(),
@@ -51,15 +51,15 @@ impl Errors {
 /// Errors of the time (s) and of the kinetic energy (J) over a panel.
 pub(super) struct PanelErrors {
     transition: Transition,
-    /// Rounding error on the panel.
+    /// Rounding error on the panel, over machine epsilon.
     rounding: [f64; 2],
 }
 
 impl PanelErrors {
-    /// Computes the errors over a piece of a solved panel; counts the evaluations for them.
+    /// Computes the errors over a panel and the motion on it; counts the evaluations for them.
     pub fn of(
         problem: &Problem<'_, impl Dynamics>,
-        piece: Piece,
+        solved: &Panel,
         solution: &mut PanelSolution,
     ) -> PanelErrors {
         let (dynamics, panel) = (problem.dynamics, problem.panel);
@@ -70,15 +70,15 @@ impl PanelErrors {
         });
         let late = |by_time| solution.forces.uncertain_by_time(problem, by_time);
         let mistimed = by_time.as_ref().map_or(0.0, late);
-        // Error of the work due to rounded angles, over machine epsilon, J.
+        // Error of the work due to rounded angles, J.
         let misplaced = [&panel.table.force, &panel.table.push].map(|forces| {
             let (low, high) = range(&forces[..count]);
-            0.5 * piece.from.abs().max(piece.to.abs()) * (high - low)
+            0.5 * solved.piece.from.abs().max(solved.piece.to.abs()) * (high - low)
         });
-        let noise = f64::EPSILON * (solution.gain.abs() + misplaced[0] + misplaced[1] + mistimed);
+        let noise = solution.gain.abs() + misplaced[0] + misplaced[1] + mistimed;
         // The noise arises mainly where the energy is large.
         let largest = solution.kinetic[0].max(solution.kinetic[count - 1]);
-        let lead_of_noise = 0.5 * panel.rule.rounded_integral(&solution.slopes) / largest;
+        let lead_of_noise = 0.5 * solved.duration.0 / largest;
         PanelErrors {
             transition: solution.transition(problem, by_time.as_ref()),
             rounding: [-lead_of_noise * noise, noise],

@@ -2,6 +2,7 @@
 
 use std::array::from_fn;
 
+use super::Switch;
 use super::dynamics::{Dynamics, StateVariable};
 use super::panel::{PanelStart, PanelTable, Problem};
 use crate::numeric::chebyshev::{MAX_DEGREE, Values, largest};
@@ -160,14 +161,13 @@ impl Forces {
         slopes
     }
 
-    /// Returns the mean derivative of the forces with respect to the kinetic energy over a panel, 1/rad, by Clenshaw and
-    /// Curtis's rule with five of its points; counts the evaluations for it.
+    /// Returns the mean derivative of the forces with respect to the kinetic energy over a panel, 1/rad, by Simpson's rule;
+    /// counts the evaluations for it.
     pub fn mean_rate(&self, problem: &Problem<'_, impl Dynamics>, evaluations: &mut u64) -> f64 {
         let (dynamics, panel) = (problem.dynamics, problem.panel);
-        let weights = [1.0, 8.0, 12.0, 8.0, 1.0].map(|weight| weight / 30.0);
-        let points: [usize; 5] = from_fn(|k| k * panel.rule.degree() / 4);
-        let of_table = self.rates_of_table(panel);
-        let mut rates = points.map(|j| of_table[j]);
+        let weights = [1.0, 4.0, 1.0].map(|weight| weight / 6.0);
+        let points: [usize; 3] = from_fn(|k| k * panel.rule.degree() / 2);
+        let mut rates = points.map(|j| self.rate_of_table(panel, j));
         if depend_on_energy(dynamics) {
             *evaluations += points.len() as u64;
             let faster = towards_middle(problem, &self.speeds);
@@ -186,19 +186,20 @@ impl Forces {
             .sum()
     }
 
+    /// Returns the derivative of the tabulated forces with respect to the kinetic energy at point j, 1/rad.
+    #[inline(always)]
+    fn rate_of_table<P: Copy>(&self, panel: &PanelTable<P>, j: usize) -> f64 {
+        let table = &panel.table;
+        let by_damping = -table.damping[j] / (table.inertia[j] * self.speeds[j]);
+        let by_switch = |switch: &Switch| switch.force[j] * panel.mobility[j];
+        by_damping + table.switch.as_deref().map_or(0.0, by_switch)
+    }
+
     /// Returns the derivatives of the tabulated forces with respect to the kinetic energy at the points, 1/rad.
     pub fn rates_of_table<P: Copy>(&self, panel: &PanelTable<P>) -> Values {
-        let count = panel.rule.degree() + 1;
-        let (table, speeds) = (&panel.table, &self.speeds[..count]);
         let mut rates = [0.0; MAX_DEGREE + 1];
-        for j in 0..count {
-            rates[j] = -table.damping[j] / (table.inertia[j] * speeds[j]);
-        }
-        if let Some(switch) = &table.switch {
-            let forces = switch.force.iter().zip(&panel.mobility);
-            for (rate, (force, mobility)) in rates.iter_mut().zip(forces).take(count) {
-                *rate += force * mobility;
-            }
+        for (j, rate) in rates.iter_mut().enumerate().take(panel.rule.degree() + 1) {
+            *rate = self.rate_of_table(panel, j);
         }
         rates
     }

@@ -3,7 +3,6 @@
 use super::super::energy::panel::Panel;
 use super::super::energy::piece::Piece;
 use super::Errors;
-use super::errors::PanelErrors;
 use super::panel::PanelTable;
 use super::solution::PanelSolution;
 use crate::numeric::exact::two_sum;
@@ -49,13 +48,12 @@ impl Progress {
         }
     }
 
-    /// Moves on over a piece of a panel, with its errors, if they are known, and returns the motion on it.
+    /// Moves on over a piece of a panel and returns the motion on it.
     pub fn pass<P: Copy>(
         &mut self,
         table: &PanelTable<P>,
         piece: Piece,
         solution: &PanelSolution,
-        errors: Option<&PanelErrors>,
     ) -> Panel {
         let rule = table.rule;
         let work = solution.work(rule, piece.span(), 1.0);
@@ -72,9 +70,6 @@ impl Progress {
         let (slopes, slope) = (&solution.slopes, solution.slope);
         let mut panel = Panel::from_slopes(piece, rule, slopes, slope, 0.0, self.kinetic);
         panel.turns = self.turns;
-        if let Some(errors) = errors {
-            self.errors.pass(errors);
-        }
         let (sum, lost) = two_sum(self.t.0, panel.duration.0);
         self.t = two_sum(sum, lost + self.t.1 + panel.duration.1);
         panel

@@ -205,9 +205,11 @@ impl<'a, D: Dynamics> PanelStepper<'a, D> {
     ) -> Panel {
         let (panel, solution) = (self.panels.next(), &mut self.solution);
         let problem = Problem::new(self.dynamics, panel, start);
-        let is_second = self.resolution.is_second;
-        let errors = is_second.then(|| PanelErrors::of(&problem, piece, solution));
-        let solved = self.progress.pass(panel, piece, solution, errors.as_ref());
+        let solved = self.progress.pass(panel, piece, solution);
+        if self.resolution.is_second {
+            let errors = PanelErrors::of(&problem, &solved, solution);
+            self.progress.errors.pass(&errors);
+        }
         self.evaluations += self.solution.evaluations;
         if self.panels.advance(rest) {
             self.progress.turns += self.start.speed.signum();

@@ -55,7 +55,7 @@ impl PassObserver for SecondRunObserver<'_, '_> {
         let t = to.t;
         let to = MotionState { t, angle, speed };
         // The roundoff of the piece is a stated error, no standard deviation.
-        let unit = 1.0 / (STATED_DEVIATIONS * f64::EPSILON);
+        let unit = 1.0 / STATED_DEVIATIONS;
         let errors = &run.errors;
         let over_angle = self.rounding.covariance.propagated(&self.departure(from));
         let carried = over_angle.propagated(&errors.transition);
