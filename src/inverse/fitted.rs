@@ -15,7 +15,7 @@ use super::result::summary::FitSummary;
 use super::row::Residual;
 use super::samples;
 use super::smoother::Smoothed;
-use super::tones::beside::{BesideTones, Rival};
+use super::tones::beside::BesideTones;
 use super::tones::choice::Given;
 use super::turns::branch_tracking::CrankAngles;
 use super::{FitKind, FitSize, InverseOptions};
@@ -148,7 +148,7 @@ impl Fitted {
             ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
         };
         Ok(match rival {
-            Some(Rival { motion, log_odds }) => fitted.beside(motion, log_odds),
+            Some((motion, log_odds)) => fitted.beside(motion, log_odds),
             None => fitted,
         })
     }

@@ -23,13 +23,6 @@ pub(in crate::inverse) struct Less<'a> {
     pub log_odds: f64,
 }
 
-/// A motion that is less probable than another one.
-pub(in crate::inverse) struct Rival {
-    pub motion: Vec<MotionEstimate>,
-    /// ln of the odds of the other one to it, at most those of a motion at the end of a 95 % band.
-    pub log_odds: f64,
-}
-
 impl BesideTones<'_> {
     pub fn likelihood(&self) -> f64 {
         self.smoothed.noise.likelihood
@@ -47,16 +40,15 @@ impl BesideTones<'_> {
         f64::NEG_INFINITY.max(self.likelihood() + last.map_or(0.0, prior))
     }
 
-    /// Takes the motion of the rival at times, s, if this one alone has less than 95 % of the probability; a band of both reaches it.
-    pub fn take_rival(&mut self, times: &[f64]) -> Option<Rival> {
+    /// Takes the motion of the rival at times, s, if this one alone has less than 95 % of the probability, with ln of the odds to it,
+    /// at most those of a motion at the end of a 95 % band: a band of both reaches it.
+    pub fn take_rival(&mut self, times: &[f64]) -> Option<(Vec<MotionEstimate>, f64)> {
         let Less { motion, log_odds } = self.rival.take()?;
         selection::counts(log_odds).then(|| {
             let smoothed = motion.problem.averaged(motion.smoothed);
             let reach = student::half_band(f64::INFINITY);
-            Rival {
-                motion: motion.problem.motion_at(&smoothed, times),
-                log_odds: log_odds.min((reach * reach - 1.0).ln()),
-            }
+            let log_odds = log_odds.min((reach * reach - 1.0).ln());
+            (motion.problem.motion_at(&smoothed, times), log_odds)
         })
     }
 }
