@@ -149,15 +149,9 @@ impl Problem<'_> {
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
-                let Smoothed {
-                    prior,
-                    scales,
-                    noise,
-                    ..
-                } = smoothed;
-                smoothed.noise = self
-                    .linear(prior, scales, &path, noise.sigma)
-                    .renewed(noise);
+                let Smoothed { prior, noise, .. } = smoothed;
+                let linear = self.linear(prior, smoothed.scales, &path, noise.sigma);
+                smoothed.noise = linear.renewed(noise);
             }
             smoothed.estimates = self.smoothed(&mut path, &smoothed.candidate());
             smoothed.repeating = path.repeating.clone();

@@ -216,19 +216,12 @@ impl<'a> Problem<'a> {
         std::iter::once(0..self.grid.len()).collect()
     }
 
-    /// Stretches of the linear model for the estimate of hyper-parameters.
-    pub fn stretches(&self, prior: Prior, path: &Path, sigma: f64) -> Vec<Stretch> {
-        if self.is_stopped() {
-            return Vec::new();
-        }
-        let of = |range| self.stretch(prior, path, range, sigma);
-        parallel::map(self.sampled().into_iter(), of)
-    }
-
     /// The linear model of a prior about a path, along the stretches for the estimate of hyper-parameters.
     pub fn linear(&self, prior: Prior, scales: Scales, path: &Path, sigma: f64) -> Linear {
+        let ranges = self.sampled().into_iter().filter(|_| !self.is_stopped());
+        let of = |range| self.stretch(prior, path, range, sigma);
         Linear {
-            stretches: self.stretches(prior, path, sigma).into(),
+            stretches: parallel::map(ranges, of).into(),
             ..Linear::of(prior, scales)
         }
     }

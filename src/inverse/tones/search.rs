@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::super::candidates::Candidate;
 use super::super::grid::LONG;
 use super::super::likelihood::Linear;
 use super::super::model::prior::{TORQUE, Unknown};
@@ -62,18 +61,14 @@ impl Problem<'_> {
     /// them.
     pub fn corrected_tones(&self, smoothed: &Smoothed) -> Option<Corrected> {
         let tones = &self.record.tones;
-        let Candidate {
-            prior,
-            noise,
-            scales,
-        } = smoothed.candidate();
+        let Smoothed { prior, noise, .. } = *smoothed;
         if tones.is_empty() || tones.iter().any(|tone| !tone.is_beside(prior)) {
             return None;
         }
         let nodes = 0..self.grid.len();
         let linear = Linear {
             stretches: [self.stretch(prior, &smoothed.path(), nodes, noise.sigma)].into(),
-            ..Linear::of(prior, scales)
+            ..Linear::of(prior, smoothed.scales)
         };
         let noise = match self.sampled() == self.all() {
             true => noise,
