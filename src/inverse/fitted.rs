@@ -13,13 +13,10 @@ use super::residual_tests::Whiteness;
 use super::result::shared_errors::Source;
 use super::result::summary::FitSummary;
 use super::row::Residual;
-use super::samples;
+use super::samples::Given;
 use super::smoother::Smoothed;
 use super::tones::beside::BesideTones;
-use super::tones::choice::Given;
-use super::turns::branch_tracking::CrankAngles;
 use super::{FitKind, FitSize, InverseOptions};
-use crate::mechanism::Equation;
 use crate::numeric::median::range;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -60,13 +57,16 @@ impl Fitted {
     /// # Errors
     /// The reason, in words: too few samples, or a degree given to a smoother.
     pub fn new(
-        measurement: &Measurement,
-        angles: &CrankAngles<'_>,
-        equation: &Equation,
+        given: Given<'_>,
         options: &InverseOptions,
         sources: &[Source],
     ) -> Result<Fitted, String> {
-        let record = samples::record(measurement, angles, &[]);
+        let Given {
+            measurement,
+            angles,
+            ..
+        } = given;
+        let record = given.record(&[]);
         let degree = match options.size {
             FitSize::Auto => None,
             FitSize::Fixed(degree) => Some(degree),
@@ -114,14 +114,7 @@ impl Fitted {
         if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
         }
-        let given = Given {
-            measurement,
-            angles,
-            equation,
-            stop: options.stop.as_ref(),
-            suspected,
-        };
-        let mut found = given.likeliest();
+        let mut found = given.likeliest(suspected);
         let rival = found.take_rival(measurement.elapsed());
         let BesideTones {
             problem,
@@ -145,7 +138,7 @@ impl Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
-            ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
+            ..Fitted::of_smoother(given, &problem, &smoothed)
         };
         Ok(match rival {
             Some((motion, log_odds)) => fitted.beside(motion, log_odds),
@@ -153,21 +146,16 @@ impl Fitted {
         })
     }
 
-    fn of_smoother(
-        measurement: &Measurement,
-        angles: &CrankAngles<'_>,
-        problem: &Problem<'_>,
-        smoothed: &Smoothed,
-    ) -> Fitted {
+    fn of_smoother(given: Given<'_>, problem: &Problem<'_>, smoothed: &Smoothed) -> Fitted {
         let record = &problem.record;
-        let samples = samples::record(measurement, angles, &record.tones);
-        let motion = problem.motion_at(smoothed, measurement.elapsed());
+        let samples = given.record(&record.tones);
+        let motion = problem.motion_at(smoothed, given.measurement.elapsed());
         let (prior, sigma) = (smoothed.prior, smoothed.noise.sigma);
         let parameters = problem.parameters(smoothed, &motion);
         let innovations = smoothed.estimates.iter().map(|e| e.innovation);
         let beside = (record.beside.iter().map(|other| other.summary(&motion))).collect();
         let whiteness = Some(Whiteness::of(innovations));
-        let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
+        let mut fitted = Fitted::of_motion(given.measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
         let outliers: Vec<usize> = problem.single().outliers().collect();
         fitted.farthest_outlier =

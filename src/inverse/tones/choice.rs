@@ -5,33 +5,18 @@
 use super::super::mean_length::{ByMeans, by_means};
 use super::super::model::prior::Prior;
 use super::super::model::tone::{Carrier, Tone};
-use super::super::samples;
+use super::super::samples::Given;
 use super::super::smoother::Smoothed;
-use super::super::turns::branch_tracking::CrankAngles;
 use super::beside::{BesideTones, Less};
 use super::search::Corrected;
-use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::numeric::stop::Stop;
-use crate::scene::Measurement;
 
-/// What a motion is estimated from.
-#[derive(Clone, Copy)]
-pub(in crate::inverse) struct Given<'a, 'b> {
-    pub measurement: &'a Measurement,
-    pub angles: &'b CrankAngles<'a>,
-    pub equation: &'a Equation,
-    pub stop: Option<&'a Stop>,
-    /// Whether the noise may be correlated.
-    pub suspected: bool,
-}
-
-impl<'a> Given<'a, '_> {
-    /// The likeliest motion, beside the tones that gain what they cost.
-    pub fn likeliest(&self) -> BesideTones<'a> {
+impl<'a> Given<'a> {
+    /// The likeliest motion, beside the tones that gain what they cost; the noise is `suspected` to be correlated or not.
+    pub fn likeliest(&self, suspected: bool) -> BesideTones<'a> {
         let finer =
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
-        let of = |most| self.beside(&[], most, None);
+        let of = |most| self.beside(&[], most, None, suspected);
         let ByMeans {
             found: mut best,
             most,
@@ -45,7 +30,7 @@ impl<'a> Given<'a, '_> {
             let near = &best.smoothed;
             let with = |tone| {
                 let tones = known.iter().copied().chain([tone]).collect();
-                self.refined(tones, most, near)
+                self.refined(tones, most, near, suspected)
             };
             let mut tried = parallel::map(more.into_iter(), with);
             tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
@@ -70,8 +55,14 @@ impl<'a> Given<'a, '_> {
     }
 
     /// The likeliest motion beside tones that are corrected about it until they come to rest.
-    fn refined(&self, tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
-        let mut found = self.beside(&tones, most, Some(near));
+    fn refined(
+        &self,
+        tones: Vec<Tone>,
+        most: usize,
+        near: &Smoothed,
+        suspected: bool,
+    ) -> BesideTones<'a> {
+        let mut found = self.beside(&tones, most, Some(near), suspected);
         let mut before: Vec<(Prior, f64)> = Vec::new();
         while let Some(Corrected { tones, square, .. }) =
             found.problem.corrected_tones(&found.smoothed)
@@ -85,22 +76,20 @@ impl<'a> Given<'a, '_> {
                 break;
             }
             before.push((prior, square));
-            found = self.beside(&tones, most, Some(&found.smoothed));
+            found = self.beside(&tones, most, Some(&found.smoothed), suspected);
         }
         found
     }
 
     /// The likeliest motion beside tones, by means of up to so many samples; it is near one beside others.
-    fn beside(&self, tones: &[Tone], most: usize, near: Option<&Smoothed>) -> BesideTones<'a> {
-        let Given {
-            measurement,
-            angles,
-            equation,
-            stop,
-            suspected,
-        } = *self;
-        let (mut problem, kinematic) =
-            samples::kinematic(measurement, angles, tones, most, equation, stop);
+    fn beside(
+        &self,
+        tones: &[Tone],
+        most: usize,
+        near: Option<&Smoothed>,
+        suspected: bool,
+    ) -> BesideTones<'a> {
+        let (mut problem, kinematic) = self.kinematic(tones, most);
         let near = near.filter(|near| near.estimates.len() == problem.grid.len());
         let near = near.map(|near| kinematic.along(near));
         let first = near.as_ref().unwrap_or(&kinematic);

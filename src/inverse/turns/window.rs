@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::super::measurement_model::Scale;
 use super::super::problem::Problem;
-use super::super::samples::{problem, record};
+use super::super::samples::Given;
 use super::super::smoother::Smoothed;
 use super::branch_tracking::{CrankAngles, EARLY, LARGEST_VALUE_ERROR};
 use super::mirror_image::Imaged;
@@ -131,13 +131,18 @@ impl Windows<'_> {
 
     fn smoothed<'b>(
         &'b self,
-        angles: &CrankAngles<'b>,
+        angles: &'b CrankAngles<'b>,
         window: &Range<usize>,
     ) -> (Problem<'b>, Smoothed) {
-        let mut record = record(self.measurement, angles, &[]);
+        let given = Given {
+            measurement: self.measurement,
+            angles,
+            equation: self.equation,
+            stop: self.stop,
+        };
+        let mut record = given.record(&[]);
         record.keep(window.clone());
-        let theta = &angles.theta[window.clone()];
-        let (problem, first) = problem(record, theta, 1, self.equation, self.stop);
+        let (problem, first) = given.problem(record, &angles.theta[window.clone()], 1);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
         (problem, kinematic)
     }
