@@ -104,7 +104,7 @@ fn identify_among(
     };
     let of = |most| given.kinematic(&[], most);
     let finer = |(problem, smooth): &(Problem<'_>, Smoothed)| problem.finer(smooth, smooth);
-    let (mut problem, mut smooth) = by_means(measurement.len(), of, finer).found;
+    let ((mut problem, mut smooth), _) = by_means(measurement.len(), of, finer);
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }

@@ -2,7 +2,7 @@
 //! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
 //! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
 
-use super::super::mean_length::{ByMeans, by_means};
+use super::super::mean_length::by_means;
 use super::super::model::prior::Prior;
 use super::super::model::tone::{Carrier, Tone};
 use super::super::samples::Given;
@@ -17,10 +17,7 @@ impl<'a> Given<'a> {
         let finer =
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
         let of = |most| self.beside(&[], most, None, suspected);
-        let ByMeans {
-            found: mut best,
-            most,
-        } = by_means(self.measurement.len(), of, finer);
+        let (mut best, most) = by_means(self.measurement.len(), of, finer);
         // A bound of the work, for a record of many lines.
         while best.problem.record.tones.len() < 4 {
             let known = &best.problem.record.tones;
