@@ -1,8 +1,6 @@
 //! Comparison of priors by marginal likelihood. The model is not linear: about a path that misses part of the motion, as one without
 //! mechanics does where samples are few, other priors are likely than about the motion that is found.
 
-use std::borrow::Cow;
-
 use super::candidates::{Candidate, Tried};
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
 use super::problem::Problem;
@@ -11,14 +9,14 @@ use super::rotation::Rotation;
 use super::smoother::Smoothed;
 
 /// Priors that were compared about a motion.
-struct Compared<'a> {
-    about: Cow<'a, Smoothed>,
+struct Compared {
+    about: Smoothed,
     tried: Tried,
     /// The motion with the likeliest of them.
     best: Option<Smoothed>,
 }
 
-impl Compared<'_> {
+impl Compared {
     /// Returns the motion whose likelihood rises as its path moves: priors are compared about that one again.
     fn moved(&self, before: f64) -> Option<&Smoothed> {
         let least = self.tried.likelihood().max(before) + SIGNIFICANT_RISE;
@@ -45,7 +43,7 @@ impl Problem<'_> {
         let Some(found) = best else {
             return Smoothed {
                 compared: tried.candidates,
-                ..about.into_owned()
+                ..about
             };
         };
         let innovations = found.estimates.iter().map(|e| e.innovation);
@@ -65,8 +63,8 @@ impl Problem<'_> {
 
     /// Compares all priors. A part that repeats may stand for what a path misses: it comes after the others, and they are compared
     /// with it about its own path.
-    fn compared<'a>(&self, first: &'a Smoothed, rotation: Rotation) -> Compared<'a> {
-        let mut plain = self.plain(Cow::Borrowed(first), first.noise.corner);
+    fn compared(&self, first: &Smoothed, rotation: Rotation) -> Compared {
+        let mut plain = self.plain(first.clone(), first.noise.corner);
         let mut before = f64::NEG_INFINITY;
         loop {
             let Compared { about, tried, best } = plain;
@@ -79,7 +77,7 @@ impl Problem<'_> {
                 return all;
             };
             before = moved.noise.likelihood;
-            plain = self.plain(Cow::Owned(moved.clone()), corner);
+            plain = self.plain(moved.clone(), corner);
             if plain.likelihood() < before {
                 return all;
             }
@@ -88,7 +86,7 @@ impl Problem<'_> {
 
     /// Compares priors without a part that repeats about a motion, from a first corner frequency of their noise, rad/s, then about
     /// the motion with the likeliest of them.
-    fn plain<'a>(&self, mut about: Cow<'a, Smoothed>, mut corner: f64) -> Compared<'a> {
+    fn plain(&self, mut about: Smoothed, mut corner: f64) -> Compared {
         let mut before = f64::NEG_INFINITY;
         loop {
             let tried = self.tried(&about, corner);
@@ -98,7 +96,7 @@ impl Problem<'_> {
                 return all;
             };
             (before, corner) = (moved.noise.likelihood, moved.noise.corner);
-            about = Cow::Owned(moved.clone());
+            about = moved.clone();
         }
     }
 
