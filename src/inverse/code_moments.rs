@@ -31,13 +31,8 @@ struct Belief {
 impl Belief {
     /// Returns ln of the probability of the code over that of its site.
     fn correction(&self) -> f64 {
-        let Belief {
-            width,
-            site,
-            cavity,
-            jitter,
-        } = self;
-        let probability = cavity.matched(*jitter).0;
+        let (width, site, cavity) = (self.width, self.site, self.cavity);
+        let probability = cavity.matched(self.jitter).0;
         if site.precision == 0.0 {
             return probability;
         }

@@ -202,18 +202,14 @@ impl Fitted {
         polynomial: &Polynomial,
         reason: &str,
     ) -> Fitted {
-        let Polynomial {
-            fit,
-            motion,
-            converged,
-        } = polynomial;
-        let mut fitted = Fitted::of_motion(measurement, record, motion.clone(), None);
+        let (fit, motion) = (&polynomial.fit, polynomial.motion.clone());
+        let mut fitted = Fitted::of_motion(measurement, record, motion, None);
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         // Rounding errors have patterns of their own.
         fitted.patterned &= fitted.summary.rms > record.floor;
-        fitted.converged = *converged;
+        fitted.converged = polynomial.converged;
         fitted.summary = FitSummary {
             kind: "polynomial",
             reason: reason.to_owned(),

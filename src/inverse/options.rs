@@ -4,8 +4,10 @@ use crate::numeric::stop::Stop;
 
 named! {
     /// Method of motion estimation.
+    #[derive(Default)]
     pub enum FitKind {
         /// Polynomial within one turn where it leaves only noise and is the likelier motion, else the smoother.
+        #[default]
         Auto = "auto",
         /// A polynomial of the crank angle over time.
         Polynomial = "polynomial",
@@ -15,16 +17,17 @@ named! {
 }
 
 /// Degree of a polynomial.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FitSize {
     /// Degree that the samples support.
+    #[default]
     Auto,
     /// Given degree.
     Fixed(usize),
 }
 
 /// Options of an inverse computation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct InverseOptions {
     /// Method of motion estimation.
     pub fit: FitKind,
@@ -36,16 +39,4 @@ pub struct InverseOptions {
     pub beside_forces: bool,
     /// Request to stop, if any.
     pub stop: Option<Stop>,
-}
-
-impl Default for InverseOptions {
-    fn default() -> InverseOptions {
-        InverseOptions {
-            fit: FitKind::Auto,
-            size: FitSize::Auto,
-            reactions: false,
-            beside_forces: false,
-            stop: None,
-        }
-    }
 }
