@@ -1,8 +1,6 @@
 //! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
-use std::ops::Range;
-
 use super::estimate::Estimate;
 use super::model::prior::KINEMATIC;
 use super::problem::Problem;
@@ -117,22 +115,16 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Judgem
     };
     let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
     // Samples of a sensor that holds are one.
-    let is_held = |i: &usize| record.intervals.is_empty() && record.repeated[*i];
-    for run in runs(weights.len(), is_held) {
-        if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
-            weights[run].fill(0.0);
+    let all = Vec::from_iter(0..weights.len());
+    let is_held = |_: &usize, i: &usize| record.intervals.is_empty() && record.repeated[*i];
+    for run in all.chunk_by(is_held) {
+        if run.len() > 1 && run.iter().any(|i| weights[*i] < 0.5) {
+            run.iter().for_each(|i| weights[*i] = 0.0);
         }
     }
     let pairs = weights.iter_mut().zip(full);
     pairs.for_each(|(weight, full)| *weight *= full);
     Some(Judgement { weights, few })
-}
-
-/// Returns the runs of a number of samples, each with those after its first one that are held.
-fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
-    let mut first: Vec<usize> = (0..count).filter(|i| !is_held(i)).collect();
-    first.push(count);
-    first.windows(2).map(|w| w[0]..w[1]).collect()
 }
 
 impl Problem<'_> {
@@ -183,19 +175,15 @@ impl Problem<'_> {
         self.weigh(self.single().full_weights(), about);
     }
 
-    /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights.
+    /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights by 0.1.
     pub fn weigh(&mut self, weights: Vec<f64>, about: &Smoothed) -> bool {
         let weighed = self.single_mut();
-        let is_alike = alike(&weighed.weights, &weights);
+        let mut pairs = weighed.weights.iter().zip(&weights);
+        let is_alike = pairs.all(|(before, now)| (before - now).abs() < 0.1);
         weighed.weights = weights;
         if let Some(condensed) = &self.condensed {
             self.record = condensed.about(&about.course(&self.grid));
         }
         !is_alike
     }
-}
-
-/// True if two lists of weights differ by less than 0.1.
-fn alike(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1)
 }

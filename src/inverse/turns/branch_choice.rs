@@ -100,7 +100,6 @@ fn best<'a>(
         ));
     }
     let mut warnings = angles.warnings;
-    warnings.extend(best.doubt);
     let taken = turned(&angles.theta);
     let likely = pairs
         .iter()
@@ -162,7 +161,6 @@ struct Pair<'a> {
     taken: Reading<'a>,
     /// Sample at which the taken motion leaves the branch of the scene.
     leaves: Option<usize>,
-    doubt: Option<String>,
     /// ln of the larger likelihood of the two motions, over that of the first pair.
     likelihood: f64,
 }
@@ -186,7 +184,6 @@ impl<'a> Pair<'a> {
             return Pair {
                 taken: reading,
                 leaves: None,
-                doubt: None,
                 likelihood,
             };
         }
@@ -206,7 +203,7 @@ impl<'a> Pair<'a> {
             ),
         ];
         let odds: f64 = speaking.iter().map(|(odds, _)| odds).sum();
-        let (taken, other) = if odds < 0.0 {
+        let (mut taken, other) = if odds < 0.0 {
             (image, reading)
         } else {
             (reading, image)
@@ -230,10 +227,10 @@ impl<'a> Pair<'a> {
                 taken.angles.theta[0], named(1.0), other.angles.theta[0], named(-1.0)
             )
         });
+        taken.angles.warnings.extend(doubt);
         Pair {
             taken,
             leaves: leaves.filter(|_| odds < 0.0),
-            doubt,
             likelihood,
         }
     }

@@ -191,12 +191,13 @@ impl Tracker<'_, '_> {
             false => 1,
         };
         let h = (end - t) / parts as f64;
-        (0..parts).fold(*before, |now, part| {
-            let mean = follows.then_some(&now.state.mean);
+        let state = (0..parts).fold(before.state, |now, part| {
+            let mean = follows.then_some(&now.mean);
             let by_equation =
                 mean.and_then(|mean| self.step([t + h * part as f64, h], mean, setting.jerk));
             now.predicted(&by_equation.unwrap_or_else(|| step(h, setting.jerk, 1.0)))
-        })
+        });
+        Hypothesis { state, ..*before }
     }
 
     /// Returns the transition from a time by another, s, by the equation of motion, from a state of θ, rad, ω, rad/s, and the

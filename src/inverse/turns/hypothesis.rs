@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::model::kalman::{Gaussian, Sample, Step};
+use super::super::model::kalman::{Gaussian, Sample};
 use super::links::{Link, Rival};
 
 /// Standard deviations beyond which a sample shows another motion.
@@ -33,14 +33,6 @@ pub(in crate::inverse) struct Sight {
 }
 
 impl Hypothesis {
-    /// Returns the path at the next sample, before that is seen.
-    pub fn predicted(&self, step: &Step<3>) -> Hypothesis {
-        Hypothesis {
-            state: self.state.predicted(step),
-            ..*self
-        }
-    }
-
     /// Goes on by a sample that the sensor holds, at the cost of a ln of odds.
     pub fn held(&self, cost: f64, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
         let held = Hypothesis {
