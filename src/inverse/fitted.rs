@@ -16,7 +16,7 @@ use super::row::Residual;
 use super::samples::Given;
 use super::smoother::Smoothed;
 use super::tones::beside::BesideTones;
-use super::{FitKind, FitSize, InverseOptions};
+use super::{FitKind, InverseOptions};
 use crate::numeric::median::range;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -67,10 +67,7 @@ impl Fitted {
             ..
         } = given;
         let record = given.record(&[]);
-        let degree = match options.size {
-            FitSize::Auto => None,
-            FitSize::Fixed(degree) => Some(degree),
-        };
+        let degree = options.degree;
         let polynomial = |reason: &str| {
             if record.sensor.is_of_speed() {
                 return Err(

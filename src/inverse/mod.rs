@@ -74,7 +74,7 @@ mod weighed;
 
 pub use as_printed::AsPrinted;
 pub use mean_cycle::{CycleMean, MeanRow};
-pub use options::{FitKind, FitSize, InverseOptions};
+pub use options::{FitKind, InverseOptions};
 pub use result::bands::{BandRule, DeadCentreBand};
 pub use result::shared_errors::BudgetShare;
 pub use result::summary::{

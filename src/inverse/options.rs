@@ -16,23 +16,13 @@ named! {
     }
 }
 
-/// Degree of a polynomial.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FitSize {
-    /// Degree that the samples support.
-    #[default]
-    Auto,
-    /// Given degree.
-    Fixed(usize),
-}
-
 /// Options of an inverse computation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InverseOptions {
     /// Method of motion estimation.
     pub fit: FitKind,
-    /// Degree of the polynomial.
-    pub size: FitSize,
+    /// Degree of the polynomial; none for the one that the samples support.
+    pub degree: Option<usize>,
     /// Whether joint forces of the rows can be computed.
     pub reactions: bool,
     /// Whether the slider force acts beside the forces of the scene; if not, it is the whole force on the slider.
