@@ -35,9 +35,28 @@ fn likelihood(motion: Option<&Smoothed>) -> f64 {
 }
 
 impl Problem<'_> {
+    /// The likeliest smoothed motion, from a first one, of noise that is `suspected` to be correlated or not.
+    pub fn likeliest(
+        &mut self,
+        kinematic: &Smoothed,
+        first: &Smoothed,
+        suspected: bool,
+    ) -> Smoothed {
+        if let Some(codes) = self.record.codes {
+            return self.likeliest_of_codes(codes, kinematic);
+        }
+        let found = self.likeliest_from(first, suspected);
+        // Means of fewer samples come first.
+        if self.finer(&found, kinematic).is_some() {
+            return found;
+        }
+        let path = self.path_of(found.prior, kinematic, self.all());
+        self.completed(found, path, true)
+    }
+
     /// The smoothed motion with the likeliest prior, from a first one. Noise of the samples is correlated where that is
     /// suspected or the prediction errors say so, and the likelihood agrees.
-    pub fn likeliest_from(&self, first: &Smoothed, suspected: bool) -> Smoothed {
+    fn likeliest_from(&self, first: &Smoothed, suspected: bool) -> Smoothed {
         let rotation = Rotation::of(first.angles());
         let Compared { about, tried, best } = self.compared(first, rotation);
         let Some(found) = best else {
@@ -108,11 +127,6 @@ impl Problem<'_> {
         }
         let plain = of.compared.iter().filter(|one| one.prior.cycle == 0);
         self.first_converged(&Vec::from_iter(plain.copied()), of, None)
-    }
-
-    /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
-    pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        self.all_tried(kinematic).likelihood()
     }
 
     /// Compares all priors about a motion.

@@ -128,22 +128,6 @@ impl Problem<'_> {
         linear.with_all_spectra(noise)
     }
 
-    /// The smoothed motion with the likeliest prior, from a first one.
-    pub fn likeliest(
-        &mut self,
-        kinematic: &Smoothed,
-        first: &Smoothed,
-        suspected: bool,
-    ) -> Smoothed {
-        let found = self.likeliest_from(first, suspected);
-        let path = self.path_of(found.prior, kinematic, self.all());
-        match self.finer(&found, kinematic) {
-            // Means of fewer samples come first.
-            Some(_) => found,
-            None => self.completed(found, path, true),
-        }
-    }
-
     /// The smoothed motion with a prior, about paths that approach it.
     pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
         let (prior, mut noise) = (candidate.prior, candidate.noise);

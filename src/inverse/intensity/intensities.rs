@@ -156,11 +156,11 @@ impl Problem<'_> {
         first: &Smoothed,
         suspected: bool,
     ) -> Smoothed {
-        let mut best = self.likeliest_of_all(kinematic, first, suspected);
+        let mut best = self.likeliest(kinematic, first, suspected);
         if self.judges_again(&best) {
             let plain = self.likeliest_plain(&best);
             let first = plain.as_ref().unwrap_or(first);
-            best = self.likeliest_of_all(kinematic, first, suspected);
+            best = self.likeliest(kinematic, first, suspected);
         }
         // Computed samples, noise below that of instruments and long records represented by stretches have no intensities: what
         // interpolates computed samples smoothly errs least.
@@ -180,7 +180,7 @@ impl Problem<'_> {
             self.intensities = self.intensities_of(&plain, least);
             if !self.intensities.0.is_empty() {
                 let more = self.intensities.0.len() as f64 - before.0.len() as f64;
-                let next = self.likeliest_of_all(kinematic, &plain, suspected);
+                let next = self.likeliest(kinematic, &plain, suspected);
                 let rise =
                     next.noise.likelihood - best.noise.likelihood - more * self.cost(PARAMETERS);
                 if rise > ENOUGH_RISE {
@@ -204,19 +204,6 @@ impl Problem<'_> {
         let judged = outliers::judge(self, best);
         let judged = judged.filter(|judged| judged.few);
         judged.is_some_and(|judged| self.weigh(judged.weights, best))
-    }
-
-    /// The likeliest smoothed motion, from a first one.
-    fn likeliest_of_all(
-        &mut self,
-        kinematic: &Smoothed,
-        first: &Smoothed,
-        suspected: bool,
-    ) -> Smoothed {
-        match self.record.codes {
-            Some(codes) => self.likeliest_of_codes(codes, kinematic),
-            None => self.likeliest(kinematic, first, suspected),
-        }
     }
 }
 

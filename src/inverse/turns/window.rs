@@ -121,7 +121,7 @@ impl Windows<'_> {
             .take_while(|_| starts)
             .find(|speed| speed.abs() > 0.5 * self.motion.speed.abs());
         Judged {
-            likelihood: problem.evidence(kinematic) - cost,
+            likelihood: problem.all_tried(kinematic).likelihood() - cost,
             begin,
             sense: stated
                 .or(way.map(|way| way - begin))
