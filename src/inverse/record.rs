@@ -239,17 +239,11 @@ impl<'a> Record<'a> {
     pub fn take_middles(&mut self, codes: Codes) {
         self.codes = None;
         for (i, interval) in std::mem::take(&mut self.intervals).iter().enumerate() {
-            let counts = interval.middle.is_finite();
-            self.values[i] = if counts {
-                interval.middle
-            } else {
-                self.values[i]
-            };
-            self.weights[i] = if counts {
-                (codes.step / interval.width).powi(2)
-            } else {
-                0.0
-            };
+            self.weights[i] = 0.0;
+            if interval.middle.is_finite() {
+                self.values[i] = interval.middle;
+                self.weights[i] = (codes.step / interval.width).powi(2);
+            }
         }
     }
 }

@@ -13,14 +13,12 @@ pub(in crate::inverse) fn unwrap<'a>(
     measurement: &Measurement,
 ) -> Result<CrankAngles<'a>, Error> {
     let Unwrapped { theta, warning } = measurement.unwrapped()?;
-    let sigma = 0.0;
-    let warnings = Vec::from_iter(warning);
     reachable(sensor, measurement, &theta)?;
     Ok(CrankAngles {
         sensor: *sensor,
         theta,
-        sigma,
-        warnings,
+        sigma: 0.0,
+        warnings: Vec::from_iter(warning),
     })
 }
 
