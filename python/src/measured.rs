@@ -145,11 +145,7 @@ pub fn inverse<'py>(
     })?;
     let default = InverseOptions::default();
     let options = InverseOptions {
-        fit: match (fit, degree) {
-            // A degree asks for a polynomial.
-            (FitKind::Auto, Some(_)) => FitKind::Polynomial,
-            (fit, _) => fit,
-        },
+        fit,
         degree,
         reactions,
         beside_forces,

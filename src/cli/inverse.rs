@@ -116,11 +116,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
     let options = InverseOptions {
-        fit: match (arguments.fit, arguments.degree) {
-            // A given degree selects the polynomial.
-            (FitKind::Auto, Some(_)) => FitKind::Polynomial,
-            (fit, _) => fit,
-        },
+        fit: arguments.fit,
         degree: arguments.degree,
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,

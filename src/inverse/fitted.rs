@@ -96,10 +96,10 @@ impl Fitted {
             }
             _ => {}
         }
-        let may_be_simple = options.fit == FitKind::Auto
-            && record.beside.is_empty()
-            && !record.sensor.is_of_speed();
-        let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
+        let (least, most) = range(&angles.theta);
+        let may_be_simple =
+            options.fit == FitKind::Auto && record.beside.is_empty() && most - least <= TAU;
+        let mut simple = may_be_simple
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten();
         // What a polynomial leaves is motion or noise: the smoother compares both.
@@ -158,7 +158,7 @@ impl Fitted {
         fitted.farthest_outlier =
             (outliers.iter().copied()).max_by(|a, b| size(a).total_cmp(&size(b)));
         fitted.held = (outliers.iter().copied()).find(|row| samples.repeated[*row]);
-        let spans = problem.intensities.0.iter();
+        let spans = problem.intensities.iter();
         let mut with_equation = (smoothed.compared.iter())
             .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)
             .peekable();
@@ -271,10 +271,4 @@ impl Fitted {
             ..Fitted::default()
         }
     }
-}
-
-/// True if crank angles, rad, lie within one turn: a polynomial may serve.
-fn is_within_a_turn(theta: &[f64]) -> bool {
-    let (least, most) = range(theta);
-    most - least <= TAU
 }

@@ -21,7 +21,7 @@ named! {
 pub struct InverseOptions {
     /// Method of motion estimation.
     pub fit: FitKind,
-    /// Degree of the polynomial; none for the one that the samples support.
+    /// Degree of the polynomial, which a given one asks for; none for the one that the samples support.
     pub degree: Option<usize>,
     /// Whether joint forces of the rows can be computed.
     pub reactions: bool,

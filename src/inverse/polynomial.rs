@@ -37,11 +37,10 @@ impl Polynomial {
         let mut iteration = 0;
         loop {
             iteration += 1;
-            let lines = parallel::list(theta.len(), |i| {
+            let (target, weight) = parallel::pairs(theta.len(), |i| {
                 let (residual, shown) = record.sensor.residual(record.values[i], [theta[i], 0.0]);
                 (residual + shown.slope * theta[i], shown.slope)
             });
-            let (target, weight): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
             let equations = Equations {
                 t: &record.times,
                 target: &target,

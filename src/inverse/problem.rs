@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use super::condensed::Condensed;
 use super::estimate::Estimate;
 use super::grid::{Course, Grid, Path};
-use super::intensity::span::Intensities;
+use super::intensity::{Span, factor_at};
 use super::likelihood::Linear;
 use super::measurement_model::Scale;
 use super::model::harmonics::{Increments, ways};
@@ -33,8 +33,8 @@ pub(super) struct Problem<'a> {
     /// Whether the samples, if not codes, were computed.
     pub computed: bool,
     pub equation: &'a Equation,
-    /// Intensity factors of the process noise along the record.
-    pub intensities: Intensities,
+    /// Stretches with another intensity of the process noise.
+    pub intensities: Vec<Span>,
     /// Request to stop; results are invalid then.
     pub stop: Option<&'a Stop>,
 }
@@ -159,8 +159,8 @@ impl<'a> Problem<'a> {
             let (begin, end) = (&nodes[k], &nodes[k + 1]);
             motion.linearised(begin, end, torque)
         });
-        let intensities = times.windows(2);
-        let intensities = intensities.map(|ends| self.intensities.at(0.5 * (ends[0] + ends[1])));
+        let middles = times.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+        let intensities = middles.map(|t| factor_at(&self.intensities, t));
         let mut increments = Increments::default();
         if prior.cycle > 0 {
             increments = Increments::new(ways(states, &steps, path.speed()), prior);

@@ -3,7 +3,6 @@
 use super::condensed::{Blocks, Condensed};
 use super::first_path;
 use super::grid::{Course, Grid, Path};
-use super::intensity::span::Intensities;
 use super::measurement_model::{Scale, Sensor};
 use super::model::prior::KINEMATIC;
 use super::model::tone::{self, Carrier, Tone};
@@ -121,7 +120,7 @@ impl<'a> Given<'a> {
             grid,
             computed,
             equation: self.equation,
-            intensities: Intensities::default(),
+            intensities: Vec::new(),
             stop: self.stop,
         };
         (problem, path)

@@ -160,7 +160,8 @@ impl Tracker<'_, '_> {
             let repeated = repeats(self.values, i);
             let begins = repeated && !repeats(self.values, i - 1);
             if i == 0 {
-                next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
+                let begin = |sight| self.begun(sight).push(None, links, &mut next);
+                sighted.iter().for_each(begin);
             } else {
                 for before in &now {
                     let predicted = self.predicted(i, before, setting);
@@ -264,12 +265,7 @@ impl Tracker<'_, '_> {
         }
     }
 
-    fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
-        links.push(Link {
-            theta: sight.theta,
-            before: None,
-            rival: None,
-        });
+    fn begun(&self, sight: &Sight) -> Hypothesis {
         let speed = 2.0 * self.speed;
         Hypothesis {
             state: Gaussian {
@@ -278,7 +274,7 @@ impl Tracker<'_, '_> {
             },
             score: sight.score,
             held: false,
-            last: links.len() - 1,
+            last: 0,
         }
     }
 }

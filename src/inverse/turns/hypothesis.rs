@@ -40,7 +40,7 @@ impl Hypothesis {
             held: true,
             ..*self
         };
-        held.push(links, list);
+        held.push(Some(self.last), links, list);
     }
 
     /// Extends the predicted path by a sample, in each turn of the crank that is possible. A value that repeats adds no density.
@@ -89,15 +89,20 @@ impl Hypothesis {
                     ..before
                 };
             }
-            found.push(links, list);
+            found.push(Some(self.last), links, list);
         }
     }
 
-    /// Adds this hypothesis with its link to the one before.
-    fn push(mut self, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
+    /// Adds this hypothesis with its link to the one before, if there is one.
+    pub fn push(
+        mut self,
+        before: Option<usize>,
+        links: &mut Vec<Link>,
+        list: &mut Vec<Hypothesis>,
+    ) {
         links.push(Link {
             theta: self.state.mean[0],
-            before: Some(self.last),
+            before,
             rival: None,
         });
         self.last = links.len() - 1;
