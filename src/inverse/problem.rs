@@ -177,11 +177,10 @@ impl<'a> Problem<'a> {
         let observed = parallel::list(range.len(), |k| {
             self.record.observed(&course, range.start + k, sigma)
         });
-        let mut constants = [0.0; 2];
-        let first = states.first().into_iter().flatten();
-        let known = first.skip(prior.diffuse()).take(prior.powers);
-        let pairs = constants.iter_mut().zip(known);
-        pairs.for_each(|(constant, known)| *constant = *known);
+        let constants = states.first().map_or([0.0; 2], |first| {
+            let known = |k| first[prior.diffuse() + k];
+            [0, 1].map(|k| if k < prior.powers { known(k) } else { 0.0 })
+        });
         // A part of the record does not tell a tone.
         let tones = match range.len() == self.grid.len() {
             true => self.regressors(&self.record.tones, prior, range.clone(), states),

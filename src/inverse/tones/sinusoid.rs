@@ -53,8 +53,7 @@ impl Beside<'_> {
             let of = |frequency| self.solved(carrier, frequency, &errors, &noise);
             let range = [near - resolved, near + resolved];
             // As fine that the phase is off by 3e-4 rad at the ends of the record.
-            let width = 1e-4 * resolved;
-            let (frequency, _) = maximum::largest_to(|one| of(one).1, range, width);
+            let (frequency, _) = maximum::largest_to(|one| of(one).1, range, 1e-4 * resolved);
             let tone = Tone {
                 carrier,
                 frequency,
