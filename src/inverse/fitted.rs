@@ -15,7 +15,7 @@ use super::result::summary::FitSummary;
 use super::row::Residual;
 use super::samples::Given;
 use super::smoother::Smoothed;
-use super::tones::beside::BesideTones;
+use super::tones::choice::BesideTones;
 use super::{FitKind, InverseOptions};
 use crate::numeric::median::range;
 use crate::numeric::parallel;

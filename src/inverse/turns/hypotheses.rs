@@ -13,8 +13,9 @@ use super::super::model::matrix::diagonal;
 use super::super::model::prior::{KINEMATIC, Prior, TORQUE, plain_state};
 use super::super::model::transition::transition;
 use super::super::residual_tests::repeats;
-use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
-use super::links::{Link, Track, is_resolved, way};
+use super::hypothesis::{
+    DROPPED_LOG_RATIO, FAR, Hypothesis, Link, Sight, Track, is_resolved, prune, way,
+};
 use super::mirror_image::DISTINCT_ROTATION;
 use crate::mechanism::Equation;
 
