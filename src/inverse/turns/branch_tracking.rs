@@ -33,6 +33,13 @@ pub(in crate::inverse) struct CrankAngles<'a> {
     pub warnings: Vec<String>,
 }
 
+impl CrankAngles<'_> {
+    /// Returns the standard deviation of a measured value in crank lengths, or in rad.
+    pub fn error(&self) -> f64 {
+        self.sigma / self.sensor.size()
+    }
+}
+
 /// Returns the motions that samples may stand for, with their mirror images, the likeliest first.
 ///
 /// # Errors

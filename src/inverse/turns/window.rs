@@ -78,19 +78,12 @@ impl Windows<'_> {
             self.of(problem, kinematic, angles, window)
         });
         let pairs = judged.chunks_exact(2).zip(motions);
-        let pairs = pairs.map(|(pair, one)| match one.leaves {
-            None => [pair[0], pair[1]],
-            Some(_) => {
-                let (begin, sense) = (one.image.theta[0], -pair[0].sense);
-                [
-                    pair[0],
-                    Judged {
-                        begin,
-                        sense,
-                        ..pair[0]
-                    },
-                ]
+        let pairs = pairs.map(|(pair, one)| {
+            let (own, mut image) = (pair[0], pair[1]);
+            if one.leaves.is_some() {
+                (image.begin, image.sense) = (one.image.theta[0], -own.sense);
             }
+            [own, image]
         });
         pairs.collect()
     }
@@ -109,10 +102,9 @@ impl Windows<'_> {
         let width = LARGEST_VALUE_ERROR * angles.sensor.size();
         let cost = found * (width / angles.sigma).max(1.0).ln();
         let starts = window.start == 0;
-        let begin = if starts {
-            kinematic.estimates[0].state[0]
-        } else {
-            angles.theta[0]
+        let begin = match starts {
+            true => kinematic.estimates[0].state[0],
+            false => angles.theta[0],
         };
         let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;
         let way = angles.theta.iter().find(far).or(angles.theta.last());
