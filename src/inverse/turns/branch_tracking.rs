@@ -202,14 +202,8 @@ pub(in crate::inverse) fn reachable(
     let on_no_angle = |i: &usize| sensor.angles(values[*i]).0.angles().is_empty();
     // A few values slightly beyond the range are outliers.
     let many = (0..values.len()).filter(is_off).count() * 20 > values.len();
-    let far: Vec<usize> = (0..values.len())
-        .filter(|i| many && is_off(i) || on_no_angle(i))
-        .take(20)
-        .collect();
-    if far.is_empty() {
-        return Ok(());
-    }
-    let list = far.into_iter().map(|i| {
+    let far = (0..values.len()).filter(|i| many && is_off(i) || on_no_angle(i));
+    let faults = far.map(|i| {
         let why = match excess(values[i]) {
             0.0 => "it belongs to no crank angle of the branch of the scene".to_owned(),
             excess => format!(
@@ -222,12 +216,10 @@ pub(in crate::inverse) fn reachable(
             sensor.measured.name(),
             measurement.shown(values[i]),
         );
-        let help =
-            "check the lengths of the scene, the unit of the column, and from where it counts"
-                .to_owned();
-        (i, what, help)
+        (i, what)
     });
-    Err(measurement.problems(list.collect()).into())
+    let help = "check the lengths of the scene, the unit of the column, and from where it counts";
+    Ok(measurement.refuse(faults, help)?)
 }
 
 /// Returns the mean inertia of a mechanism over the crank angles that it reaches, kg m².

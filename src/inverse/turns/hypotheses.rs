@@ -85,10 +85,9 @@ impl Tracker<'_, '_> {
                     .filter(|rival| rival.loss < DROPPED_LOG_RATIO);
                 let rival = near.and_then(|rival| {
                     let ways = [link, rival.last].map(|last| way(&links, last));
-                    let apart = self.apart(setting.sigma, &links, ways)?;
                     Some(Track {
                         score: score - rival.loss,
-                        is_far: apart > DISTINCT_ROTATION,
+                        is_far: self.are_far(setting.sigma, &links, ways)?,
                         after,
                         before: rival.last,
                         ..whole
@@ -101,23 +100,20 @@ impl Tracker<'_, '_> {
         (links, found)
     }
 
-    /// Returns how far two ways to one state are apart before it, rad, if they show different motions.
-    fn apart(
+    /// Returns whether two ways to one state are far apart before it; none if they do not show different motions.
+    fn are_far(
         &self,
         sigma: f64,
         links: &[Link],
         [a, b]: [impl Iterator<Item = usize>; 2],
-    ) -> Option<f64> {
+    ) -> Option<bool> {
         let apart = a.zip(b).take_while(|(a, b)| a != b);
         let angles = apart.map(|(a, b)| [a, b].map(|link| links[link].theta));
-        let mut most = None;
-        for [a, b] in angles.filter(|angles| self.differ(sigma, *angles)) {
-            most = Some(f64::max((a - b).abs(), most.unwrap_or(0.0)));
-            if most > Some(DISTINCT_ROTATION) {
-                break;
-            }
-        }
-        most
+        let mut told = angles
+            .filter(|angles| self.differ(sigma, *angles))
+            .peekable();
+        told.peek()?;
+        Some(told.any(|[a, b]| (a - b).abs() > DISTINCT_ROTATION))
     }
 
     /// True if a sample with this noise, rad or m, tells two crank angles apart, rad.

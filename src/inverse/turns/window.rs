@@ -65,10 +65,7 @@ impl Windows<'_> {
             *kinematic = problem.without_outliers(kinematic.clone());
             problem.record.weights.clone()
         });
-        let most = |i: usize| {
-            told.iter()
-                .fold(0.0, |most: f64, weights| most.max(weights[i]))
-        };
+        let most = |i: usize| told.iter().map(|weights| weights[i]).fold(0.0, f64::max);
         let weights: Vec<f64> = (0..window.len()).map(most).collect();
         let seen = seen.iter_mut().zip(angles);
         let judged = parallel::map(seen, |((problem, kinematic), angles)| {
