@@ -6,7 +6,7 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slider_crank::inverse::identify::{FreeKey, identify_keys};
-use slider_crank::inverse::{FitKind, FitSize, Inverse, InverseOptions, inverse_of_uncertain};
+use slider_crank::inverse::{FitKind, Inverse, InverseOptions, inverse_of_uncertain};
 use slider_crank::report::{self, InverseReport, Report};
 use slider_crank::scene::unit::Quantity;
 use slider_crank::scene::{Beside, Measured, Measurement as Samples, Reading};
@@ -143,15 +143,10 @@ pub fn inverse<'py>(
             "the fit is \"auto\", \"polynomial\" or \"smoother\"",
         )
     })?;
-    let size = degree.map_or(FitSize::Auto, FitSize::Fixed);
     let default = InverseOptions::default();
     let options = InverseOptions {
-        fit: match (fit, size) {
-            // A degree asks for a polynomial.
-            (FitKind::Auto, FitSize::Fixed(_)) => FitKind::Polynomial,
-            (fit, _) => fit,
-        },
-        size,
+        fit,
+        degree,
         reactions,
         beside_forces,
         ..default

@@ -8,7 +8,7 @@ use super::outputs::Outputs;
 use super::reading::ReadingArguments;
 use super::streams::{check_inputs, create, draft, origin};
 use crate::error::Error;
-use crate::inverse::{self, AsPrinted, FitKind, FitSize, InverseOptions};
+use crate::inverse::{self, AsPrinted, FitKind, InverseOptions};
 use crate::report::{self, InverseReport};
 use crate::scene::{Measurement, Reading};
 use crate::simulate::Stop;
@@ -25,8 +25,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "KIND", default_value = "auto", value_parser = kind)]
     fit: FitKind,
     /// Degree of a polynomial; `auto` chooses it from the samples
-    #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = size, allow_hyphen_values = true)]
-    degree: FitSize,
+    #[arg(long, value_name = "NUMBER", default_value = "auto", value_parser = degree, allow_hyphen_values = true)]
+    degree: Degree,
     #[command(flatten)]
     reading: ReadingArguments,
     /// Gives the force that acts beside the forces of the scene, not the whole force on the slider
@@ -54,14 +54,17 @@ fn kind(text: &str) -> Result<FitKind, String> {
     FitKind::named(text).ok_or_else(|| "the fit is auto, polynomial or smoother".to_owned())
 }
 
-fn size(text: &str) -> Result<FitSize, String> {
+/// Degree of a polynomial, none for `auto`; clap takes a plain `Option` for an option that may be left out.
+type Degree = Option<usize>;
+
+fn degree(text: &str) -> Result<Degree, String> {
     if text == "auto" {
-        return Ok(FitSize::Auto);
+        return Ok(None);
     }
     // Larger ones are typing errors.
     let highest = 10_000;
     match text.parse() {
-        Ok(size) if size <= highest => Ok(FitSize::Fixed(size)),
+        Ok(degree) if degree <= highest => Ok(Some(degree)),
         Ok(_) => Err(format!("the degree is `auto` or at most {highest}")),
         Err(_) => Err("the degree is a whole number or `auto`".to_owned()),
     }
@@ -113,12 +116,8 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
     let scene = draft.scene()?;
     streams.spare_tables(&scene)?;
     let options = InverseOptions {
-        fit: match (arguments.fit, arguments.degree) {
-            // A given degree selects the polynomial.
-            (FitKind::Auto, FitSize::Fixed(_)) => FitKind::Polynomial,
-            (fit, _) => fit,
-        },
-        size: arguments.degree,
+        fit: arguments.fit,
+        degree: arguments.degree,
         reactions: arguments.reactions,
         beside_forces: arguments.beside_forces,
         stop: Some(stop.clone()),

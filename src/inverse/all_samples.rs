@@ -20,18 +20,14 @@ const CORNER_ROUNDS: usize = 6;
 impl Problem<'_> {
     /// Returns the noise with the likeliest corner frequency by all samples about a whole path, from a first noise.
     pub fn by_all_samples(&self, path: &Path, first: &Candidate) -> Noise {
-        let Candidate {
-            noise: first,
-            scales,
-            prior,
-        } = *first;
-        let linear = Linear::of(prior.beside_known(), scales);
+        let scales = first.scales;
+        let linear = Linear::of(first.prior.beside_known(), scales);
+        let first = first.noise;
         let states = linear.prior.states() + usize::from(first.correlated.is_some());
         let [lowest, highest] = scales.corners().map(f64::ln);
         let judged_at = |logs: &[f64]| -> Vec<Noise> {
             let noise = |log: &f64| Noise {
                 corner: log.clamp(lowest, highest).exp(),
-                likelihood: f64::NEG_INFINITY,
                 ..first
             };
             let noises: Vec<Noise> = logs.iter().map(noise).collect();
@@ -61,7 +57,7 @@ impl Problem<'_> {
             let inner = judged.windows(3).find(|w| w[1].corner == likeliest.corner);
             if let Some([a, b, c]) = inner.and_then(|w| w.first_chunk()) {
                 let point = |noise: &Noise| (noise.corner.ln(), noise.likelihood);
-                let corner = vertex(point(a), point(b), point(c)).place.exp();
+                let corner = vertex(point(a), point(b), point(c)).0.exp();
                 return Noise { corner, ..*b };
             }
             // At the edge of what was tried: further out the likelihood gains nothing.

@@ -31,13 +31,8 @@ struct Belief {
 impl Belief {
     /// Returns ln of the probability of the code over that of its site.
     fn correction(&self) -> f64 {
-        let Belief {
-            width,
-            site,
-            cavity,
-            jitter,
-        } = self;
-        let probability = cavity.matched(*jitter).0;
+        let (width, site, cavity) = (self.width, self.site, self.cavity);
+        let probability = cavity.matched(self.jitter).0;
         if site.precision == 0.0 {
             return probability;
         }
@@ -149,15 +144,9 @@ impl Problem<'_> {
             // The process noise is estimated with sites that hardly move.
             let is_last = round + 1 == PROPAGATION_ROUNDS || is_at_rest;
             if is_last || round % ROUNDS_OF_A_NOISE == ROUNDS_OF_A_NOISE - 1 {
-                let Smoothed {
-                    prior,
-                    scales,
-                    noise,
-                    ..
-                } = smoothed;
-                smoothed.noise = self
-                    .linear(prior, scales, &path, noise.sigma)
-                    .renewed(noise);
+                let Smoothed { prior, noise, .. } = smoothed;
+                let linear = self.linear(prior, smoothed.scales, &path, noise.sigma);
+                smoothed.noise = linear.renewed(noise);
             }
             smoothed.estimates = self.smoothed(&mut path, &smoothed.candidate());
             smoothed.repeating = path.repeating.clone();

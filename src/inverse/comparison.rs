@@ -1,8 +1,6 @@
 //! Comparison of priors by marginal likelihood. The model is not linear: about a path that misses part of the motion, as one without
 //! mechanics does where samples are few, other priors are likely than about the motion that is found.
 
-use std::borrow::Cow;
-
 use super::candidates::{Candidate, Tried};
 use super::maximum::{ENOUGH_RISE, SIGNIFICANT_RISE};
 use super::problem::Problem;
@@ -11,14 +9,14 @@ use super::rotation::Rotation;
 use super::smoother::Smoothed;
 
 /// Priors that were compared about a motion.
-struct Compared<'a> {
-    about: Cow<'a, Smoothed>,
+struct Compared {
+    about: Smoothed,
     tried: Tried,
     /// The motion with the likeliest of them.
     best: Option<Smoothed>,
 }
 
-impl Compared<'_> {
+impl Compared {
     /// Returns the motion whose likelihood rises as its path moves: priors are compared about that one again.
     fn moved(&self, before: f64) -> Option<&Smoothed> {
         let least = self.tried.likelihood().max(before) + SIGNIFICANT_RISE;
@@ -37,15 +35,34 @@ fn likelihood(motion: Option<&Smoothed>) -> f64 {
 }
 
 impl Problem<'_> {
+    /// The likeliest smoothed motion, from a first one, of noise that is `suspected` to be correlated or not.
+    pub fn likeliest(
+        &mut self,
+        kinematic: &Smoothed,
+        first: &Smoothed,
+        suspected: bool,
+    ) -> Smoothed {
+        if let Some(codes) = self.record.codes {
+            return self.likeliest_of_codes(codes, kinematic);
+        }
+        let found = self.likeliest_from(first, suspected);
+        // Means of fewer samples come first.
+        if self.finer(&found, kinematic).is_some() {
+            return found;
+        }
+        let path = self.path_of(found.prior, kinematic, self.all());
+        self.completed(found, path, true)
+    }
+
     /// The smoothed motion with the likeliest prior, from a first one. Noise of the samples is correlated where that is
     /// suspected or the prediction errors say so, and the likelihood agrees.
-    pub fn likeliest_from(&self, first: &Smoothed, suspected: bool) -> Smoothed {
+    fn likeliest_from(&self, first: &Smoothed, suspected: bool) -> Smoothed {
         let rotation = Rotation::of(first.angles());
         let Compared { about, tried, best } = self.compared(first, rotation);
         let Some(found) = best else {
             return Smoothed {
                 compared: tried.candidates,
-                ..about.into_owned()
+                ..about
             };
         };
         let innovations = found.estimates.iter().map(|e| e.innovation);
@@ -65,8 +82,8 @@ impl Problem<'_> {
 
     /// Compares all priors. A part that repeats may stand for what a path misses: it comes after the others, and they are compared
     /// with it about its own path.
-    fn compared<'a>(&self, first: &'a Smoothed, rotation: Rotation) -> Compared<'a> {
-        let mut plain = self.plain(Cow::Borrowed(first), first.noise.corner);
+    fn compared(&self, first: &Smoothed, rotation: Rotation) -> Compared {
+        let mut plain = self.plain(first.clone(), first.noise.corner);
         let mut before = f64::NEG_INFINITY;
         loop {
             let Compared { about, tried, best } = plain;
@@ -79,7 +96,7 @@ impl Problem<'_> {
                 return all;
             };
             before = moved.noise.likelihood;
-            plain = self.plain(Cow::Owned(moved.clone()), corner);
+            plain = self.plain(moved.clone(), corner);
             if plain.likelihood() < before {
                 return all;
             }
@@ -88,7 +105,7 @@ impl Problem<'_> {
 
     /// Compares priors without a part that repeats about a motion, from a first corner frequency of their noise, rad/s, then about
     /// the motion with the likeliest of them.
-    fn plain<'a>(&self, mut about: Cow<'a, Smoothed>, mut corner: f64) -> Compared<'a> {
+    fn plain(&self, mut about: Smoothed, mut corner: f64) -> Compared {
         let mut before = f64::NEG_INFINITY;
         loop {
             let tried = self.tried(&about, corner);
@@ -98,7 +115,7 @@ impl Problem<'_> {
                 return all;
             };
             (before, corner) = (moved.noise.likelihood, moved.noise.corner);
-            about = Cow::Owned(moved.clone());
+            about = moved.clone();
         }
     }
 
@@ -110,11 +127,6 @@ impl Problem<'_> {
         }
         let plain = of.compared.iter().filter(|one| one.prior.cycle == 0);
         self.first_converged(&Vec::from_iter(plain.copied()), of, None)
-    }
-
-    /// ln of the marginal likelihood of the samples by the likeliest prior about a smoothed motion.
-    pub fn evidence(&self, kinematic: &Smoothed) -> f64 {
-        self.all_tried(kinematic).likelihood()
     }
 
     /// Compares all priors about a motion.

@@ -101,7 +101,7 @@ impl<'a> Condensed<'a> {
             beside: Vec::new(),
             ..*own
         };
-        let weighed = parallel::list(blocks.len(), |k| {
+        (record.values, record.weights) = parallel::pairs(blocks.len(), |k| {
             let (mut weight, mut sum) = (0.0, 0.0);
             for i in blocks[k].clone() {
                 let (residual, _) = own.sensor.residual(own.values[i], path.at(own.times[i]));
@@ -113,12 +113,8 @@ impl<'a> Condensed<'a> {
             let shown = |t: f64| own.sensor.shown(path.at(t)).value;
             let [a, b] = record.times_of(k).map(shown);
             let off = if weight > 0.0 { sum / weight } else { 0.0 };
-            [0.5 * (a + b) + off, weight]
+            (0.5 * (a + b) + off, weight)
         });
-        (record.values, record.weights) = weighed
-            .into_iter()
-            .map(|[value, weight]| (value, weight))
-            .unzip();
         record
     }
 }

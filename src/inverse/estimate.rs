@@ -1,7 +1,5 @@
 //! Smoothed motion at nodes and at times, with its covariance.
 
-use std::borrow::Cow;
-
 use super::measurement_model::Turning;
 use super::model::prior::State;
 use super::motion_estimate::MotionEstimate;
@@ -61,8 +59,8 @@ impl Problem<'_> {
     pub fn parameters(&self, smoothed: &Smoothed, motion: &[MotionEstimate]) -> f64 {
         let record = &self.record;
         let motion = match motion.len() == record.times.len() {
-            true => Cow::Borrowed(motion),
-            false => Cow::Owned(self.motion_at(smoothed, &record.times)),
+            true => motion,
+            false => &self.motion_at(smoothed, &record.times)[..],
         };
         let shares = parallel::list(motion.len(), |i| {
             let shown = record.sensor.shown(motion[i].turning());

@@ -13,13 +13,10 @@ use super::residual_tests::Whiteness;
 use super::result::shared_errors::Source;
 use super::result::summary::FitSummary;
 use super::row::Residual;
-use super::samples;
+use super::samples::Given;
 use super::smoother::Smoothed;
-use super::tones::beside::{BesideTones, Rival};
-use super::tones::choice::Given;
-use super::turns::branch_tracking::CrankAngles;
-use super::{FitKind, FitSize, InverseOptions};
-use crate::mechanism::Equation;
+use super::tones::choice::BesideTones;
+use super::{FitKind, InverseOptions};
 use crate::numeric::median::range;
 use crate::numeric::parallel;
 use crate::scene::{Measured, Measurement};
@@ -60,17 +57,17 @@ impl Fitted {
     /// # Errors
     /// The reason, in words: too few samples, or a degree given to a smoother.
     pub fn new(
-        measurement: &Measurement,
-        angles: &CrankAngles<'_>,
-        equation: &Equation,
+        given: Given<'_>,
         options: &InverseOptions,
         sources: &[Source],
     ) -> Result<Fitted, String> {
-        let record = samples::record(measurement, angles, &[]);
-        let degree = match options.size {
-            FitSize::Auto => None,
-            FitSize::Fixed(degree) => Some(degree),
-        };
+        let Given {
+            measurement,
+            angles,
+            ..
+        } = given;
+        let record = given.record(&[]);
+        let degree = options.degree;
         let polynomial = |reason: &str| {
             if record.sensor.is_of_speed() {
                 return Err(
@@ -99,10 +96,10 @@ impl Fitted {
             }
             _ => {}
         }
-        let may_be_simple = options.fit == FitKind::Auto
-            && record.beside.is_empty()
-            && !record.sensor.is_of_speed();
-        let mut simple = (may_be_simple && is_within_a_turn(&angles.theta))
+        let (least, most) = range(&angles.theta);
+        let may_be_simple =
+            options.fit == FitKind::Auto && record.beside.is_empty() && most - least <= TAU;
+        let mut simple = may_be_simple
             .then(|| polynomial("within one turn it leaves nothing but noise").ok())
             .flatten();
         // What a polynomial leaves is motion or noise: the smoother compares both.
@@ -114,14 +111,7 @@ impl Fitted {
         if let Some((exact, _)) = simple.take_if(is_exact) {
             return Ok(exact);
         }
-        let given = Given {
-            measurement,
-            angles,
-            equation,
-            stop: options.stop.as_ref(),
-            suspected,
-        };
-        let mut found = given.likeliest();
+        let mut found = given.likeliest(suspected);
         let rival = found.take_rival(measurement.elapsed());
         let BesideTones {
             problem,
@@ -145,35 +135,30 @@ impl Fitted {
             moved: parallel::map(sources.iter(), |source| {
                 source.smoothed(&problem, &smoothed, measurement)
             }),
-            ..Fitted::of_smoother(measurement, angles, &problem, &smoothed)
+            ..Fitted::of_smoother(given, &problem, &smoothed)
         };
         Ok(match rival {
-            Some(Rival { motion, log_odds }) => fitted.beside(motion, log_odds),
+            Some((motion, log_odds)) => fitted.beside(motion, log_odds),
             None => fitted,
         })
     }
 
-    fn of_smoother(
-        measurement: &Measurement,
-        angles: &CrankAngles<'_>,
-        problem: &Problem<'_>,
-        smoothed: &Smoothed,
-    ) -> Fitted {
+    fn of_smoother(given: Given<'_>, problem: &Problem<'_>, smoothed: &Smoothed) -> Fitted {
         let record = &problem.record;
-        let samples = samples::record(measurement, angles, &record.tones);
-        let motion = problem.motion_at(smoothed, measurement.elapsed());
+        let samples = given.record(&record.tones);
+        let motion = problem.motion_at(smoothed, given.measurement.elapsed());
         let (prior, sigma) = (smoothed.prior, smoothed.noise.sigma);
         let parameters = problem.parameters(smoothed, &motion);
         let innovations = smoothed.estimates.iter().map(|e| e.innovation);
         let beside = (record.beside.iter().map(|other| other.summary(&motion))).collect();
         let whiteness = Some(Whiteness::of(innovations));
-        let mut fitted = Fitted::of_motion(measurement, &samples, motion, whiteness);
+        let mut fitted = Fitted::of_motion(given.measurement, &samples, motion, whiteness);
         let size = |row: &usize| fitted.residuals[*row].residual.abs();
         let outliers: Vec<usize> = problem.single().outliers().collect();
         fitted.farthest_outlier =
             (outliers.iter().copied()).max_by(|a, b| size(a).total_cmp(&size(b)));
         fitted.held = (outliers.iter().copied()).find(|row| samples.repeated[*row]);
-        let spans = problem.intensities.0.iter();
+        let spans = problem.intensities.iter();
         let mut with_equation = (smoothed.compared.iter())
             .filter(|candidate| candidate.prior.unknown != Unknown::Acceleration)
             .peekable();
@@ -214,18 +199,14 @@ impl Fitted {
         polynomial: &Polynomial,
         reason: &str,
     ) -> Fitted {
-        let Polynomial {
-            fit,
-            motion,
-            converged,
-        } = polynomial;
-        let mut fitted = Fitted::of_motion(measurement, record, motion.clone(), None);
+        let (fit, motion) = (&polynomial.fit, polynomial.motion.clone());
+        let mut fitted = Fitted::of_motion(measurement, record, motion, None);
         let finite = |value: &f64| value.is_finite().then_some(*value);
         let parameters = fit.degree() as f64 + 1.0;
         fitted.free = (fitted.residuals.len() as f64 - parameters).max(1.0);
         // Rounding errors have patterns of their own.
         fitted.patterned &= fitted.summary.rms > record.floor;
-        fitted.converged = *converged;
+        fitted.converged = polynomial.converged;
         fitted.summary = FitSummary {
             kind: "polynomial",
             reason: reason.to_owned(),
@@ -290,10 +271,4 @@ impl Fitted {
             ..Fitted::default()
         }
     }
-}
-
-/// True if crank angles, rad, lie within one turn: a polynomial may serve.
-fn is_within_a_turn(theta: &[f64]) -> bool {
-    let (least, most) = range(theta);
-    most - least <= TAU
 }

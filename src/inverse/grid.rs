@@ -129,21 +129,8 @@ impl Grid {
 
     /// The node before a time that has a node after it, or the one of the end beyond which the time is.
     pub fn before(&self, t: f64) -> usize {
-        let (times, last) = (&self.times, self.times.len() - 1);
-        // Nodes are nearly evenly spaced: the search widens about the node at the same part of the record.
-        let part = (t - times[0]) / (times[last] - times[0]);
-        let near = ((part * last as f64) as usize).min(last);
-        let (mut low, mut high, mut width) = (near, near + 1, 1);
-        while low > 0 && times[low] > t {
-            low = low.saturating_sub(width);
-            width *= 2;
-        }
-        while high <= last && times[high] <= t {
-            high = (high + width).min(last + 1);
-            width *= 2;
-        }
-        let before = low + times[low..high].partition_point(|time| *time <= t);
-        before.clamp(1, last) - 1
+        let before = self.times.partition_point(|time| *time <= t);
+        before.clamp(1, self.times.len() - 1) - 1
     }
 
     pub fn len(&self) -> usize {

@@ -52,7 +52,8 @@ pub(super) fn keeps_clear(
         for (theta, more) in turn.into_iter().chain([(state.value[0], 0.0)]) {
             let pose = linkage.pose(theta);
             let within = WITHIN * error + more;
-            let far = pose.cos_phi > NEAR_LIMIT || !shown && distance(&limits, theta) > within;
+            let is_apart = |limit: &f64| circular_distance(theta, *limit) > within;
+            let far = pose.cos_phi > NEAR_LIMIT || !shown && limits.iter().all(is_apart);
             if passed || !pose.is_regular() || !far {
                 return Err(refusal(linkage, measurement, sample, theta, error));
             }
@@ -84,12 +85,6 @@ pub(super) fn refusal(
 /// Returns the limit angle in the turn nearest to a crank angle, rad.
 fn nearest(limit: f64, theta: f64) -> f64 {
     limit + ((theta - limit) / TAU).round() * TAU
-}
-
-/// Returns the distance from a crank angle to the nearest limit, rad.
-fn distance(limits: &[f64], theta: f64) -> f64 {
-    let from = limits.iter().map(|limit| circular_distance(theta, *limit));
-    from.fold(f64::INFINITY, f64::min)
 }
 
 /// True if a limit lies between the crank angles of two states.

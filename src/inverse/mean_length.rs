@@ -10,24 +10,19 @@ use super::smoother::Smoothed;
 /// Largest product of the time of a mean and the corner frequency of a smoother, rad: motion in that time is then below the noise.
 const PHASE: f64 = 0.3;
 
-/// What was found by means of up to so many samples.
-pub(super) struct ByMeans<T> {
-    pub found: T,
-    pub most: usize,
-}
-
-/// Finds something by means of samples: by shorter ones until it allows those that it was found by.
+/// Finds something by means of samples: by shorter ones until it allows those that it was found by. Returns it with the most samples
+/// of these means.
 pub(super) fn by_means<T>(
     samples: usize,
     of: impl Fn(usize) -> T,
     finer: impl Fn(&T) -> Option<usize>,
-) -> ByMeans<T> {
+) -> (T, usize) {
     let mut most = samples.div_ceil(MOST_NODES);
     loop {
         let found = of(most);
         match finer(&found) {
             Some(shorter) => most = shorter,
-            None => return ByMeans { found, most },
+            None => return (found, most),
         }
     }
 }

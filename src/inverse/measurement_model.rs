@@ -74,32 +74,25 @@ impl<'a> Sensor<'a> {
 
     /// Returns the reading of a turning crank.
     pub fn shown(&self, [theta, omega]: Turning) -> Shown {
-        let itself = |value: f64| Shown {
-            value,
-            slope: 1.0,
-            curvature: 0.0,
-        };
-        match self.measured {
-            Measured::Theta => itself(theta),
-            Measured::Omega => itself(omega),
+        let (value, slope, curvature) = match self.measured {
+            Measured::Theta => (theta, 1.0, 0.0),
+            Measured::Omega => (omega, 1.0, 0.0),
             Measured::X => {
                 let pose = self.linkage.pose(theta);
                 let Scale { shift, stretch } = self.scale;
-                Shown {
-                    value: shift + stretch * pose.x,
-                    slope: stretch * pose.dx,
-                    curvature: stretch * pose.d2x,
-                }
+                let value = shift + stretch * pose.x;
+                (value, stretch * pose.dx, stretch * pose.d2x)
             }
             Measured::Gamma => {
                 let pose = self.linkage.pose(theta);
                 let (value, slope) = self.linkage.crank_pin_angle(theta, &pose);
-                Shown {
-                    value,
-                    slope,
-                    curvature: -self.linkage.s * pose.d2phi,
-                }
+                (value, slope, -self.linkage.s * pose.d2phi)
             }
+        };
+        Shown {
+            value,
+            slope,
+            curvature,
         }
     }
 

@@ -74,7 +74,7 @@ mod weighed;
 
 pub use as_printed::AsPrinted;
 pub use mean_cycle::{CycleMean, MeanRow};
-pub use options::{FitKind, FitSize, InverseOptions};
+pub use options::{FitKind, InverseOptions};
 pub use result::bands::{BandRule, DeadCentreBand};
 pub use result::shared_errors::BudgetShare;
 pub use result::summary::{
@@ -175,9 +175,15 @@ fn recovered(
     let stop = options.stop.as_ref();
     let angles =
         turns::branch_choice::crank_angles(&sensor, measurement, &equation, &scene.motion, stop)?;
-    let zero = samples::codes(measurement, &angles).and_then(|codes| codes.zero_error());
+    let given = samples::Given {
+        measurement,
+        angles: &angles,
+        equation: &equation,
+        stop,
+    };
+    let zero = given.codes().and_then(|codes| codes.zero_error());
     let sources = result::shared_errors::sources(scene, uncertain, measurement, zero)?;
-    let fitted = Fitted::new(measurement, &angles, &equation, options, &sources)
+    let fitted = Fitted::new(given, options, &sources)
         .map_err(|what| Error::refused(what, "give more samples, or another --fit or --degree"))?;
     if stop.is_some_and(Stop::is_requested) {
         return Err(Error::Interrupted);

@@ -5,11 +5,11 @@ use super::maximum::{ENOUGH_RISE, FIRST_STEP, better, climb};
 use super::scales::Noise;
 use crate::numeric::parallel;
 
-/// A frequency of a noise, rad/s; none if the noise is without it.
-type Frequency = fn(&mut Noise) -> Option<&mut f64>;
+/// A frequency of a noise that has it, rad/s.
+type Frequency = fn(&mut Noise) -> &mut f64;
 
 /// The corner frequency.
-const CORNER: Frequency = |noise| Some(&mut noise.corner);
+const CORNER: Frequency = |noise| &mut noise.corner;
 
 impl Linear {
     /// Evaluates a noise that was the likeliest of another model, then maximises the likelihood over its corner frequency.
@@ -34,17 +34,13 @@ impl Linear {
         let at = |place: f64| {
             let mut noise = first;
             for (which, share) in line {
-                if let Some(frequency) = which(&mut noise) {
-                    *frequency *= (share * place).exp();
-                }
+                *which(&mut noise) *= (share * place).exp();
             }
             self.begun(noise)
         };
         let mut bounds = [f64::NEG_INFINITY, f64::INFINITY];
         for (which, share) in line.iter().filter(|(_, share)| *share != 0.0) {
-            let Some(frequency) = which(&mut first.clone()).map(|frequency| *frequency) else {
-                return first;
-            };
+            let frequency = *which(&mut first.clone());
             let ends = self
                 .scales
                 .corners()
@@ -70,11 +66,8 @@ impl Linear {
             noise = next;
             if let Some(before) = maxima[one].replace(noise).filter(|_| is_likelier) {
                 let line = which.map(|which| {
-                    let [from, to] = [before, noise].map(|mut noise| which(&mut noise).copied());
-                    (
-                        which,
-                        to.zip(from).map_or(0.0, |(to, from)| (to / from).ln()),
-                    )
+                    let [from, to] = [before, noise].map(|mut noise| *which(&mut noise));
+                    (which, (to / from).ln())
                 });
                 let next = better(noise, self.along(noise, &line, 1.0));
                 left = if rises(&next, &noise) { 2 } else { left };
@@ -111,7 +104,7 @@ impl Linear {
                 return self.with_corner(without);
             }
         }
-        let which: [Frequency; 2] = [|noise| Some(&mut noise.speed_corner), CORNER];
+        let which: [Frequency; 2] = [|noise| &mut noise.speed_corner, CORNER];
         if noise.speed_corner >= noise.corner {
             return self.in_turn(noise, which, 1);
         }
@@ -126,13 +119,12 @@ impl Linear {
         }
     }
 
-    /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best guess; none of them
-    /// is likelier where the noise is white.
-    pub fn correlated(&self, from: &Noise, guesses: &[f64]) -> Noise {
-        let tried = parallel::map(guesses.iter(), |guess| {
+    /// Maximises the likelihood over the corner frequency and the decay rate of the noise, from the best of 1/(0.2, 1 and 5 samples);
+    /// none of them is likelier where the noise is white.
+    pub fn correlated(&self, from: &Noise) -> Noise {
+        let tried = parallel::map([0.2, 1.0, 5.0].into_iter(), |steps| {
             self.evaluated(Noise {
-                correlated: Some(*guess),
-                likelihood: f64::NEG_INFINITY,
+                correlated: Some(1.0 / (steps * self.scales.spacing)),
                 ..*from
             })
         });
@@ -140,6 +132,7 @@ impl Linear {
         if best.likelihood < from.likelihood + ENOUGH_RISE {
             return *from;
         }
-        self.in_turn(best, [|noise| noise.correlated.as_mut(), CORNER], 2)
+        let decay: Frequency = |noise| noise.correlated.get_or_insert(f64::NAN);
+        self.in_turn(best, [decay, CORNER], 2)
     }
 }

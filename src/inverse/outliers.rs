@@ -1,8 +1,6 @@
 //! Weights against outliers: noise as a mixture of two normal distributions, the wider one with few samples (variance
 //! inflation; Box and Tiao, Biometrika 55 (1968) 119). A weight is the probability of the narrow one.
 
-use std::ops::Range;
-
 use super::estimate::Estimate;
 use super::model::prior::KINEMATIC;
 use super::problem::Problem;
@@ -27,21 +25,14 @@ pub(super) struct Judgement {
     pub few: bool,
 }
 
-/// Errors of the predictions of samples, each by all others.
-struct Errors {
-    /// Over their standard deviations; 0 for what is not judged, or within a step of its code.
-    standardised: Vec<f64>,
-    /// Their standard deviation, by the median.
-    scale: f64,
-}
-
-/// Returns the errors of samples from a smoothed motion, less what is `allowed` of a sample and its motion, rad or m; none if
-/// none is judged.
+/// Returns the errors of the predictions of samples, each by all others, over their standard deviations, and the standard deviation of
+/// these by their median; none if none is judged. What is `allowed` of a sample and its motion, rad or m, is taken off; 0 is what is
+/// not judged.
 fn errors(
     problem: &Problem<'_>,
     smoothed: &Smoothed,
     allowed: impl Fn(usize, &Estimate) -> f64,
-) -> Option<Errors> {
+) -> Option<(Vec<f64>, f64)> {
     let record = problem.single();
     let sigma = smoothed.noise.sigma;
     let full = record.full_weights();
@@ -71,20 +62,14 @@ fn errors(
     for (r, within) in standardised.iter_mut().zip(within) {
         *r -= r.clamp(-within, within);
     }
-    Some(Errors {
-        standardised,
-        scale,
-    })
+    Some((standardised, scale))
 }
 
 /// Judges the samples by a smoothed motion; none if all weights are and stay 1.
 pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Judgement> {
     let record = problem.single();
-    let Errors {
-        standardised,
-        scale,
-        // A value within a step of its code is not off.
-    } = errors(problem, smoothed, |_, _| record.step)?;
+    // A value within a step of its code is not off.
+    let (standardised, scale) = errors(problem, smoothed, |_, _| record.step)?;
     let full = record.full_weights();
     let told = standardised
         .iter()
@@ -117,22 +102,16 @@ pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Judgem
     };
     let mut weights: Vec<f64> = standardised.iter().map(weight).collect();
     // Samples of a sensor that holds are one.
-    let is_held = |i: &usize| record.intervals.is_empty() && record.repeated[*i];
-    for run in runs(weights.len(), is_held) {
-        if run.len() > 1 && weights[run.clone()].iter().any(|weight| *weight < 0.5) {
-            weights[run].fill(0.0);
+    let all = Vec::from_iter(0..weights.len());
+    let is_held = |_: &usize, i: &usize| record.intervals.is_empty() && record.repeated[*i];
+    for run in all.chunk_by(is_held) {
+        if run.len() > 1 && run.iter().any(|i| weights[*i] < 0.5) {
+            run.iter().for_each(|i| weights[*i] = 0.0);
         }
     }
     let pairs = weights.iter_mut().zip(full);
     pairs.for_each(|(weight, full)| *weight *= full);
     Some(Judgement { weights, few })
-}
-
-/// Returns the runs of a number of samples, each with those after its first one that are held.
-fn runs(count: usize, is_held: impl Fn(&usize) -> bool) -> Vec<Range<usize>> {
-    let mut first: Vec<usize> = (0..count).filter(|i| !is_held(i)).collect();
-    first.push(count);
-    first.windows(2).map(|w| w[0]..w[1]).collect()
 }
 
 impl Problem<'_> {
@@ -166,10 +145,8 @@ impl Problem<'_> {
             let slope = record.sensor.shown(estimate.turning()).slope;
             2.0 * record.step + 0.5 * (slope * estimate.alpha).abs() * beside * beside
         };
-        let holds = errors(self, &through, from_rest).is_some_and(|errors| {
-            let sizes = judged
-                .iter()
-                .map(|i| errors.standardised[*i] / errors.scale);
+        let holds = errors(self, &through, from_rest).is_some_and(|(standardised, scale)| {
+            let sizes = judged.iter().map(|i| standardised[*i] / scale);
             let squares: f64 = sizes.map(|size| size * size).sum();
             through.converged && deviate(squares, judged.len()) > FAR
         });
@@ -183,19 +160,15 @@ impl Problem<'_> {
         self.weigh(self.single().full_weights(), about);
     }
 
-    /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights.
+    /// Weighs the samples, and forms their means anew about a smoothed motion; true if that changes weights by 0.1.
     pub fn weigh(&mut self, weights: Vec<f64>, about: &Smoothed) -> bool {
         let weighed = self.single_mut();
-        let is_alike = alike(&weighed.weights, &weights);
+        let mut pairs = weighed.weights.iter().zip(&weights);
+        let is_alike = pairs.all(|(before, now)| (before - now).abs() < 0.1);
         weighed.weights = weights;
         if let Some(condensed) = &self.condensed {
             self.record = condensed.about(&about.course(&self.grid));
         }
         !is_alike
     }
-}
-
-/// True if two lists of weights differ by less than 0.1.
-fn alike(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 0.1)
 }

@@ -33,21 +33,21 @@ impl Polynomial {
         degree: Option<usize>,
     ) -> Result<Polynomial, String> {
         let mut theta = first.to_vec();
-        let given = degree;
-        let mut degree = degree;
-        for iteration in 0..ITERATIONS {
-            let lines = parallel::list(theta.len(), |i| {
+        let mut chosen = degree;
+        let mut iteration = 0;
+        loop {
+            iteration += 1;
+            let (target, weight) = parallel::pairs(theta.len(), |i| {
                 let (residual, shown) = record.sensor.residual(record.values[i], [theta[i], 0.0]);
                 (residual + shown.slope * theta[i], shown.slope)
             });
-            let (target, weight): (Vec<f64>, Vec<f64>) = lines.into_iter().unzip();
             let equations = Equations {
                 t: &record.times,
                 target: &target,
                 weight: (!record.is_linear()).then_some(&weight),
                 floor: record.floor,
             };
-            let fit = PolynomialFit::among(&equations, degree, given).map_err(|few| {
+            let fit = PolynomialFit::among(&equations, chosen, degree).map_err(|few| {
                 let (found, needed) = (few.found, few.needed);
                 format!("{found} samples are too few for a polynomial: it needs {needed}")
             })?;
@@ -64,18 +64,17 @@ impl Polynomial {
                 most.max((state.value[0] - theta).abs())
             });
             let converged = record.is_linear() || change < ANGLE_AT_REST;
-            if converged || iteration + 1 == ITERATIONS || !change.is_finite() {
+            if converged || iteration == ITERATIONS || !change.is_finite() {
                 return Ok(Polynomial {
                     fit,
                     motion,
                     converged,
                 });
             }
-            if iteration + 1 >= CHOICES {
-                degree = Some(fit.degree());
+            if iteration >= CHOICES {
+                chosen = Some(fit.degree());
             }
             theta = motion.iter().map(|state| state.value[0]).collect();
         }
-        unreachable!("the last iteration returns")
     }
 }

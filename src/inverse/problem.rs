@@ -5,7 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use super::condensed::Condensed;
 use super::estimate::Estimate;
 use super::grid::{Course, Grid, Path};
-use super::intensity::span::Intensities;
+use super::intensity::{Span, factor_at};
 use super::likelihood::Linear;
 use super::measurement_model::Scale;
 use super::model::harmonics::{Increments, ways};
@@ -33,8 +33,8 @@ pub(super) struct Problem<'a> {
     /// Whether the samples, if not codes, were computed.
     pub computed: bool,
     pub equation: &'a Equation,
-    /// Intensity factors of the process noise along the record.
-    pub intensities: Intensities,
+    /// Stretches with another intensity of the process noise.
+    pub intensities: Vec<Span>,
     /// Request to stop; results are invalid then.
     pub stop: Option<&'a Stop>,
 }
@@ -159,8 +159,8 @@ impl<'a> Problem<'a> {
             let (begin, end) = (&nodes[k], &nodes[k + 1]);
             motion.linearised(begin, end, torque)
         });
-        let intensities = times.windows(2);
-        let intensities = intensities.map(|ends| self.intensities.at(0.5 * (ends[0] + ends[1])));
+        let middles = times.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+        let intensities = middles.map(|t| factor_at(&self.intensities, t));
         let mut increments = Increments::default();
         if prior.cycle > 0 {
             increments = Increments::new(ways(states, &steps, path.speed()), prior);
@@ -177,11 +177,10 @@ impl<'a> Problem<'a> {
         let observed = parallel::list(range.len(), |k| {
             self.record.observed(&course, range.start + k, sigma)
         });
-        let mut constants = [0.0; 2];
-        let first = states.first().into_iter().flatten();
-        let known = first.skip(prior.diffuse()).take(prior.powers);
-        let pairs = constants.iter_mut().zip(known);
-        pairs.for_each(|(constant, known)| *constant = *known);
+        let constants = states.first().map_or([0.0; 2], |first| {
+            let known = |k| first[prior.diffuse() + k];
+            [0, 1].map(|k| if k < prior.powers { known(k) } else { 0.0 })
+        });
         // A part of the record does not tell a tone.
         let tones = match range.len() == self.grid.len() {
             true => self.regressors(&self.record.tones, prior, range.clone(), states),
@@ -216,19 +215,12 @@ impl<'a> Problem<'a> {
         std::iter::once(0..self.grid.len()).collect()
     }
 
-    /// Stretches of the linear model for the estimate of hyper-parameters.
-    pub fn stretches(&self, prior: Prior, path: &Path, sigma: f64) -> Vec<Stretch> {
-        if self.is_stopped() {
-            return Vec::new();
-        }
-        let of = |range| self.stretch(prior, path, range, sigma);
-        parallel::map(self.sampled().into_iter(), of)
-    }
-
     /// The linear model of a prior about a path, along the stretches for the estimate of hyper-parameters.
     pub fn linear(&self, prior: Prior, scales: Scales, path: &Path, sigma: f64) -> Linear {
+        let ranges = self.sampled().into_iter().filter(|_| !self.is_stopped());
+        let of = |range| self.stretch(prior, path, range, sigma);
         Linear {
-            stretches: self.stretches(prior, path, sigma).into(),
+            stretches: parallel::map(ranges, of).into(),
             ..Linear::of(prior, scales)
         }
     }

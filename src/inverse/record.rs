@@ -62,7 +62,7 @@ pub(super) struct SensorBeside<'a> {
     pub mean: f64,
 }
 
-impl Record<'_> {
+impl<'a> Record<'a> {
     /// Leaves out all but a range of samples.
     pub fn keep(&mut self, range: Range<usize>) {
         self.times = self.times[range.clone()].to_vec().into();
@@ -79,33 +79,28 @@ impl Record<'_> {
     }
 
     /// Returns the samples less their codes for another linkage and scale of the sensor, shifted by a zero, rad.
-    pub fn moved<'b>(&'b self, linkage: &'b Linkage, scale: Scale, zero: f64) -> Record<'b> {
-        let beside = self.beside.iter().map(|other| SensorBeside {
-            sensor: Sensor {
-                linkage,
-                ..other.sensor
-            },
-            values: other.values.as_ref().into(),
-            ..*other
-        });
-        Record {
-            sensor: Sensor {
-                linkage,
-                scale,
-                ..self.sensor
-            },
-            times: self.times.as_ref().into(),
-            values: self.values.iter().map(|value| value + zero).collect(),
-            tones: self.tones.clone(),
-            weights: self.weights.clone(),
-            repeated: self.repeated.clone(),
-            spreads: self.spreads.clone(),
+    pub fn moved<'b>(&self, linkage: &'b Linkage, scale: Scale, zero: f64) -> Record<'b>
+    where
+        'a: 'b,
+    {
+        let mut moved: Record<'b> = Record {
             codes: None,
             intervals: Vec::new(),
             shown: Vec::new(),
-            beside: beside.collect(),
-            ..*self
+            ..self.clone()
+        };
+        moved.sensor = Sensor {
+            linkage,
+            scale,
+            ..self.sensor
+        };
+        for value in &mut moved.values {
+            *value += zero;
         }
+        for other in &mut moved.beside {
+            other.sensor.linkage = linkage;
+        }
+        moved
     }
 
     /// Returns this record with the intervals of its codes in the place of the samples.
@@ -244,17 +239,11 @@ impl Record<'_> {
     pub fn take_middles(&mut self, codes: Codes) {
         self.codes = None;
         for (i, interval) in std::mem::take(&mut self.intervals).iter().enumerate() {
-            let counts = interval.middle.is_finite();
-            self.values[i] = if counts {
-                interval.middle
-            } else {
-                self.values[i]
-            };
-            self.weights[i] = if counts {
-                (codes.step / interval.width).powi(2)
-            } else {
-                0.0
-            };
+            self.weights[i] = 0.0;
+            if interval.middle.is_finite() {
+                self.values[i] = interval.middle;
+                self.weights[i] = (codes.step / interval.width).powi(2);
+            }
         }
     }
 }

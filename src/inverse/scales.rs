@@ -106,11 +106,6 @@ impl Scales {
         [0.1 / self.duration, 30.0 / self.spacing]
     }
 
-    /// Returns first decay rates of a correlation, 1/s: over 0.2, 1 and 5 samples.
-    pub fn decays(&self) -> [f64; 3] {
-        [0.2, 1.0, 5.0].map(|steps| 1.0 / (steps * self.spacing))
-    }
-
     /// Returns the spectral density of the process noise over σ², by corner frequency (rad/s) and order.
     pub fn density(&self, corner: f64, order: usize) -> f64 {
         let integrations = i32::try_from(2 * (order + 2)).unwrap_or(10);

@@ -22,21 +22,18 @@ impl Problem<'_> {
             return smoothed;
         }
         for _ in 0..SENSOR_ROUNDS {
-            let noises: Vec<[f64; 2]> = (0..self.record.beside.len())
-                .map(|k| self.noise_beside(k, &smoothed))
-                .collect();
-            for (other, [sigma, mean]) in self.record.beside.iter_mut().zip(noises) {
-                (other.sigma, other.mean) = (sigma, mean);
+            let mut beside = self.record.beside.clone();
+            for other in &mut beside {
+                (other.sigma, other.mean) = self.noise_beside(other, &smoothed);
             }
-            let sigma = smoothed.noise.sigma;
-            smoothed = self.kinematic(smoothed.path(), sigma);
+            self.record.beside = beside;
+            smoothed = self.kinematic(smoothed.path(), smoothed.noise.sigma);
         }
         smoothed
     }
 
     /// Returns the standard deviation of a sensor's samples about a smoothed motion, and their mean residual, rad or m.
-    fn noise_beside(&self, which: usize, smoothed: &Smoothed) -> [f64; 2] {
-        let other = &self.record.beside[which];
+    fn noise_beside(&self, other: &SensorBeside<'_>, smoothed: &Smoothed) -> (f64, f64) {
         let (mut squares, mut sum, mut free, mut of_path, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
         let mut largest = 0.0f64;
         for (t, value) in self.record.times.iter().zip(other.values.iter()) {
@@ -57,7 +54,7 @@ impl Problem<'_> {
             false => (squares - of_path).max(LEAST_NOISE * squares) / f64::max(count, 1.0),
         };
         let least = 4.0 * f64::EPSILON * largest;
-        [variance.sqrt().max(least), sum / f64::max(count, 1.0)]
+        (variance.sqrt().max(least), sum / f64::max(count, 1.0))
     }
 }
 

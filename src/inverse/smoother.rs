@@ -123,38 +123,14 @@ impl Problem<'_> {
 
     /// The linear model of a smoothed motion about its own path, with all spectra of what repeats.
     pub fn about_itself(&self, smoothed: &Smoothed) -> Linear {
-        let Candidate {
-            prior,
-            noise,
-            scales,
-        } = smoothed.candidate();
-        let linear = self.linear(prior, scales, &smoothed.path(), noise.sigma);
-        linear.with_all_spectra(&noise)
-    }
-
-    /// The smoothed motion with the likeliest prior, from a first one.
-    pub fn likeliest(
-        &mut self,
-        kinematic: &Smoothed,
-        first: &Smoothed,
-        suspected: bool,
-    ) -> Smoothed {
-        let found = self.likeliest_from(first, suspected);
-        let path = self.path_of(found.prior, kinematic, self.all());
-        match self.finer(&found, kinematic) {
-            // Means of fewer samples come first.
-            Some(_) => found,
-            None => self.completed(found, path, true),
-        }
+        let Smoothed { prior, noise, .. } = smoothed;
+        let linear = self.linear(*prior, smoothed.scales, &smoothed.path(), noise.sigma);
+        linear.with_all_spectra(noise)
     }
 
     /// The smoothed motion with a prior, about paths that approach it.
     pub fn iterated(&self, candidate: &Candidate, mut path: Path) -> Smoothed {
-        let Candidate {
-            prior,
-            mut noise,
-            scales,
-        } = *candidate;
+        let (prior, mut noise) = (candidate.prior, candidate.noise);
         let mut result = Smoothed {
             converged: false,
             ..candidate.unsmoothed()
@@ -162,7 +138,7 @@ impl Problem<'_> {
         let mut is_at_rest = false;
         let mut correction = Correction::default();
         for iteration in 0..ITERATIONS {
-            let linear = self.linear(prior, scales, &path, noise.sigma);
+            let linear = self.linear(prior, candidate.scales, &path, noise.sigma);
             // The noise is estimated again about the second path, and about those at rest until its likelihood rests, too.
             if iteration == 1 || is_at_rest || iteration == 0 && prior.powers > 0 {
                 let mut known = noise;

@@ -1,6 +1,6 @@
 //! Least-squares polynomials compared with certified values and exactly known answers.
 
-use slider_crank::inverse::{FitSize, InverseOptions, inverse};
+use slider_crank::inverse::{InverseOptions, inverse};
 use slider_crank::numeric::polynomial_fit::{Equations, PolynomialFit, TooFewArguments};
 use slider_crank::scene::{Measured, Measurement, Scene};
 
@@ -175,9 +175,9 @@ fn default_options_come_near_to_the_true_degree() {
         });
         let motion = Measurement::new(Measured::Theta, t.clone(), theta.collect());
         let motion = motion.expect("a motion");
-        let error = |size: FitSize| {
+        let error = |degree: Option<usize>| {
             let options = InverseOptions {
-                size,
+                degree,
                 ..InverseOptions::default()
             };
             let rows = inverse(&scene, &motion, &options)
@@ -189,7 +189,7 @@ fn default_options_come_near_to_the_true_degree() {
             });
             squares.sum::<f64>().sqrt()
         };
-        near += u64::from(error(FitSize::Auto) < 1.2 * error(FitSize::Fixed(4)));
+        near += u64::from(error(None) < 1.2 * error(Some(4)));
     }
     assert!(10 * near >= 9 * RECORDS, "{near} of {RECORDS}");
 }

@@ -59,6 +59,12 @@ impl Tried {
         Tried { candidates, abouts }
     }
 
+    /// The linear model of a prior.
+    fn about(&self, prior: Prior) -> Option<&About> {
+        let mut abouts = self.abouts.iter();
+        abouts.find(|about| about.linear.prior.is_alike(prior))
+    }
+
     /// Returns ln of the likelihood of the likeliest prior.
     pub fn likelihood(&self) -> f64 {
         let best = self.candidates.first();
@@ -100,12 +106,6 @@ impl About {
     }
 }
 
-/// The linear model of a prior among some.
-fn about(abouts: &[About], prior: Prior) -> Option<&About> {
-    let mut abouts = abouts.iter();
-    abouts.find(|about| about.linear.prior.is_alike(prior))
-}
-
 impl Linear {
     /// The prior with its likeliest noise, from a first one; none where this is less likely than `least`.
     fn candidate(&self, first: Noise, least: f64) -> Option<Candidate> {
@@ -134,7 +134,7 @@ impl Linear {
     /// The prior with the likeliest correlation of the sample noise beside its likeliest white noise.
     fn with_correlation(&self, white: &Candidate) -> Candidate {
         Candidate {
-            noise: self.correlated(&white.noise, &self.scales.decays()),
+            noise: self.correlated(&white.noise),
             ..*white
         }
     }
@@ -192,7 +192,7 @@ impl Problem<'_> {
     pub fn correlated(&self, white: Tried, rotation: Rotation) -> Tried {
         let is_plain = |one: &&Candidate| one.prior.cycle == 0;
         let plain = parallel::map(white.candidates.iter().filter(is_plain), |one| {
-            let about = about(&white.abouts, one.prior);
+            let about = white.about(one.prior);
             about.map_or(*one, |about| about.of(one.prior).with_correlation(one))
         });
         self.with_repeating(Tried::new(plain, white.abouts), rotation, true)

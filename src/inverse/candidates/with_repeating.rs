@@ -9,7 +9,7 @@ use super::super::problem::Problem;
 use super::super::rotation::Rotation;
 use super::super::scales::Noise;
 use super::super::weighed::LEAST_LOG_ODDS;
-use super::{About, Candidate, Tried, about, likelier};
+use super::{Candidate, Tried, likelier};
 
 /// Harmonics of a turn at first; they are doubled as long as that makes the samples likelier.
 const FIRST_HARMONICS: usize = 12;
@@ -18,32 +18,25 @@ const FIRST_HARMONICS: usize = 12;
 struct Search<'a> {
     problem: &'a Problem<'a>,
     rotation: Rotation,
-    tried: &'a [Candidate],
-    abouts: &'a [About],
+    tried: &'a Tried,
     is_correlated: bool,
 }
 
 impl Problem<'_> {
     /// The priors beside those with a part that repeats, where that may count beside the same prior without.
-    pub fn with_repeating(&self, plain: Tried, rotation: Rotation, is_correlated: bool) -> Tried {
+    pub fn with_repeating(&self, tried: Tried, rotation: Rotation, is_correlated: bool) -> Tried {
         // What repeats is noise that comes down: of what was computed there is none.
         if self.is_computed() || rotation.passes < 2.0 {
-            return plain;
+            return tried;
         }
-        let Tried {
-            mut candidates,
-            abouts,
-        } = plain;
         let search = Search {
             problem: self,
             rotation,
-            tried: &candidates,
-            abouts: &abouts,
+            tried: &tried,
             is_correlated,
         };
         let found = search.run();
-        candidates.extend(found);
-        Tried::new(candidates, abouts)
+        Tried::new([tried.candidates, found].concat(), tried.abouts)
     }
 }
 
@@ -53,7 +46,7 @@ impl Search<'_> {
         let Some(plain) = self.plain() else {
             return Vec::new();
         };
-        let about = about(self.abouts, plain.prior);
+        let about = self.tried.about(plain.prior);
         let high = about.map(|about| about.standing_out(plain, FIRST_HARMONICS));
         let mut found = self.first(plain, high.unwrap_or_default());
         if plain.prior.powers == 0 {
@@ -76,7 +69,8 @@ impl Search<'_> {
     }
 
     fn of(&self, prior: Prior) -> Option<&Candidate> {
-        self.tried.iter().find(|one| one.prior == prior)
+        let mut candidates = self.tried.candidates.iter();
+        candidates.find(|one| one.prior == prior)
     }
 
     /// Returns the prior to begin with: a part that follows the speed is tried at once where the samples show it without what repeats.
@@ -143,7 +137,7 @@ impl Search<'_> {
             spectrum: before.spectrum,
             ..better(before, plain.noise)
         };
-        let linear = about(self.abouts, plain.prior)?.repeating(prior);
+        let linear = self.tried.about(plain.prior)?.repeating(prior);
         let mut next = linear.candidate(before, least)?;
         if self.is_correlated {
             next = linear.with_correlation(&next);

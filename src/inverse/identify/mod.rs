@@ -27,7 +27,7 @@ use super::measurement_model::{Scale, Sensor};
 use super::problem::Problem;
 use super::residual_tests::Whiteness;
 use super::result::warnings::alone;
-use super::samples::kinematic;
+use super::samples::Given;
 use super::scales::root_mean_square;
 use super::smoother::Smoothed;
 use super::turns::alignment;
@@ -96,9 +96,15 @@ fn identify_among(
         false => sensor,
     };
     let angles = crank_angles(&sensor, measurement, &equation, &scene.motion, None)?;
-    let of = |most| kinematic(measurement, &angles, &[], most, &equation, None);
+    let given = Given {
+        measurement,
+        angles: &angles,
+        equation: &equation,
+        stop: None,
+    };
+    let of = |most| given.kinematic(&[], most);
     let finer = |(problem, smooth): &(Problem<'_>, Smoothed)| problem.finer(smooth, smooth);
-    let (mut problem, mut smooth) = by_means(measurement.len(), of, finer).found;
+    let ((mut problem, mut smooth), _) = by_means(measurement.len(), of, finer);
     if let Some(codes) = problem.record.codes {
         problem.record.take_middles(codes);
     }
@@ -118,7 +124,7 @@ fn identify_among(
     let found = search.run();
     let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
     let mut warnings = measurement.notes().to_vec();
-    warnings.extend(angles.warnings);
+    warnings.extend(angles.warnings.clone());
     warnings.extend((at_rest > 0).then(|| {
         format!("the crank stands at the begin or the end of the record: {at_rest} samples are left out, as a dry load may hold it there with any torque")
     }));

@@ -123,7 +123,7 @@ impl<'a> Trials<'a> {
         }
         let model = self.model(&at.values, &at.path, at.noise.sigma)?;
         let white = model.anywhere(self.correlated);
-        let other = model.correlated(&white, &self.scales.decays());
+        let other = model.correlated(&white);
         let cost = (at.innovations.len() as f64).ln();
         Ok(other
             .correlated

@@ -15,8 +15,8 @@ use super::super::outliers;
 use super::super::problem::Problem;
 use super::super::rotation::Rotation;
 use super::super::smoother::Smoothed;
+use super::Span;
 use super::parted::Parted;
-use super::span::{Intensities, Span};
 use super::stretch_search::{Guess, Trial};
 
 /// Number of parameters of a stretch: begin, end, factor.
@@ -107,8 +107,8 @@ fn furthest(scores: &[Score], least: f64) -> Vec<Guess> {
 impl Problem<'_> {
     /// Finds the stretches in which the process noise under a prior has another intensity. With one in each passage of the crank as
     /// good as the last the samples would be likelier than a least value: what is in each passage repeats.
-    fn intensities_of(&self, found: &Smoothed, least: f64) -> Intensities {
-        let mut intensities = Intensities::default();
+    fn intensities_of(&self, found: &Smoothed, least: f64) -> Vec<Span> {
+        let mut intensities = Vec::new();
         let Smoothed { prior, scales, .. } = *found;
         let mut linear = self.linear(prior, scales, &found.path(), found.noise.sigma);
         linear.stretches = linear
@@ -118,7 +118,7 @@ impl Problem<'_> {
             .collect();
         let mut noise = found.noise;
         let passes = Rotation::of(found.angles()).passes;
-        while intensities.0.len() < self.record.counted() as usize / 10 {
+        while intensities.len() < self.record.counted() as usize / 10 {
             noise = linear.renewed(noise);
             let Some(stretch) = linear.stretches.first() else {
                 break;
@@ -131,7 +131,7 @@ impl Problem<'_> {
                 let trial = Trial { linear: &linear, stretch, noise, parted };
                 trial.likeliest(furthest(&list, promised))
             });
-            let left = passes - intensities.0.len() as f64;
+            let left = passes - intensities.len() as f64;
             let rises = |guess: &Guess| {
                 let rise = guess.likelihood - noise.likelihood - self.cost(PARAMETERS);
                 rise > 0.0 && noise.likelihood + rise * left.max(1.0) > least
@@ -142,7 +142,7 @@ impl Problem<'_> {
             let Range { start, end } = best.steps;
             let [from, to] = [start, end].map(|node| self.grid.times[node]);
             let factor = best.factor();
-            intensities.0.push(Span { from, to, factor });
+            intensities.push(Span { from, to, factor });
             linear.stretches = vec![best.taken(stretch)].into();
         }
         intensities
@@ -156,11 +156,11 @@ impl Problem<'_> {
         first: &Smoothed,
         suspected: bool,
     ) -> Smoothed {
-        let mut best = self.likeliest_of_all(kinematic, first, suspected);
+        let mut best = self.likeliest(kinematic, first, suspected);
         if self.judges_again(&best) {
             let plain = self.likeliest_plain(&best);
             let first = plain.as_ref().unwrap_or(first);
-            best = self.likeliest_of_all(kinematic, first, suspected);
+            best = self.likeliest(kinematic, first, suspected);
         }
         // Computed samples, noise below that of instruments and long records represented by stretches have no intensities: what
         // interpolates computed samples smoothly errs least.
@@ -178,9 +178,9 @@ impl Problem<'_> {
             };
             let before = std::mem::take(&mut self.intensities);
             self.intensities = self.intensities_of(&plain, least);
-            if !self.intensities.0.is_empty() {
-                let more = self.intensities.0.len() as f64 - before.0.len() as f64;
-                let next = self.likeliest_of_all(kinematic, &plain, suspected);
+            if !self.intensities.is_empty() {
+                let more = self.intensities.len() as f64 - before.len() as f64;
+                let next = self.likeliest(kinematic, &plain, suspected);
                 let rise =
                     next.noise.likelihood - best.noise.likelihood - more * self.cost(PARAMETERS);
                 if rise > ENOUGH_RISE {
@@ -204,19 +204,6 @@ impl Problem<'_> {
         let judged = outliers::judge(self, best);
         let judged = judged.filter(|judged| judged.few);
         judged.is_some_and(|judged| self.weigh(judged.weights, best))
-    }
-
-    /// The likeliest smoothed motion, from a first one.
-    fn likeliest_of_all(
-        &mut self,
-        kinematic: &Smoothed,
-        first: &Smoothed,
-        suspected: bool,
-    ) -> Smoothed {
-        match self.record.codes {
-            Some(codes) => self.likeliest_of_codes(codes, kinematic),
-            None => self.likeliest(kinematic, first, suspected),
-        }
     }
 }
 

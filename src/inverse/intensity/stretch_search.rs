@@ -83,14 +83,16 @@ impl<const N: usize> Trial<'_, N> {
 
     /// Returns a guess with its likeliest factor, whose ln is found to about twice `WIDTH`.
     fn with_factor(&self, guess: Guess) -> Guess {
-        let at = |log: f64| Guess {
+        let at = |log: f64| {
+            let guess = guess.clone();
+            self.evaluated(Guess { log, ..guess }).likelihood
+        };
+        let (log, likelihood) = largest_to(at, [0.0, LARGEST], WIDTH);
+        let found = Guess {
             log,
+            likelihood,
             ..guess.clone()
         };
-        let value = |log: f64| self.evaluated(at(log)).likelihood;
-        let (log, likelihood) = largest_to(value, [0.0, LARGEST], WIDTH);
-        let mut found = at(log);
-        found.likelihood = likelihood;
         likelier(guess, found)
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::candidates::Candidate;
-use super::super::intensity::span::Span;
+use super::super::intensity::Span;
 use super::super::model::tone::Tone;
 use super::summary::{CandidateSummary, IntensitySummary, ToneSummary};
 

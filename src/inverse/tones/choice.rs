@@ -2,40 +2,71 @@
 //! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
 //! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
 
-use super::super::mean_length::{ByMeans, by_means};
+use super::super::mean_length::by_means;
 use super::super::model::prior::Prior;
 use super::super::model::tone::{Carrier, Tone};
-use super::super::samples;
+use super::super::motion_estimate::MotionEstimate;
+use super::super::problem::Problem;
+use super::super::samples::Given;
+use super::super::selection;
 use super::super::smoother::Smoothed;
-use super::super::turns::branch_tracking::CrankAngles;
-use super::beside::{BesideTones, Less};
 use super::search::Corrected;
-use crate::mechanism::Equation;
 use crate::numeric::parallel;
-use crate::numeric::stop::Stop;
-use crate::scene::Measurement;
+use crate::numeric::student;
 
-/// What a motion is estimated from.
-#[derive(Clone, Copy)]
-pub(in crate::inverse) struct Given<'a, 'b> {
-    pub measurement: &'a Measurement,
-    pub angles: &'b CrankAngles<'a>,
-    pub equation: &'a Equation,
-    pub stop: Option<&'a Stop>,
-    /// Whether the noise may be correlated.
-    pub suspected: bool,
+/// A record beside its tones, with its motion without mechanics and the likeliest one.
+pub(in crate::inverse) struct BesideTones<'a> {
+    pub problem: Problem<'a>,
+    pub kinematic: Smoothed,
+    pub smoothed: Smoothed,
+    /// The likeliest motion if a tone is of the other carrier: that of the tone with the least odds.
+    pub rival: Option<Less<'a>>,
 }
 
-impl<'a> Given<'a, '_> {
-    /// The likeliest motion, beside the tones that gain what they cost.
-    pub fn likeliest(&self) -> BesideTones<'a> {
+/// A less probable motion.
+pub(in crate::inverse) struct Less<'a> {
+    pub motion: Box<BesideTones<'a>>,
+    /// ln of the odds of the likelier one to it.
+    pub log_odds: f64,
+}
+
+impl BesideTones<'_> {
+    pub fn likelihood(&self) -> f64 {
+        self.smoothed.noise.likelihood
+    }
+
+    /// Returns ln of its probability up to a constant: a tone of the sensor has the scale of the noise, one of the torque that of
+    /// the torque of the motion.
+    pub fn log_probability(&self) -> f64 {
+        let prior = |tone: &Tone| match tone.carrier {
+            Carrier::Sensor => tone.log_prior(self.smoothed.noise.sigma),
+            Carrier::Torque => tone.log_prior(self.problem.accelerating_torque(&self.smoothed)),
+        };
+        let last = self.problem.record.tones.last();
+        // A motion that is not finite has none.
+        f64::NEG_INFINITY.max(self.likelihood() + last.map_or(0.0, prior))
+    }
+
+    /// Takes the motion of the rival at times, s, if this one alone has less than 95 % of the probability, with ln of the odds to it,
+    /// at most those of a motion at the end of a 95 % band: a band of both reaches it.
+    pub fn take_rival(&mut self, times: &[f64]) -> Option<(Vec<MotionEstimate>, f64)> {
+        let Less { motion, log_odds } = self.rival.take()?;
+        selection::counts(log_odds).then(|| {
+            let smoothed = motion.problem.averaged(motion.smoothed);
+            let reach = student::half_band(f64::INFINITY);
+            let log_odds = log_odds.min((reach * reach - 1.0).ln());
+            (motion.problem.motion_at(&smoothed, times), log_odds)
+        })
+    }
+}
+
+impl<'a> Given<'a> {
+    /// The likeliest motion, beside the tones that gain what they cost; the noise is `suspected` to be correlated or not.
+    pub fn likeliest(&self, suspected: bool) -> BesideTones<'a> {
         let finer =
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
-        let of = |most| self.beside(&[], most, None);
-        let ByMeans {
-            found: mut best,
-            most,
-        } = by_means(self.measurement.len(), of, finer);
+        let of = |most| self.beside(&[], most, None, suspected);
+        let (mut best, most) = by_means(self.measurement.len(), of, finer);
         // A bound of the work, for a record of many lines.
         while best.problem.record.tones.len() < 4 {
             let known = &best.problem.record.tones;
@@ -45,7 +76,7 @@ impl<'a> Given<'a, '_> {
             let near = &best.smoothed;
             let with = |tone| {
                 let tones = known.iter().copied().chain([tone]).collect();
-                self.refined(tones, most, near)
+                self.refined(tones, most, near, suspected)
             };
             let mut tried = parallel::map(more.into_iter(), with);
             tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
@@ -70,8 +101,14 @@ impl<'a> Given<'a, '_> {
     }
 
     /// The likeliest motion beside tones that are corrected about it until they come to rest.
-    fn refined(&self, tones: Vec<Tone>, most: usize, near: &Smoothed) -> BesideTones<'a> {
-        let mut found = self.beside(&tones, most, Some(near));
+    fn refined(
+        &self,
+        tones: Vec<Tone>,
+        most: usize,
+        near: &Smoothed,
+        suspected: bool,
+    ) -> BesideTones<'a> {
+        let mut found = self.beside(&tones, most, Some(near), suspected);
         let mut before: Vec<(Prior, f64)> = Vec::new();
         while let Some(Corrected { tones, square, .. }) =
             found.problem.corrected_tones(&found.smoothed)
@@ -85,22 +122,20 @@ impl<'a> Given<'a, '_> {
                 break;
             }
             before.push((prior, square));
-            found = self.beside(&tones, most, Some(&found.smoothed));
+            found = self.beside(&tones, most, Some(&found.smoothed), suspected);
         }
         found
     }
 
     /// The likeliest motion beside tones, by means of up to so many samples; it is near one beside others.
-    fn beside(&self, tones: &[Tone], most: usize, near: Option<&Smoothed>) -> BesideTones<'a> {
-        let Given {
-            measurement,
-            angles,
-            equation,
-            stop,
-            suspected,
-        } = *self;
-        let (mut problem, kinematic) =
-            samples::kinematic(measurement, angles, tones, most, equation, stop);
+    fn beside(
+        &self,
+        tones: &[Tone],
+        most: usize,
+        near: Option<&Smoothed>,
+        suspected: bool,
+    ) -> BesideTones<'a> {
+        let (mut problem, kinematic) = self.kinematic(tones, most);
         let near = near.filter(|near| near.estimates.len() == problem.grid.len());
         let near = near.map(|near| kinematic.along(near));
         let first = near.as_ref().unwrap_or(&kinematic);

@@ -5,10 +5,10 @@ use nalgebra::{Matrix3xX, Vector3};
 
 use super::super::model::fixed_interval;
 use super::super::model::state_space::with_dimension;
+use super::super::model::tone::Carrier;
 use super::super::problem::Problem;
-use super::super::scales::{Noise, root_mean_square};
+use super::super::scales::root_mean_square;
 use super::super::smoother::Smoothed;
-use super::search::BesideKnown;
 use super::sinusoid::Beside;
 use crate::numeric::parallel;
 
@@ -28,10 +28,11 @@ impl Problem<'_> {
             return smoothed;
         }
         let known = self.beside_known(&smoothed);
-        let BesideKnown {
+        let Beside {
+            path,
             linear,
             noise,
-            path,
+            ..
         } = &known;
         let Some(found) = linear.normal_equations(noise).tones(&[]) else {
             return smoothed;
@@ -40,10 +41,8 @@ impl Problem<'_> {
         let motion = self.motion(linear.prior);
         let waves = tones.iter().flat_map(|tone| (0..3).map(move |k| (tone, k)));
         let changes = parallel::map(waves, |(tone, k)| {
-            let beside = self.beside(&known, tone.carrier)?;
-            Some(beside.smoothed(noise, |t| tone.slopes(t)[k]))
+            known.smoothed(tone.carrier, |t| tone.slopes(t)[k])
         });
-        let changes = Vec::from_iter(changes.into_iter().flatten());
         for (node, estimate) in smoothed.estimates.iter_mut().enumerate() {
             let (t, state) = (self.grid.times[node], &path.states[node]);
             let rates = motion.rates_following(path.repeating.as_ref(), t, state);
@@ -65,10 +64,10 @@ impl Problem<'_> {
 }
 
 impl Beside<'_> {
-    /// The smoothed deviations of θ, ω and u that a wave alone makes at the nodes.
-    fn smoothed(&self, noise: &Noise, wave: impl Fn(f64) -> f64) -> Vec<Vector3<f64>> {
-        let stretch = self.with(0.0, wave);
-        let model = self.linear.deviations(&stretch, noise);
+    /// The smoothed deviations of θ, ω and u that a wave of a carrier alone makes at the nodes.
+    fn smoothed(&self, carrier: Carrier, wave: impl Fn(f64) -> f64) -> Vec<Vector3<f64>> {
+        let stretch = self.with(carrier, 0.0, wave);
+        let model = self.linear.deviations(&stretch, &self.noise);
         with_dimension!(model.dimension(), N => {
             let (path, _) = fixed_interval::smooth::<N>(&model, &mut ());
             let first = path.iter().map(|state| Vector3::from_column_slice(&state.mean[..3]));

@@ -1,6 +1,5 @@
 //! Tones in a record: the likeliest motion beside them, and its errors by theirs.
 
-pub(super) mod beside;
 pub(super) mod choice;
 mod effects;
 mod errors;

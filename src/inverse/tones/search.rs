@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::super::candidates::Candidate;
-use super::super::grid::{LONG, Path};
+use super::super::grid::LONG;
 use super::super::likelihood::Linear;
 use super::super::model::prior::{TORQUE, Unknown};
 use super::super::model::state_space::Stretch;
@@ -21,13 +20,6 @@ pub(in crate::inverse) struct Corrected {
     pub square: f64,
     /// ln of the determinant of their covariance.
     pub log_unit: f64,
-}
-
-/// A linear model of one stretch about a path, with its likeliest noise.
-pub(in crate::inverse) struct BesideKnown {
-    pub linear: Linear,
-    pub noise: Noise,
-    pub path: Path,
 }
 
 impl Problem<'_> {
@@ -49,13 +41,11 @@ impl Problem<'_> {
             return Vec::new();
         }
         let known = self.beside_known(smoothed);
-        let noise = known.noise;
-        let least = noise.likelihood + self.cost_of_tone();
+        let least = known.noise.likelihood + self.cost_of_tone();
         let at = |line: &Line| {
             let near = line.highest(&errors);
-            let of = |carrier| self.beside(&known, carrier)?.likeliest(near, noise);
             let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
-            let found = Vec::from_iter(carriers.filter_map(of));
+            let found = Vec::from_iter(carriers.filter_map(|one| known.likeliest(one, near)));
             let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
             gains.then(|| found.into_iter().map(|(tone, _)| tone).collect())
         };
@@ -71,18 +61,14 @@ impl Problem<'_> {
     /// them.
     pub fn corrected_tones(&self, smoothed: &Smoothed) -> Option<Corrected> {
         let tones = &self.record.tones;
-        let Candidate {
-            prior,
-            noise,
-            scales,
-        } = smoothed.candidate();
+        let Smoothed { prior, noise, .. } = *smoothed;
         if tones.is_empty() || tones.iter().any(|tone| !tone.is_beside(prior)) {
             return None;
         }
         let nodes = 0..self.grid.len();
         let linear = Linear {
             stretches: [self.stretch(prior, &smoothed.path(), nodes, noise.sigma)].into(),
-            ..Linear::of(prior, scales)
+            ..Linear::of(prior, smoothed.scales)
         };
         let noise = match self.sampled() == self.all() {
             true => noise,
@@ -92,19 +78,8 @@ impl Problem<'_> {
         linear.corrected(tones, &noise)
     }
 
-    /// The place of a tone beside a linear model of one stretch; none without.
-    pub fn beside<'b>(&'b self, known: &'b BesideKnown, carrier: Carrier) -> Option<Beside<'b>> {
-        Some(Beside {
-            linear: &known.linear,
-            path: &known.path,
-            stretch: known.linear.stretches.first()?.clone(),
-            problem: self,
-            carrier,
-        })
-    }
-
     /// The linear model of a torque about a smoothed motion, beside what repeats in it, and its likeliest noise.
-    pub fn beside_known(&self, smoothed: &Smoothed) -> BesideKnown {
+    pub fn beside_known(&self, smoothed: &Smoothed) -> Beside<'_> {
         let (prior, path) = match smoothed.prior.unknown {
             Unknown::Torque => (smoothed.prior.beside_known(), smoothed.path()),
             _ => (TORQUE, self.path_of(TORQUE, smoothed, self.all())),
@@ -114,15 +89,17 @@ impl Problem<'_> {
             ..smoothed.noise
         };
         let scales = self.scales(prior, &path, smoothed.scales.slope, first.sigma);
+        let stretch = self.stretch(prior, &path, 0..self.grid.len(), first.sigma);
         let linear = Linear {
-            stretches: [self.stretch(prior, &path, 0..self.grid.len(), first.sigma)].into(),
+            stretches: [stretch.clone()].into(),
             ..Linear::of(prior, scales)
         };
-        let noise = linear.with_corner(linear.begun(first));
-        BesideKnown {
-            linear,
-            noise,
+        Beside {
+            problem: self,
             path,
+            noise: linear.with_corner(linear.begun(first)),
+            linear,
+            stretch,
         }
     }
 }
@@ -130,8 +107,7 @@ impl Problem<'_> {
 impl Beside<'_> {
     /// Returns a tone with its unit, corrected by what a stretch without it leaves; none where the samples do not tell it.
     pub fn corrected(&self, without: &Stretch, tone: Tone, noise: &Noise) -> Option<Tone> {
-        let Linear { prior, .. } = *self.linear;
-        let states = &self.path.states;
+        let (prior, states) = (self.linear.prior, &self.path.states);
         let tones = (self.problem).regressors(&[tone], prior, 0..states.len(), states);
         let stretch = Stretch {
             tones: tones.into(),

@@ -15,20 +15,13 @@ use super::super::scales::Noise;
 use crate::numeric::gauss::LOBATTO;
 use crate::numeric::maximum;
 
-/// A linear model of one stretch with a tone beside it.
+/// A linear model of one stretch about a path, with its likeliest noise, for tones beside it.
 pub(in crate::inverse) struct Beside<'a> {
-    pub linear: &'a Linear,
-    pub path: &'a Path,
-    pub stretch: Stretch,
     pub problem: &'a Problem<'a>,
-    pub carrier: Carrier,
-}
-
-/// Amplitudes by least squares.
-struct Solved {
-    amplitudes: [f64; 2],
-    /// Fall of the sum of squares.
-    fall: f64,
+    pub path: Path,
+    pub linear: Linear,
+    pub stretch: Stretch,
+    pub noise: Noise,
 }
 
 impl Beside<'_> {
@@ -48,27 +41,27 @@ impl Beside<'_> {
 
     /// The likeliest tone next to a frequency, rad/s, with the likeliest noise of what is left: least squares and the noise in
     /// turn. None where the samples have no likelihood.
-    pub fn likeliest(&self, near: f64, mut noise: Noise) -> Option<(Tone, Noise)> {
+    pub fn likeliest(&self, carrier: Carrier, near: f64) -> Option<(Tone, Noise)> {
         let mut found = None;
-        noise.likelihood = f64::NEG_INFINITY;
+        let mut noise = Noise {
+            likelihood: f64::NEG_INFINITY,
+            ..self.noise
+        };
+        let resolved = self.linear.resolved_frequency();
         loop {
             let errors = self.errors(&self.stretch, &noise);
-            let of = |frequency| self.solved(frequency, &errors, &noise);
-            let range = [
-                near - self.linear.resolved_frequency(),
-                near + self.linear.resolved_frequency(),
-            ];
+            let of = |frequency| self.solved(carrier, frequency, &errors, &noise);
+            let range = [near - resolved, near + resolved];
             // As fine that the phase is off by 3e-4 rad at the ends of the record.
-            let width = 1e-4 * self.linear.resolved_frequency();
-            let (frequency, _) = maximum::largest_to(|one| of(one).fall, range, width);
+            let (frequency, _) = maximum::largest_to(|one| of(one).1, range, 1e-4 * resolved);
             let tone = Tone {
-                carrier: self.carrier,
+                carrier,
                 frequency,
-                amplitudes: of(frequency).amplitudes,
+                amplitudes: of(frequency).0,
                 log_unit: 0.0,
                 log_odds: None,
             };
-            let left = self.with(1.0, |t| -tone.at(t));
+            let left = self.with(carrier, 1.0, |t| -tone.at(t));
             let model = Linear {
                 stretches: std::iter::once(left.clone()).collect(),
                 ..self.linear.clone()
@@ -83,32 +76,34 @@ impl Beside<'_> {
         }
     }
 
-    /// Fits cosine and sine of a frequency, rad/s, to prediction errors.
-    fn solved(&self, frequency: f64, errors: &[f64], noise: &Noise) -> Solved {
+    /// Fits cosine and sine of a frequency, rad/s, to prediction errors; returns their amplitudes and the fall of the sum of squares.
+    fn solved(
+        &self,
+        carrier: Carrier,
+        frequency: f64,
+        errors: &[f64],
+        noise: &Noise,
+    ) -> ([f64; 2], f64) {
         let waves: [fn(f64) -> f64; 2] = [f64::cos, f64::sin];
-        let rows = waves.map(|wave| self.errors_of(noise, |t| wave(frequency * t)));
+        // The prediction errors that each alone makes.
+        let rows = waves.map(|wave| {
+            let alone = self.with(carrier, 0.0, |t| wave(frequency * t));
+            self.errors(&alone, noise)
+        });
         let information = Matrix2::from_fn(|i, j| dot(&rows[i], &rows[j]));
         let score = Vector2::from_fn(|i, _| dot(&rows[i], errors));
         let amplitudes = information.try_inverse().unwrap_or_default() * score;
-        Solved {
-            amplitudes: amplitudes.into(),
-            fall: amplitudes.dot(&score),
-        }
+        (amplitudes.into(), amplitudes.dot(&score))
     }
 
-    /// The prediction errors that a wave alone makes.
-    fn errors_of(&self, noise: &Noise, wave: impl Fn(f64) -> f64) -> Vec<f64> {
-        self.errors(&self.with(0.0, wave), noise)
-    }
-
-    /// The stretch with a part of its deviations, and those that a wave makes.
-    pub fn with(&self, part: f64, wave: impl Fn(f64) -> f64) -> Stretch {
+    /// The stretch with a part of its deviations, and those that a wave of a carrier makes.
+    pub fn with(&self, carrier: Carrier, part: f64, wave: impl Fn(f64) -> f64) -> Stretch {
         let mut steps = self.stretch.steps.to_vec();
         let mut observed = self.stretch.observed.to_vec();
         let Problem { grid, record, .. } = self.problem;
         for (step, t) in steps.iter_mut().zip(&grid.times) {
             step.defect = step.defect.map(|own| part * own);
-            if self.carrier == Carrier::Torque {
+            if carrier == Carrier::Torque {
                 let ends = LOBATTO.map(|part| wave(t + part * step.h));
                 let torques = [ends[0], ends[1], wave(t + step.h)].map(|one| one - wave(*t));
                 // What the model predicts is not in the deviations.
@@ -119,7 +114,7 @@ impl Beside<'_> {
         }
         for (observed, first) in observed.iter_mut().zip(&grid.first) {
             observed.residual *= part;
-            if self.carrier == Carrier::Sensor && *first < record.times.len() {
+            if carrier == Carrier::Sensor && *first < record.times.len() {
                 let [a, b] = record.times_of(*first).map(&wave);
                 observed.residual += 0.5 * (a + b);
             }

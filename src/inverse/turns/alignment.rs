@@ -141,16 +141,13 @@ fn turning_point(measurement: &Measurement, sense: f64, crank: f64) -> Option<[f
         .windows(3)
         .map(|w| sense * w[0].max(w[1]).min(w[0].min(w[1]).max(w[2])));
     let top = middles.fold(f64::NEG_INFINITY, f64::max);
-    let mut turns: Vec<[f64; 2]> = Vec::new();
-    let is_near = |value: f64| sense * value > top - WAY * crank;
-    let mut first = 0;
-    while first < values.len() {
-        let near = values[first..].iter().take_while(|v| is_near(**v)).count();
-        if near >= LEAST_SAMPLES {
-            turns.extend(vertex(measurement, first..first + near, sense));
-        }
-        first += near.max(1);
-    }
+    let is_near = |sample: &usize| sense * values[*sample] > top - WAY * crank;
+    let all = Vec::from_iter(0..values.len());
+    let about = all.chunk_by(|a, b| is_near(a) && is_near(b));
+    let about = about.filter(|samples| samples.len() >= LEAST_SAMPLES);
+    let turns: Vec<[f64; 2]> = about
+        .filter_map(|samples| vertex(measurement, samples[0]..samples[0] + samples.len(), sense))
+        .collect();
     let highest = turns.iter().copied();
     let [mut shown, mut error] =
         highest.max_by(|a, b| (sense * a[0]).total_cmp(&(sense * b[0])))?;

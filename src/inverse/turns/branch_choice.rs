@@ -56,7 +56,7 @@ pub(in crate::inverse) fn crank_angles<'a>(
     // A motion and its image are compared about the samples where they part and move, and so is each with the tracker's
     // likeliest: about the later part, for the other may be its image before.
     let first = &motions[0];
-    let pairs = parallel::map(motions.iter(), |one| {
+    let list = parallel::map(motions.iter(), |one| {
         let moves = departure(&one.angles).max(fork(&one.angles, &one.image));
         let own = windows.about(moves);
         let forks = [&one.angles, &one.image].map(|other| fork(&first.angles, other));
@@ -73,40 +73,40 @@ pub(in crate::inverse) fn crank_angles<'a>(
             _ => windows.judged(&[one], &own)[0],
         };
         let name = sensor.measured.name();
-        Pair::new(one.clone(), judged, likelihood, motion, name)
+        Taken::of(one.clone(), judged, likelihood, motion, name)
     });
-    best(pairs, measurement, motion)
+    best(list, measurement, motion)
 }
 
 /// Returns the likeliest of the motions with its warnings.
 fn best<'a>(
-    mut pairs: Vec<Pair<'a>>,
+    mut list: Vec<Taken<'a>>,
     measurement: &Measurement,
     motion: &Motion,
 ) -> Result<CrankAngles<'a>, Error> {
     let turned = |theta: &[f64]| (theta[theta.len() - 1] - theta[0]).abs();
-    let by_tracker = pairs.first().map(|first| turned(&first.taken.angles.theta));
-    pairs.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
-    let best = pairs.swap_remove(0);
-    let angles = best.taken.angles;
+    let by_tracker = list.first().map(|first| turned(&first.angles.theta));
+    list.sort_by(|a, b| b.likelihood.total_cmp(&a.likelihood));
+    let best = list.swap_remove(0);
+    let angles = best.angles;
     if let Some(sample) = best.leaves {
         let theta = angles.theta[sample.saturating_sub(1)];
+        let linkage = angles.sensor.linkage;
         return Err(limit::refusal(
-            angles.sensor.linkage,
+            linkage,
             measurement,
             sample,
             theta,
-            angles.sigma / angles.sensor.size(),
+            angles.error(),
         ));
     }
     let mut warnings = angles.warnings;
-    warnings.extend(best.doubt);
     let taken = turned(&angles.theta);
-    let likely = pairs
+    let likely = list
         .iter()
         .filter(|other| best.likelihood - other.likelihood < CERTAIN_LOG_ODDS);
     let other = likely
-        .map(|other| turned(&other.taken.angles.theta))
+        .map(|other| turned(&other.angles.theta))
         .chain(by_tracker)
         .find(|turned| (turned - taken).abs() > DISTINCT_ROTATION);
     if let Some(other) = other {
@@ -116,7 +116,7 @@ fn best<'a>(
             other / TAU
         ));
     }
-    if best.taken.judged.sense * motion.speed < 0.0 {
+    if best.sense * motion.speed < 0.0 {
         warnings.push("the crank turns against the sense of the scene's [motion] speed".to_owned());
     }
     let scale = angles.sensor.scale;
@@ -130,25 +130,17 @@ fn best<'a>(
     Ok(CrankAngles { warnings, ..angles })
 }
 
-/// Motion that the samples may stand for.
-#[derive(Debug)]
-struct Reading<'a> {
-    angles: CrankAngles<'a>,
-    judged: Judged,
-}
-
-impl Reading<'_> {
-    /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys), beside that of a sample.
-    fn of_angle(&self, motion: &Motion) -> f64 {
-        let CrankAngles { sensor, sigma, .. } = &self.angles;
-        let off = self.judged.begin - motion.angle;
+impl Judged {
+    /// Returns ln of the density of the scene's angle: 1/δ for an error δ of unknown size (Jeffreys), beside that of a sample, rad.
+    fn of_angle(&self, motion: &Motion, error: f64) -> f64 {
+        let off = self.begin - motion.angle;
         let off = (off - (off / TAU).round() * TAU).abs();
-        -(off + sigma / sensor.size()).ln()
+        -(off + error).ln()
     }
 
     /// Returns ln of the probability of the sense of the scene's speed.
     fn of_speed(&self, motion: &Motion) -> f64 {
-        if self.judged.sense * motion.speed < 0.0 {
+        if self.sense * motion.speed < 0.0 {
             -MOST_LOG_ODDS
         } else {
             0.0
@@ -156,60 +148,60 @@ impl Reading<'_> {
     }
 }
 
-/// Motion and its mirror image.
+/// Motion that is taken, of a motion and its mirror image.
 #[derive(Debug)]
-struct Pair<'a> {
-    taken: Reading<'a>,
-    /// Sample at which the taken motion leaves the branch of the scene.
+struct Taken<'a> {
+    angles: CrankAngles<'a>,
+    /// Sense of rotation (±1).
+    sense: f64,
+    /// Sample at which it leaves the branch of the scene.
     leaves: Option<usize>,
-    doubt: Option<String>,
     /// ln of the larger likelihood of the two motions, over that of the first pair.
     likelihood: f64,
 }
 
-impl<'a> Pair<'a> {
-    fn new(
-        Imaged {
-            angles,
-            image,
-            leaves,
-        }: Imaged<'a>,
-        judged: [Judged; 2],
+impl<'a> Taken<'a> {
+    fn of(
+        pair: Imaged<'a>,
+        [own, mirrored]: [Judged; 2],
         likelihood: f64,
         motion: &Motion,
         name: &str,
-    ) -> Pair<'a> {
-        let [reading, image] = [(angles, judged[0]), (image, judged[1])]
-            .map(|(angles, judged)| Reading { angles, judged });
+    ) -> Taken<'a> {
+        let Imaged {
+            angles,
+            image,
+            leaves,
+        } = pair;
         // The image of the first sample is on the other branch.
         if leaves == Some(0) {
-            return Pair {
-                taken: reading,
+            return Taken {
+                angles,
+                sense: own.sense,
                 leaves: None,
-                doubt: None,
                 likelihood,
             };
         }
+        let error = angles.error();
         let speaking = [
             (
-                reading.of_angle(motion) - image.of_angle(motion),
+                own.of_angle(motion, error) - mirrored.of_angle(motion, error),
                 "the scene's angle",
             ),
             (
-                reading.of_speed(motion) - image.of_speed(motion),
+                own.of_speed(motion) - mirrored.of_speed(motion),
                 "the sense of the scene's speed",
             ),
             (
-                (reading.judged.likelihood - image.judged.likelihood)
-                    .clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS),
+                (own.likelihood - mirrored.likelihood).clamp(-MOST_LOG_ODDS, MOST_LOG_ODDS),
                 "the likelihood of its forces",
             ),
         ];
         let odds: f64 = speaking.iter().map(|(odds, _)| odds).sum();
-        let (taken, other) = if odds < 0.0 {
-            (image, reading)
+        let (mut taken, other, sense) = if odds < 0.0 {
+            (image, angles, mirrored.sense)
         } else {
-            (reading, image)
+            (angles, image, own.sense)
         };
         let named = |sign: f64| {
             let plainly = speaking
@@ -227,13 +219,14 @@ impl<'a> Pair<'a> {
             let past = if odds > 0.0 && leaves.is_some() { ", past a limit," } else { "" };
             format!(
                 "{name} alone does not tell a motion from its mirror image on the other strokes: the one that begins at {:.4} rad is taken (for it: {}); the one that begins at {:.4} rad{past} has other forces (for it: {})",
-                taken.angles.theta[0], named(1.0), other.angles.theta[0], named(-1.0)
+                taken.theta[0], named(1.0), other.theta[0], named(-1.0)
             )
         });
-        Pair {
-            taken,
+        taken.warnings.extend(doubt);
+        Taken {
+            angles: taken,
+            sense,
             leaves: leaves.filter(|_| odds < 0.0),
-            doubt,
             likelihood,
         }
     }

@@ -13,8 +13,7 @@ use super::super::quantised::Codes;
 use super::super::residual_tests::repeats;
 use super::super::row::InverseRow;
 use super::hypotheses::{Setting, Tracker};
-use super::hypothesis::{DROPPED_LOG_RATIO, FAR};
-use super::links::is_resolved;
+use super::hypothesis::{DROPPED_LOG_RATIO, FAR, is_resolved};
 use super::mirror_image::Imaged;
 use crate::error::Error;
 use crate::mechanism::Equation;
@@ -32,6 +31,13 @@ pub(in crate::inverse) struct CrankAngles<'a> {
     pub sigma: f64,
     /// Warnings for the user, in words.
     pub warnings: Vec<String>,
+}
+
+impl CrankAngles<'_> {
+    /// Returns the standard deviation of a measured value in crank lengths, or in rad.
+    pub fn error(&self) -> f64 {
+        self.sigma / self.sensor.size()
+    }
 }
 
 /// Returns the motions that samples may stand for, with their mirror images, the likeliest first.
@@ -196,14 +202,8 @@ pub(in crate::inverse) fn reachable(
     let on_no_angle = |i: &usize| sensor.angles(values[*i]).0.angles().is_empty();
     // A few values slightly beyond the range are outliers.
     let many = (0..values.len()).filter(is_off).count() * 20 > values.len();
-    let far: Vec<usize> = (0..values.len())
-        .filter(|i| many && is_off(i) || on_no_angle(i))
-        .take(20)
-        .collect();
-    if far.is_empty() {
-        return Ok(());
-    }
-    let list = far.into_iter().map(|i| {
+    let far = (0..values.len()).filter(|i| many && is_off(i) || on_no_angle(i));
+    let faults = far.map(|i| {
         let why = match excess(values[i]) {
             0.0 => "it belongs to no crank angle of the branch of the scene".to_owned(),
             excess => format!(
@@ -216,12 +216,10 @@ pub(in crate::inverse) fn reachable(
             sensor.measured.name(),
             measurement.shown(values[i]),
         );
-        let help =
-            "check the lengths of the scene, the unit of the column, and from where it counts"
-                .to_owned();
-        (i, what, help)
+        (i, what)
     });
-    Err(measurement.problems(list.collect()).into())
+    let help = "check the lengths of the scene, the unit of the column, and from where it counts";
+    Ok(measurement.refuse(faults, help)?)
 }
 
 /// Returns the mean inertia of a mechanism over the crank angles that it reaches, kg m².

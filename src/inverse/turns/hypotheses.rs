@@ -13,8 +13,9 @@ use super::super::model::matrix::diagonal;
 use super::super::model::prior::{KINEMATIC, Prior, TORQUE, plain_state};
 use super::super::model::transition::transition;
 use super::super::residual_tests::repeats;
-use super::hypothesis::{DROPPED_LOG_RATIO, FAR, Hypothesis, Sight, prune};
-use super::links::{Link, Track, is_resolved, way};
+use super::hypothesis::{
+    DROPPED_LOG_RATIO, FAR, Hypothesis, Link, Sight, Track, is_resolved, prune, way,
+};
 use super::mirror_image::DISTINCT_ROTATION;
 use crate::mechanism::Equation;
 
@@ -84,10 +85,9 @@ impl Tracker<'_, '_> {
                     .filter(|rival| rival.loss < DROPPED_LOG_RATIO);
                 let rival = near.and_then(|rival| {
                     let ways = [link, rival.last].map(|last| way(&links, last));
-                    let apart = self.apart(setting.sigma, &links, ways)?;
                     Some(Track {
                         score: score - rival.loss,
-                        is_far: apart > DISTINCT_ROTATION,
+                        is_far: self.are_far(setting.sigma, &links, ways)?,
                         after,
                         before: rival.last,
                         ..whole
@@ -100,23 +100,20 @@ impl Tracker<'_, '_> {
         (links, found)
     }
 
-    /// Returns how far two ways to one state are apart before it, rad, if they show different motions.
-    fn apart(
+    /// Returns whether two ways to one state are far apart before it; none if they do not show different motions.
+    fn are_far(
         &self,
         sigma: f64,
         links: &[Link],
         [a, b]: [impl Iterator<Item = usize>; 2],
-    ) -> Option<f64> {
+    ) -> Option<bool> {
         let apart = a.zip(b).take_while(|(a, b)| a != b);
         let angles = apart.map(|(a, b)| [a, b].map(|link| links[link].theta));
-        let mut most = None;
-        for [a, b] in angles.filter(|angles| self.differ(sigma, *angles)) {
-            most = Some(f64::max((a - b).abs(), most.unwrap_or(0.0)));
-            if most > Some(DISTINCT_ROTATION) {
-                break;
-            }
-        }
-        most
+        let mut told = angles
+            .filter(|angles| self.differ(sigma, *angles))
+            .peekable();
+        told.peek()?;
+        Some(told.any(|[a, b]| (a - b).abs() > DISTINCT_ROTATION))
     }
 
     /// True if a sample with this noise, rad or m, tells two crank angles apart, rad.
@@ -160,7 +157,8 @@ impl Tracker<'_, '_> {
             let repeated = repeats(self.values, i);
             let begins = repeated && !repeats(self.values, i - 1);
             if i == 0 {
-                next.extend(sighted.iter().map(|sight| self.begun(sight, links)));
+                let begin = |sight| self.begun(sight).push(None, links, &mut next);
+                sighted.iter().for_each(begin);
             } else {
                 for before in &now {
                     let predicted = self.predicted(i, before, setting);
@@ -191,12 +189,13 @@ impl Tracker<'_, '_> {
             false => 1,
         };
         let h = (end - t) / parts as f64;
-        (0..parts).fold(*before, |now, part| {
-            let mean = follows.then_some(&now.state.mean);
+        let state = (0..parts).fold(before.state, |now, part| {
+            let mean = follows.then_some(&now.mean);
             let by_equation =
                 mean.and_then(|mean| self.step([t + h * part as f64, h], mean, setting.jerk));
             now.predicted(&by_equation.unwrap_or_else(|| step(h, setting.jerk, 1.0)))
-        })
+        });
+        Hypothesis { state, ..*before }
     }
 
     /// Returns the transition from a time by another, s, by the equation of motion, from a state of θ, rad, ω, rad/s, and the
@@ -263,12 +262,7 @@ impl Tracker<'_, '_> {
         }
     }
 
-    fn begun(&self, sight: &Sight, links: &mut Vec<Link>) -> Hypothesis {
-        links.push(Link {
-            theta: sight.theta,
-            before: None,
-            rival: None,
-        });
+    fn begun(&self, sight: &Sight) -> Hypothesis {
         let speed = 2.0 * self.speed;
         Hypothesis {
             state: Gaussian {
@@ -277,7 +271,7 @@ impl Tracker<'_, '_> {
             },
             score: sight.score,
             held: false,
-            last: links.len() - 1,
+            last: 0,
         }
     }
 }

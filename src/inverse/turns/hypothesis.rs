@@ -1,9 +1,9 @@
-//! Hypothesis of a tracker: a path up to a sample, extended by the next one, kept or dropped.
+//! Hypothesis of a tracker: a path up to a sample, extended by the next one, kept or dropped. Their ways through the samples are
+//! lists of links that share their begins.
 
 use std::f64::consts::TAU;
 
-use super::super::model::kalman::{Gaussian, Sample, Step};
-use super::links::{Link, Rival};
+use super::super::model::kalman::{Gaussian, Sample};
 
 /// Standard deviations beyond which a sample shows another motion.
 pub(in crate::inverse) const FAR: f64 = 5.0;
@@ -33,14 +33,6 @@ pub(in crate::inverse) struct Sight {
 }
 
 impl Hypothesis {
-    /// Returns the path at the next sample, before that is seen.
-    pub fn predicted(&self, step: &Step<3>) -> Hypothesis {
-        Hypothesis {
-            state: self.state.predicted(step),
-            ..*self
-        }
-    }
-
     /// Goes on by a sample that the sensor holds, at the cost of a ln of odds.
     pub fn held(&self, cost: f64, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
         let held = Hypothesis {
@@ -48,7 +40,7 @@ impl Hypothesis {
             held: true,
             ..*self
         };
-        held.push(links, list);
+        held.push(Some(self.last), links, list);
     }
 
     /// Extends the predicted path by a sample, in each turn of the crank that is possible. A value that repeats adds no density.
@@ -97,15 +89,20 @@ impl Hypothesis {
                     ..before
                 };
             }
-            found.push(links, list);
+            found.push(Some(self.last), links, list);
         }
     }
 
-    /// Adds this hypothesis with its link to the one before.
-    fn push(mut self, links: &mut Vec<Link>, list: &mut Vec<Hypothesis>) {
+    /// Adds this hypothesis with its link to the one before, if there is one.
+    pub fn push(
+        mut self,
+        before: Option<usize>,
+        links: &mut Vec<Link>,
+        list: &mut Vec<Hypothesis>,
+    ) {
         links.push(Link {
             theta: self.state.mean[0],
-            before: Some(self.last),
+            before,
             rival: None,
         });
         self.last = links.len() - 1;
@@ -137,4 +134,57 @@ pub(in crate::inverse) fn prune(list: &mut Vec<Hypothesis>, links: &mut [Link]) 
         }
     }
     list.truncate(kept);
+}
+
+/// Crank angle of a path, rad, with the index of the preceding link.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::inverse) struct Link {
+    pub theta: f64,
+    pub before: Option<usize>,
+    pub rival: Option<Rival>,
+}
+
+/// The likeliest other way to the state of a link.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::inverse) struct Rival {
+    /// Index of its last link.
+    pub last: usize,
+    /// ln of the likelihood ratio of the way that was taken to this one.
+    pub loss: f64,
+}
+
+/// Path through all samples: a way that was taken, after a rival way to one of its states.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::inverse) struct Track {
+    pub score: f64,
+    /// Whether the rival way is far from the way that was taken, or there is none.
+    pub is_far: bool,
+    /// Index of the last link.
+    pub last: usize,
+    /// Number of links of the way that was taken.
+    pub after: usize,
+    /// Index of the link before these.
+    pub before: usize,
+}
+
+/// Returns the indices of the links of a way, the last first.
+pub(in crate::inverse) fn way(links: &[Link], last: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(last), |link| links[*link].before)
+}
+
+impl Track {
+    /// Returns the crank angles of all samples, rad.
+    pub fn angles(&self, links: &[Link]) -> Vec<f64> {
+        let after = way(links, self.last).take(self.after);
+        let mut list: Vec<usize> = after.chain(way(links, self.before)).collect();
+        list.reverse();
+        list.into_iter().map(|link| links[link].theta).collect()
+    }
+}
+
+/// True if a crank turns less than half a turn from sample to sample in the mean: a faster motion has the samples of a
+/// slower one (sampling theorem).
+pub(in crate::inverse) fn is_resolved(theta: &[f64]) -> bool {
+    let way: f64 = theta.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    way < 0.5 * TAU * (theta.len() - 1) as f64
 }

@@ -5,7 +5,6 @@ pub(super) mod branch_choice;
 pub(super) mod branch_tracking;
 pub(super) mod hypotheses;
 pub(super) mod hypothesis;
-pub(super) mod links;
 pub(super) mod mirror_image;
 pub(super) mod unwrap;
 pub(super) mod window;

@@ -13,14 +13,12 @@ pub(in crate::inverse) fn unwrap<'a>(
     measurement: &Measurement,
 ) -> Result<CrankAngles<'a>, Error> {
     let Unwrapped { theta, warning } = measurement.unwrapped()?;
-    let sigma = 0.0;
-    let warnings = Vec::from_iter(warning);
     reachable(sensor, measurement, &theta)?;
     Ok(CrankAngles {
         sensor: *sensor,
         theta,
-        sigma,
-        warnings,
+        sigma: 0.0,
+        warnings: Vec::from_iter(warning),
     })
 }
 
@@ -50,30 +48,16 @@ pub(in crate::inverse) fn integrated<'a>(
 
 /// Checks that the mechanism reaches crank angles, rad.
 fn reachable(sensor: &Sensor<'_>, measurement: &Measurement, theta: &[f64]) -> Result<(), Error> {
-    let unreachable = |(sample, theta): (usize, &f64)| {
-        (!sensor.linkage.pose(*theta).is_regular()).then(|| {
-            let what = format!(
-                "theta = {} cannot be reached: the rod is too short for it",
-                match sensor.is_of_speed() {
-                    true => format!("{theta} rad"),
-                    false => measurement.shown(measurement.values()[sample]),
-                }
-            );
-            (
-                sample,
-                what,
-                "`kinematics` shows the crank angles that can be reached".to_owned(),
-            )
-        })
-    };
-    let list: Vec<_> = theta
-        .iter()
-        .enumerate()
-        .filter_map(unreachable)
-        .take(20)
-        .collect();
-    if !list.is_empty() {
-        return Err(measurement.problems(list).into());
-    }
-    Ok(())
+    let angles = theta.iter().enumerate();
+    let beyond = angles.filter(|(_, theta)| !sensor.linkage.pose(**theta).is_regular());
+    let faults = beyond.map(|(sample, theta)| {
+        let shown = match sensor.is_of_speed() {
+            true => format!("{theta} rad"),
+            false => measurement.shown(measurement.values()[sample]),
+        };
+        let what = format!("theta = {shown} cannot be reached: the rod is too short for it");
+        (sample, what)
+    });
+    let help = "`kinematics` shows the crank angles that can be reached";
+    Ok(measurement.refuse(faults, help)?)
 }

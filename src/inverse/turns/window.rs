@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::super::measurement_model::Scale;
 use super::super::problem::Problem;
-use super::super::samples::{problem, record};
+use super::super::samples::Given;
 use super::super::smoother::Smoothed;
 use super::branch_tracking::{CrankAngles, EARLY, LARGEST_VALUE_ERROR};
 use super::mirror_image::Imaged;
@@ -65,10 +65,7 @@ impl Windows<'_> {
             *kinematic = problem.without_outliers(kinematic.clone());
             problem.record.weights.clone()
         });
-        let most = |i: usize| {
-            told.iter()
-                .fold(0.0, |most: f64, weights| most.max(weights[i]))
-        };
+        let most = |i: usize| told.iter().map(|weights| weights[i]).fold(0.0, f64::max);
         let weights: Vec<f64> = (0..window.len()).map(most).collect();
         let seen = seen.iter_mut().zip(angles);
         let judged = parallel::map(seen, |((problem, kinematic), angles)| {
@@ -78,19 +75,12 @@ impl Windows<'_> {
             self.of(problem, kinematic, angles, window)
         });
         let pairs = judged.chunks_exact(2).zip(motions);
-        let pairs = pairs.map(|(pair, one)| match one.leaves {
-            None => [pair[0], pair[1]],
-            Some(_) => {
-                let (begin, sense) = (one.image.theta[0], -pair[0].sense);
-                [
-                    pair[0],
-                    Judged {
-                        begin,
-                        sense,
-                        ..pair[0]
-                    },
-                ]
+        let pairs = pairs.map(|(pair, one)| {
+            let (own, mut image) = (pair[0], pair[1]);
+            if one.leaves.is_some() {
+                (image.begin, image.sense) = (one.image.theta[0], -own.sense);
             }
+            [own, image]
         });
         pairs.collect()
     }
@@ -109,10 +99,9 @@ impl Windows<'_> {
         let width = LARGEST_VALUE_ERROR * angles.sensor.size();
         let cost = found * (width / angles.sigma).max(1.0).ln();
         let starts = window.start == 0;
-        let begin = if starts {
-            kinematic.estimates[0].state[0]
-        } else {
-            angles.theta[0]
+        let begin = match starts {
+            true => kinematic.estimates[0].state[0],
+            false => angles.theta[0],
         };
         let far = |theta: &&f64| (**theta - begin).abs() > 0.25 * TAU;
         let way = angles.theta.iter().find(far).or(angles.theta.last());
@@ -121,7 +110,7 @@ impl Windows<'_> {
             .take_while(|_| starts)
             .find(|speed| speed.abs() > 0.5 * self.motion.speed.abs());
         Judged {
-            likelihood: problem.evidence(kinematic) - cost,
+            likelihood: problem.all_tried(kinematic).likelihood() - cost,
             begin,
             sense: stated
                 .or(way.map(|way| way - begin))
@@ -131,13 +120,18 @@ impl Windows<'_> {
 
     fn smoothed<'b>(
         &'b self,
-        angles: &CrankAngles<'b>,
+        angles: &'b CrankAngles<'b>,
         window: &Range<usize>,
     ) -> (Problem<'b>, Smoothed) {
-        let mut record = record(self.measurement, angles, &[]);
+        let given = Given {
+            measurement: self.measurement,
+            angles,
+            equation: self.equation,
+            stop: self.stop,
+        };
+        let mut record = given.record(&[]);
         record.keep(window.clone());
-        let theta = &angles.theta[window.clone()];
-        let (problem, first) = problem(record, theta, 1, self.equation, self.stop);
+        let (problem, first) = given.problem(record, &angles.theta[window.clone()], 1);
         let kinematic = problem.kinematic(first, angles.sigma.max(problem.record.floor));
         (problem, kinematic)
     }

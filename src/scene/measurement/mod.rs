@@ -252,10 +252,21 @@ impl Measurement {
         Problem::new(name, what, help).at(span(&source.text, cell.unwrap_or(row)))
     }
 
-    /// Creates problems with the measured values of samples (from 0), each with fault and remedy.
-    pub fn problems(&self, list: Vec<(usize, String, String)>) -> Problems {
-        let problem = |(sample, what, help)| self.problem(sample, 1, what, help);
-        self.refused(list.into_iter().map(problem).collect())
+    /// Refuses the measured values of samples (from 0), each with its fault; the first 20 are named.
+    ///
+    /// # Errors
+    /// [`Problems`] if there is one.
+    pub fn refuse(
+        &self,
+        faults: impl Iterator<Item = (usize, String)>,
+        help: &str,
+    ) -> Result<(), Problems> {
+        let problem = |(sample, what)| self.problem(sample, 1, what, help.to_owned());
+        let list: Vec<Problem> = faults.take(20).map(problem).collect();
+        match list.is_empty() {
+            true => Ok(()),
+            false => Err(self.refused(list)),
+        }
     }
 
     fn refused(&self, list: Vec<Problem>) -> Problems {
