@@ -217,7 +217,8 @@ fn recovered(
             &fitted, measured, &equation, rows,
         )),
     ];
-    let [slider_force, crank_torque] = ForceRange::of_rows(&found.rows);
+    let force = ForceRange::of(rows, |row| row.slider_force, |row| row.slider_force_se);
+    let torque = ForceRange::of(rows, |row| row.crank_torque, |row| row.crank_torque_se);
     let summary = InverseSummary {
         scene: scene.title.clone().unwrap_or_default(),
         plan,
@@ -225,8 +226,8 @@ fn recovered(
         fit: fitted.summary,
         beside_forces: options.beside_forces,
         band_factor: factor,
-        slider_force,
-        crank_torque: crank_torque.unwrap_or_default(),
+        slider_force: force,
+        crank_torque: torque.unwrap_or_default(),
         error_budget: shared.budget(&found.rows),
         dead_centre_bands: found.bands,
         dead_centre_rule: found.rule,

@@ -2,15 +2,15 @@
 
 use super::super::candidates::Candidate;
 use super::super::grid::Path;
+use super::super::maximum::ENOUGH_RISE;
 use super::super::model::prior::{TORQUE, plain_state};
 use super::super::problem::Problem;
-use super::super::scales::{Noise, Scales, root_mean_square};
+use super::super::scales::{Noise, Scales};
 use super::super::smoother::{Correction, Smoothed};
 use super::information::Information;
 use super::misfit::Misfit;
-use super::optimum::{Found, Optimum};
 use super::trial::{Innovations, Trials};
-use super::values::FreeValue;
+use super::values::{FreeValue, Optimum};
 use crate::error::Error;
 use crate::numeric::parallel;
 use crate::scene::Scene;
@@ -74,8 +74,9 @@ impl<'a> Search<'a> {
     }
 
     /// Maximises the likelihood without a missing torque first, and with one from the values found: beside a torque
-    /// that follows every misfit of a first guess the values are not determined.
-    pub fn run(mut self) -> Result<Found, Error> {
+    /// that follows every misfit of a first guess the values are not determined. Returns the maximum, and the misfit of the equation
+    /// without a torque beside it; none if it describes the record.
+    pub fn run(mut self) -> Result<(Optimum, Option<Misfit>), Error> {
         let start: Vec<f64> = self.trials.free().iter().map(|one| one.start).collect();
         let first = self.path.clone();
         let mut alone = self.climbed(start.clone(), false).ok();
@@ -99,32 +100,18 @@ impl<'a> Search<'a> {
         // Values at which a search broke off say nothing of the equation.
         let at = settled.or(best.as_ref().ok());
         let misfit = at.map(|at| Misfit::of(trials, at)).transpose()?.flatten();
-        let best = match (best, &misfit) {
-            (Err(_), Some(misfit)) => return Err(misfit.refused()),
-            (best, _) => best?,
-        };
-        let told = best
-            .information
-            .is_told(&best.values, best.noise.sigma, trials.free());
-        if let (Err(_), Some(misfit)) = (&told, &misfit) {
-            return Err(misfit.refused());
-        }
-        told?;
-        Ok(Found {
-            missing: root_mean_square(best.path.states.iter().map(|state| state[2])),
-            best,
-            misfit,
-        })
+        let refused = |error: Error| misfit.as_ref().map_or(error, Misfit::refused);
+        let best = best.map_err(refused)?;
+        best.information
+            .is_told(&best.values, best.noise.sigma, trials.free())
+            .map_err(refused)?;
+        Ok((best, misfit))
     }
 
     /// Iterates until values and path converge, with a missing torque beside the equation or without.
     fn climbed(&mut self, mut values: Vec<f64>, with_torque: bool) -> Result<Optimum, Error> {
-        let mut steps: Vec<f64> = self
-            .trials
-            .free()
-            .iter()
-            .map(FreeValue::first_step)
-            .collect();
+        let steps = self.trials.free().iter().map(FreeValue::first_step);
+        let mut steps: Vec<f64> = steps.collect();
         let mut sigma = self.trials.scales.floor;
         let mut last = None;
         let mut iterations = 0;
@@ -135,7 +122,14 @@ impl<'a> Search<'a> {
             let noise = match (with_torque, last) {
                 (false, _) => trials.without_torque(&model),
                 (true, None) => model.anywhere(trials.correlated),
-                (true, Some(last)) => Trials::likelier(&model, last),
+                (true, Some(last)) => {
+                    let here = model.evaluated(last);
+                    let found = model.improved(here);
+                    match found.likelihood - here.likelihood > ENOUGH_RISE {
+                        true => found,
+                        false => here,
+                    }
+                }
             };
             last = Some(noise);
             sigma = noise.sigma;

@@ -86,28 +86,20 @@ impl Information {
         all.filter(|k| vector[*k].abs() > ALIKE * most).collect()
     }
 
-    /// True if the weakest combination changes all its values by one factor: the equation is homogeneous in them.
-    fn is_scale(&self, values: &[f64]) -> bool {
-        let vector = self.weakest();
-        let parts = self.group().into_iter();
-        let parts: Vec<f64> = parts
-            .map(|k| vector[k] / (self.norms[k] * values[k]))
-            .collect();
-        let mean = parts.iter().sum::<f64>() / parts.len() as f64;
-        parts
-            .iter()
-            .all(|part| (part - mean).abs() < ALIKE * mean.abs())
-    }
-
     /// Returns the refusal of the weakest combination.
     fn alike(&self, values: &[f64], free: &[FreeValue]) -> Error {
-        let names: Vec<String> = self
-            .group()
-            .into_iter()
-            .map(|k| format!("`{}`", free[k].key))
-            .collect();
-        let names = names.join(" and ");
-        match self.is_scale(values) {
+        let (group, vector) = (self.group(), self.weakest());
+        let names = group.iter().map(|k| format!("`{}`", free[*k].key));
+        let names = Vec::from_iter(names).join(" and ");
+        let parts = group
+            .iter()
+            .map(|k| vector[*k] / (self.norms[*k] * values[*k]));
+        let mean = parts.clone().sum::<f64>() / group.len() as f64;
+        // It changes all its values by one factor if the equation is homogeneous in them.
+        let is_scale = parts
+            .clone()
+            .all(|part| (part - mean).abs() < ALIKE * mean.abs());
+        match is_scale {
             true => Error::refused(
                 format!(
                     "the record cannot tell {names} apart, but only their ratios: all of them multiplied by one number give the same motion, and no known mass, weight or load sets the scale"
@@ -147,12 +139,15 @@ impl Information {
         1.0 / self.norms[k]
     }
 
-    /// Returns the correlation coefficient of two values.
-    pub fn correlation(&self, i: usize, j: usize) -> f64 {
-        if i == j {
-            return 1.0;
-        }
-        self.covariance[(i, j)] / (self.error(i) * self.error(j))
+    /// Returns the correlation matrix of the values.
+    pub fn correlations(&self) -> Vec<Vec<f64>> {
+        let all = 0..self.norms.len();
+        let of = |i: usize, j: usize| match i == j {
+            true => 1.0,
+            false => self.covariance[(i, j)] / (self.error(i) * self.error(j)),
+        };
+        let row = |i: usize| all.clone().map(|j| of(i, j)).collect();
+        all.clone().map(row).collect()
     }
 
     /// Returns (JᵀJ)⁻¹ g.

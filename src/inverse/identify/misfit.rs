@@ -3,8 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::optimum::Optimum;
 use super::trial::Trials;
+use super::values::Optimum;
 use crate::error::Error;
 use crate::inverse::maximum::SIGNIFICANT_RISE;
 use crate::inverse::residual_tests::{Runs, Whiteness};
@@ -17,8 +17,9 @@ pub(super) struct Misfit {
     runs: Runs,
     /// Whether the samples are significantly likelier with a torque beside the equation.
     pub misses_torque: bool,
-    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` expected then.
-    helpers: Vec<(String, f64)>,
+    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` and the rise of ln of the likelihood
+    /// expected then.
+    helpers: Vec<(String, f64, f64)>,
 }
 
 /// Relative norm below which the part of a derivative orthogonal to those of other keys is rounding.
@@ -68,10 +69,6 @@ impl Misfit {
             .first()
             .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
         helpers.retain(|one| one.2 > SIGNIFICANT_RISE.max(least));
-        let helpers = helpers
-            .into_iter()
-            .map(|(key, left, _)| (key, left))
-            .collect();
         Ok(Some(Misfit {
             ratio,
             runs: Runs::of(&errors),
@@ -99,7 +96,7 @@ impl Misfit {
             return load.to_owned();
         }
         let named = self.helpers.iter();
-        let named = named.map(|(key, left)| format!("`{key}` ({left:.2} times)"));
+        let named = named.map(|(key, left, _)| format!("`{key}` ({left:.2} times)"));
         format!(
             "residuals nearer to the noise are expected with one more key free: {}; or {load}",
             named.collect::<Vec<_>>().join(", ")

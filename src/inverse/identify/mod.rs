@@ -10,7 +10,6 @@ mod information;
 mod misfit;
 #[cfg(feature = "cli")]
 mod of_draft;
-mod optimum;
 mod trial;
 mod values;
 
@@ -21,7 +20,8 @@ pub use values::{FreeValue, IdentifiedValue};
 use std::ops::RangeInclusive;
 
 use self::gauss_newton::Search;
-use self::optimum::Found;
+use self::misfit::Misfit;
+use self::values::Optimum;
 use super::mean_length::by_means;
 use super::measurement_model::{Scale, Sensor};
 use super::problem::Problem;
@@ -122,7 +122,8 @@ fn identify_among(
     let search = Search::new(scene_at, all, count, &problem, &smooth);
     // A crank read backwards is a possible reason why the equation does not describe the record.
     let found = search.run();
-    let found = found.map_err(|error| error.with_notes(&angles.warnings))?;
+    let (best, misfit) = found.map_err(|error| error.with_notes(&angles.warnings))?;
+    let missing = root_mean_square(best.path.states.iter().map(|state| state[2]));
     let mut warnings = measurement.notes().to_vec();
     warnings.extend(angles.warnings.clone());
     warnings.extend((at_rest > 0).then(|| {
@@ -130,8 +131,11 @@ fn identify_among(
     }));
     let several = measurement.has_sensors_beside();
     warnings.extend(several.then(|| alone(measurement)));
-    warnings.extend(warnings_of(&found, free, measurement));
-    let Found { best, missing, .. } = found;
+    warnings.extend(warnings_of(&best, misfit.as_ref(), missing));
+    if free.iter().any(|one| one.is_sensor_zero) && measurement.measured() == Measured::Gamma {
+        let sign = "sensor.zero of gamma is taken with the sign that gamma has along the motion";
+        warnings.push(sign.to_owned());
+    }
     let told = best.innovations.len();
     let freedom = told as f64 - 2.0 - free.len() as f64;
     let band_factor = student::half_band(freedom.max(1.0));
@@ -140,7 +144,7 @@ fn identify_among(
         samples: problem.record.stands_for().unwrap_or(told),
         column: measurement.measured().name().to_owned(),
         values: best.values(free, band_factor),
-        correlations: best.correlations(),
+        correlations: best.information.correlations(),
         band_factor,
         sigma: best.noise.sigma,
         missing_torque_rms_nm: missing,
@@ -204,33 +208,28 @@ fn not_modelled(what: &str) -> Error {
     )
 }
 
-fn warnings_of(found: &Found, free: &[FreeValue], measurement: &Measurement) -> Vec<String> {
+/// Returns the warnings of a maximum beside a missing torque, N m in root mean square.
+fn warnings_of(best: &Optimum, misfit: Option<&Misfit>, missing: f64) -> Vec<String> {
     let mut list = Vec::new();
-    if !found.best.settled {
+    if !best.settled {
         list.push(
             "the iterations did not come to rest: the values are not to be trusted".to_owned(),
         );
     }
-    if found.misfit.is_none() && Whiteness::of(found.best.innovations.iter().copied()).is_violated()
-    {
-        list.push("the prediction errors are not white noise: the standard errors hold for white noise, and may be too small".to_owned());
-    }
-    if let Some(misfit) = &found.misfit {
-        let errors = match misfit.misses_torque {
-            true => format!(
-                "a torque beside it of {:.3e} N m in root mean square stands for what is missing, and the errors of the values hold if that varies at random",
-                found.missing
-            ),
-            false => "the errors of the values do not hold".to_owned(),
-        };
-        list.push(format!("{}; {errors}; {}", misfit.words(), misfit.help()));
-    }
-    let zero = free.iter().any(|one| one.is_sensor_zero);
-    if zero && measurement.measured() == Measured::Gamma {
-        list.push(
-            "sensor.zero of gamma is taken with the sign that gamma has along the motion"
-                .to_owned(),
-        );
+    match misfit {
+        Some(misfit) => {
+            let errors = match misfit.misses_torque {
+                true => format!(
+                    "a torque beside it of {missing:.3e} N m in root mean square stands for what is missing, and the errors of the values hold if that varies at random"
+                ),
+                false => "the errors of the values do not hold".to_owned(),
+            };
+            list.push(format!("{}; {errors}; {}", misfit.words(), misfit.help()));
+        }
+        None if Whiteness::of(best.innovations.iter().copied()).is_violated() => {
+            list.push("the prediction errors are not white noise: the standard errors hold for white noise, and may be too small".to_owned());
+        }
+        None => {}
     }
     list
 }

@@ -2,15 +2,13 @@
 
 use super::super::grid::Path;
 use super::super::likelihood::Linear;
-use super::super::maximum::ENOUGH_RISE;
 use super::super::model::kalman;
 use super::super::model::prior::TORQUE;
 use super::super::model::state_space::with_dimension;
 use super::super::problem::Problem;
 use super::super::residual_tests::Whiteness;
 use super::super::scales::{Noise, Scales};
-use super::optimum::Optimum;
-use super::values::FreeValue;
+use super::values::{FreeValue, Optimum};
 use crate::error::Error;
 use crate::mechanism::Equation;
 use crate::scene::Scene;
@@ -61,11 +59,9 @@ impl<'a> Trials<'a> {
     pub fn with<T>(&self, values: &[f64], f: impl FnOnce(&Problem<'_>) -> T) -> Result<T, Error> {
         let scene = (self.scene_at)(values)?;
         let equation = Equation::new(&scene);
-        let of_sensor = self.all.iter().zip(values);
-        let zero: f64 = of_sensor
-            .filter(|(free, _)| free.is_sensor_zero)
-            .map(|(_, value)| *value)
-            .sum();
+        let pairs = self.all.iter().zip(values);
+        let of_sensor = pairs.filter(|(free, _)| free.is_sensor_zero);
+        let zero: f64 = of_sensor.map(|(_, value)| *value).sum();
         let scale = self.problem.record.sensor.scale;
         Ok(f(&self.problem.moved(&equation, scale, -zero)))
     }
@@ -102,16 +98,6 @@ impl<'a> Trials<'a> {
             correlated: self.correlated,
             ..Noise::white(lowest)
         })
-    }
-
-    /// Maximises the likelihood from this intensity of the missing torque; keeps it where the gain is below `ENOUGH_RISE`.
-    pub fn likelier(model: &Linear, noise: Noise) -> Noise {
-        let here = model.evaluated(noise);
-        let found = model.improved(here);
-        match found.likelihood - here.likelihood > ENOUGH_RISE {
-            true => found,
-            false => here,
-        }
     }
 
     /// Returns the decay rate of the correlation of the sample noise beside these values, 1/s; none if their residuals are

@@ -1,4 +1,8 @@
-//! Free values and identified values.
+//! Free values, and those at the maximum of the marginal likelihood.
+
+use super::information::Information;
+use crate::inverse::grid::Path;
+use crate::inverse::scales::Noise;
 
 /// Free value of an identification.
 #[derive(Clone, Debug)]
@@ -43,5 +47,35 @@ impl FreeValue {
                 0.0 => self.scale,
                 start => start.abs(),
             }
+    }
+}
+
+/// Maximum of the likelihood, with or without a missing torque.
+#[derive(Debug)]
+pub(super) struct Optimum {
+    pub values: Vec<f64>,
+    pub information: Information,
+    pub noise: Noise,
+    pub path: Path,
+    pub innovations: Vec<f64>,
+    pub iterations: usize,
+    pub settled: bool,
+}
+
+impl Optimum {
+    /// Returns the values with their standard errors and 95 % bands.
+    pub fn values(&self, free: &[FreeValue], band_factor: f64) -> Vec<IdentifiedValue> {
+        let value = |(k, free): (usize, &FreeValue)| {
+            let standard_error = self.noise.sigma * self.information.error(k);
+            IdentifiedValue {
+                key: free.key.clone(),
+                unit: free.unit.clone(),
+                start: free.start,
+                value: self.values[k],
+                standard_error,
+                half_band: band_factor * standard_error,
+            }
+        };
+        free.iter().enumerate().map(value).collect()
     }
 }

@@ -40,7 +40,7 @@ pub(in crate::inverse) type AtNodes<T> = [T; 3];
 pub(in crate::inverse) struct Increments {
     /// Number of coefficients.
     pub count: usize,
-    /// The first begin, then inner nodes and end of each step, one after the other.
+    /// Rows of inner nodes and end of each step, one after the other.
     values: Vec<f64>,
 }
 
@@ -56,29 +56,26 @@ impl Increments {
                 pairs.for_each(|(to, value)| *to = value);
             }
         };
-        let steps = ways.len();
-        let mut values = vec![0.0; (1 + 3 * steps) * count];
-        let mut rows = values.chunks_exact_mut(count);
-        for (k, way) in ways.enumerate() {
-            for (place, row) in way[usize::from(k > 0)..].iter().zip(&mut rows) {
-                fill(row, *place);
+        let mut values = Vec::with_capacity(3 * ways.len() * count);
+        let (mut begin, mut now) = (vec![0.0; count], vec![0.0; count]);
+        for (k, [first, rest @ ..]) in ways.enumerate() {
+            if k == 0 {
+                fill(&mut begin, first);
             }
-        }
-        for k in (0..steps).rev() {
-            let (before, after) = values.split_at_mut((3 * k + 1) * count);
-            let begin = &before[3 * k * count..];
-            for row in after.chunks_exact_mut(count).take(3) {
-                let pairs = row.iter_mut().zip(begin);
-                pairs.for_each(|(now, before)| *now -= before);
+            for place in rest {
+                fill(&mut now, place);
+                let pairs = now.iter().zip(&begin);
+                values.extend(pairs.map(|(now, before)| now - before));
             }
+            // Its end is the begin of the next step.
+            std::mem::swap(&mut begin, &mut now);
         }
         Increments { count, values }
     }
 
     /// Returns the rows of inner nodes and end of a step.
     pub fn of(&self, step: usize) -> AtNodes<&[f64]> {
-        let first = 3 * step + 1;
-        std::array::from_fn(|k| &self.values[(first + k) * self.count..][..self.count])
+        [0, 1, 2].map(|k| &self.values[(3 * step + k) * self.count..][..self.count])
     }
 
     /// Takes what these coefficients do out of the steps' predictions: what is left is linear in all of the coefficients.

@@ -21,12 +21,6 @@ impl Motion<'_> {
         state
     }
 
-    /// Returns what the part of u that follows the speed gains from a state to another speed, rad/s.
-    fn faster(&self, from: &State, omega: f64) -> f64 {
-        let [before, after] = [from[1], omega].map(|omega| self.prior.of_speed(from, omega)[0]);
-        after - before
-    }
-
     /// Returns the state that follows from a node at a place of its step, if the noise of u is left out.
     fn followed(
         &self,
@@ -36,8 +30,9 @@ impl Motion<'_> {
         [theta, omega]: [f64; 2],
     ) -> State {
         let mut state = self.later(2, h, a.state);
+        let of_speed = |omega: f64| self.prior.of_speed(a.state, omega)[0];
         let repeated = torque.map_or(0.0, |torque| torque.at(theta, omega)[0]) - a.repeated;
-        state[2] += self.faster(a.state, omega) + repeated;
+        state[2] += of_speed(omega) - of_speed(a.state[1]) + repeated;
         [state[0], state[1]] = [theta, omega];
         state
     }

@@ -65,10 +65,8 @@ impl Prior {
     /// This prior beside a part that repeats and is known.
     pub fn beside_known(self) -> Prior {
         Prior {
-            cycle: 0,
-            harmonics: 0,
-            high: [None; 4],
-            ..self
+            powers: self.powers,
+            ..Prior::new(self.unknown, self.order)
         }
     }
 

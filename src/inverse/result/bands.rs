@@ -1,10 +1,11 @@
 //! Stretches without a determined slider force: near dead centres, and at rest with friction or dry loads.
 
-use crate::numeric::median::median;
 use serde::Serialize;
 
 use super::super::row::InverseRow;
 use super::inverse_dynamics::Leverage;
+use crate::mechanism::Linkage;
+use crate::numeric::median::median;
 
 /// Stretch of the motion in which the slider force is left empty.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,28 +43,31 @@ const RULE: &str = "within |x'| < r/2 the slider force is left empty where half 
 const NO_SIGN: &str = "the sign of the lever arm x' is not certain";
 const AT_LIMIT: &str =
     "the rod stands normal to the guide: the position has no certain derivatives";
-const AT_REST: &str = "the crank speed is within five standard errors of zero: friction and dry loads may act either way";
+pub(in crate::inverse) const AT_REST: &str = "the crank speed is within five standard errors of zero: friction and dry loads may act either way";
 const TOO_WIDE: &str =
     "the uncertainty of the motion over the lever arm x' is wider than the force";
 
 const TOO_WIDE_AT_LIMIT: &str = "the rod is nearly normal to the guide: the uncertainty of the motion makes that of the force wider than the force";
 
-/// True if adjacent empty samples share one cause: rest is one cause, dead centres and limits another.
-pub(in crate::inverse) fn alike(reason: &str, other: &str) -> bool {
-    (reason == AT_REST) == (other == AT_REST)
-}
-
 impl BandRule {
-    /// Creates the rule from the crank length, m, torque and standard error at each sample, N m, and half of a 95 %
-    /// band in standard errors.
-    pub(in crate::inverse) fn new(
-        r: f64,
-        torques: impl Iterator<Item = (f64, f64)> + Clone,
-        factor: f64,
-    ) -> BandRule {
-        let sizes = torques.clone().map(|(torque, _)| torque.abs());
-        let largest = sizes.fold(0.0, f64::max);
-        let median = median(torques.map(|(_, se)| se)).unwrap_or(0.0);
+    /// Creates the rule from crank torques and their standard errors, of which `factor` are half of a 95 % band. Those of a rocker
+    /// count over |x'| in crank lengths where that exceeds 1: lever arm and torque grow without bound towards a limit.
+    pub(in crate::inverse) fn new(linkage: &Linkage, rows: &[InverseRow], factor: f64) -> BandRule {
+        let (r, rocks) = (linkage.r, !linkage.limit_angles().is_empty());
+        let torques = rows.iter().filter_map(|row| {
+            let arm = if rocks {
+                linkage.pose(row.theta).dx
+            } else {
+                0.0
+            };
+            let longer = (arm.abs() / r).max(1.0);
+            Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
+        });
+        let (torques, errors): (Vec<f64>, Vec<f64>) = torques.unzip();
+        let largest = torques
+            .iter()
+            .fold(0.0, |most: f64, one| most.max(one.abs()));
+        let median = median(errors).unwrap_or(0.0);
         BandRule {
             half_width_max_n: largest.max(10.0 * factor * median) / r,
             arm_m: LONG_ARM * r,

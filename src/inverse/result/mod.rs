@@ -5,6 +5,5 @@ pub(super) mod inverse_dynamics;
 pub(super) mod refusals;
 pub(super) mod rows;
 pub(super) mod shared_errors;
-pub(super) mod summarised;
 pub(super) mod summary;
 pub(super) mod warnings;

@@ -2,10 +2,9 @@
 
 use super::super::fitted::Fitted;
 use super::super::row::InverseRow;
-use super::bands::{BandRule, DeadCentreBand, alike};
-use super::inverse_dynamics::{InverseDynamics, Leverage};
+use super::bands::{AT_REST, BandRule, DeadCentreBand};
+use super::inverse_dynamics::InverseDynamics;
 use super::shared_errors::SharedErrors;
-use crate::mechanism::Linkage;
 use crate::numeric::parallel;
 use crate::scene::Measurement;
 
@@ -17,23 +16,6 @@ pub(in crate::inverse) struct Rows {
     pub rule: BandRule,
 }
 
-/// Returns crank torques and standard errors, N m; those of a rocker over |x'| in crank lengths where it exceeds 1, for
-/// lever arm and torque grow without bound towards a limit.
-fn torques<'a>(
-    linkage: &'a Linkage,
-    rows: &'a [InverseRow],
-) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-    let rocks = !linkage.limit_angles().is_empty();
-    rows.iter().filter_map(move |row| {
-        let longer = if rocks {
-            (linkage.pose(row.theta).dx.abs() / linkage.r).max(1.0)
-        } else {
-            1.0
-        };
-        Some((row.crank_torque? / longer, row.crank_torque_se? / longer))
-    })
-}
-
 impl Rows {
     /// Computes the rows; half of a 95 % band is `factor` standard errors.
     pub fn new(
@@ -43,48 +25,39 @@ impl Rows {
         shared: &SharedErrors,
         factor: f64,
     ) -> Rows {
-        let linkage = backwards.equation.linkage();
         let times = measurement.times();
-        let (rows, leverages) = parallel::pairs(times.len(), |i| {
+        let (mut rows, leverages) = parallel::pairs(times.len(), |i| {
             let state = fitted.motion[i].stretched(measurement.period_uncertainty());
             backwards.demand(times[i], &state, |noise| shared.with(i, noise))
         });
-        let rule = BandRule::new(linkage.r, torques(linkage, &rows), factor);
-        let mut found = Rows {
-            rows,
-            bands: Vec::new(),
-            rule,
+        let rule = BandRule::new(backwards.equation.linkage(), &rows, factor);
+        let pairs = rows.iter().zip(&leverages);
+        let reasons = pairs.map(|(row, leverage)| rule.reason(row, leverage, factor));
+        let reasons: Vec<_> = reasons.collect();
+        // Rest is one cause, dead centres and limits are another.
+        let goes_on = |a: &Option<&str>, b: &Option<&str>| {
+            let both = a.zip(*b);
+            both.is_some_and(|(a, b)| (a == AT_REST) == (b == AT_REST))
         };
-        found.leave_out_doubtful(&leverages, factor);
-        found
-    }
-
-    /// Empties the forces that are in doubt, and lists the bands.
-    fn leave_out_doubtful(&mut self, leverages: &[Leverage], factor: f64) {
-        let rows = self.rows.iter().zip(leverages);
-        let reasons: Vec<_> = rows
-            .map(|(row, leverage)| self.rule.reason(row, leverage, factor))
-            .collect();
-        let goes_on =
-            |a: &Option<&str>, b: &Option<&str>| a.zip(*b).is_some_and(|(a, b)| alike(a, b));
-        let mut rest = &mut self.rows[..];
-        for band in reasons.chunk_by(goes_on) {
-            let rows;
-            (rows, rest) = rest.split_at_mut(band.len());
-            let Some(reason) = band[0] else { continue };
-            for row in rows.iter_mut() {
+        let (mut bands, mut rest) = (Vec::new(), &mut rows[..]);
+        for alike in reasons.chunk_by(goes_on) {
+            let band;
+            (band, rest) = rest.split_at_mut(alike.len());
+            let Some(reason) = alike[0] else { continue };
+            for row in band.iter_mut() {
                 (row.slider_force, row.slider_force_se) = (None, None);
                 row.near_dead_centre = true;
             }
-            let (first, last) = (&rows[0], &rows[rows.len() - 1]);
-            self.bands.push(DeadCentreBand {
+            let (first, last) = (&band[0], &band[band.len() - 1]);
+            bands.push(DeadCentreBand {
                 from_s: first.t,
                 to_s: last.t,
                 from_theta_rad: first.theta,
                 to_theta_rad: last.theta,
-                rows: rows.len(),
+                rows: band.len(),
                 reason,
             });
         }
+        Rows { rows, bands, rule }
     }
 }

@@ -104,11 +104,8 @@ impl Source {
 }
 
 /// Standard errors of force, N, and torque, N m, of each row by each source.
-#[derive(Debug, Default)]
-pub(in crate::inverse) struct SharedErrors {
-    names: Vec<String>,
-    of: Vec<Vec<[f64; 2]>>,
-}
+#[derive(Debug)]
+pub(in crate::inverse) struct SharedErrors(Vec<(String, Vec<[f64; 2]>)>);
 
 impl SharedErrors {
     /// Computes the errors from the motion of the samples and the motions under each source.
@@ -125,44 +122,39 @@ impl SharedErrors {
                 guide: source.guide.as_ref(),
                 ..*backwards
             };
-            parallel::list(times.len(), |i| {
+            let errors = parallel::list(times.len(), |i| {
                 let here = motion[i].value;
                 let a = backwards.needed(times[i], here, here[1]);
                 let b = there.needed(times[i], moved[i], here[1]);
                 [0, 1].map(|k| b[k] - a[k])
-            })
+            });
+            (source.name.clone(), errors)
         };
-        SharedErrors {
-            names: sources.iter().map(|source| source.name.clone()).collect(),
-            of: sources.iter().zip(moved).map(of).collect(),
-        }
+        SharedErrors(sources.iter().zip(moved).map(of).collect())
     }
 
     /// Returns the standard errors of the force, N, and of the torque, N m, of a row, with those of its noise.
     pub fn with(&self, row: usize, noise: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| {
-            self.of
-                .iter()
-                .fold(noise[k], |sum, of| sum.hypot(of[row][k]))
-        })
+        let with = |sum: [f64; 2], (_, of): &(String, Vec<[f64; 2]>)| {
+            [0, 1].map(|k| sum[k].hypot(of[row][k]))
+        };
+        self.0.iter().fold(noise, with)
     }
 
     /// Returns the shares of the sources in the variance of the force, the largest first; empty if there is only noise.
     pub fn budget(&self, rows: &[InverseRow]) -> Vec<BudgetShare> {
-        let errors = rows.iter().map(|row| row.slider_force_se);
-        let known: Vec<(usize, f64)> = errors
-            .enumerate()
-            .filter_map(|(row, se)| Some((row, se?)))
-            .collect();
-        if self.of.is_empty() || known.is_empty() {
+        let errors = rows.iter().map(|row| row.slider_force_se).enumerate();
+        let known = errors.filter_map(|(row, se)| Some((row, se?)));
+        let count = known.clone().count() as f64;
+        if self.0.is_empty() || count == 0.0 {
             return Vec::new();
         }
-        let mean = |of: &dyn Fn(usize, f64) -> f64| {
-            known.iter().map(|(row, se)| of(*row, *se)).sum::<f64>() / known.len() as f64
+        let whole = known.clone().map(|(_, se)| se * se).sum::<f64>() / count;
+        let part = |(name, of): &(String, Vec<[f64; 2]>)| {
+            let squares = known.clone().map(|(row, _)| of[row][0].powi(2));
+            (name.clone(), squares.sum::<f64>() / count)
         };
-        let whole = mean(&|_, se| se * se);
-        let parts = self.of.iter().map(|of| mean(&|row, _| of[row][0].powi(2)));
-        let mut parts: Vec<(String, f64)> = self.names.iter().cloned().zip(parts).collect();
+        let mut parts: Vec<_> = self.0.iter().map(part).collect();
         let rest = whole - parts.iter().map(|(_, part)| part).sum::<f64>();
         parts.push(("noise of the samples".to_owned(), rest.max(0.0)));
         parts.sort_by(|a, b| b.1.total_cmp(&a.1));

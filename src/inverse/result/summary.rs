@@ -1,8 +1,13 @@
 //! Summary of an inverse computation: plan, data, fit, ranges, bands and warnings.
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
+use super::super::candidates::Candidate;
+use super::super::intensity::Span;
 pub use super::super::model::tone::Carrier;
+use super::super::model::tone::Tone;
 use super::super::row::InverseRow;
 use super::bands::{BandRule, DeadCentreBand};
 use super::shared_errors::BudgetShare;
@@ -174,25 +179,18 @@ pub struct ForceRange {
     pub median_se: f64,
 }
 
-/// Time, s, with a force or torque and its standard error, N or N m.
-type Estimate = (f64, f64, f64);
-
 impl ForceRange {
-    /// Returns the ranges of slider force and crank torque of the rows that have them.
-    pub(in crate::inverse) fn of_rows(rows: &[InverseRow]) -> [Option<ForceRange>; 2] {
-        let of: [fn(&InverseRow) -> Option<Estimate>; 2] = [
-            |row| Some((row.t, row.slider_force?, row.slider_force_se?)),
-            |row| Some((row.t, row.crank_torque?, row.crank_torque_se?)),
-        ];
-        let range = |of| ForceRange::of(rows.iter().filter_map(of));
-        let [force, torque] = of;
-        rayon::join(|| range(force), || range(torque)).into()
-    }
-
-    fn of(values: impl Iterator<Item = Estimate>) -> Option<ForceRange> {
-        let values: Vec<Estimate> = values.collect();
-        let order = |a: &&Estimate, b: &&Estimate| a.1.total_cmp(&b.1);
-        let (min, max) = (values.iter().min_by(order)?, values.iter().max_by(order)?);
+    /// Returns the range of a force or torque, with its standard error, over the rows that have it.
+    pub(in crate::inverse) fn of(
+        rows: &[InverseRow],
+        value: impl Fn(&InverseRow) -> Option<f64>,
+        error: impl Fn(&InverseRow) -> Option<f64>,
+    ) -> Option<ForceRange> {
+        let values = rows
+            .iter()
+            .filter_map(|row| Some((row.t, value(row)?, error(row)?)));
+        let order = |a: &(f64, f64, f64), b: &(f64, f64, f64)| a.1.total_cmp(&b.1);
+        let (min, max) = (values.clone().min_by(order)?, values.clone().max_by(order)?);
         // Zero has no sign.
         Some(ForceRange {
             min: min.1 + 0.0,
@@ -201,7 +199,7 @@ impl ForceRange {
             max: max.1 + 0.0,
             max_t_s: max.0,
             max_se: max.2,
-            median_se: median(values.iter().map(|value| value.2))?,
+            median_se: median(values.map(|value| value.2))?,
         })
     }
 }
@@ -216,7 +214,40 @@ impl DataSummary {
             rows: rows.len(),
             from_s: first.t,
             to_s: last.t,
-            revolutions: (last.theta - first.theta) / std::f64::consts::TAU,
+            revolutions: (last.theta - first.theta) / TAU,
+        }
+    }
+}
+
+impl Candidate {
+    /// Returns its name and likelihood.
+    pub fn summary(&self) -> CandidateSummary {
+        CandidateSummary {
+            prior: self.prior.name(),
+            log_likelihood: self.noise.likelihood,
+        }
+    }
+}
+
+impl Span {
+    /// Returns it in the time of the scene, which is `origin`, s, where the record begins.
+    pub fn summary(&self, origin: f64) -> IntensitySummary {
+        IntensitySummary {
+            from_s: origin + self.from,
+            to_s: origin + self.to,
+            factor: self.factor,
+        }
+    }
+}
+
+impl Tone {
+    /// Returns its frequency and amplitude with the odds.
+    pub fn summary(&self) -> ToneSummary {
+        ToneSummary {
+            carrier: self.carrier,
+            frequency_hz: self.frequency / TAU,
+            amplitude: self.amplitude(),
+            log_odds: self.log_odds,
         }
     }
 }
