@@ -57,7 +57,7 @@ impl Problem<'_> {
             let inner = judged.windows(3).find(|w| w[1].corner == likeliest.corner);
             if let Some([a, b, c]) = inner.and_then(|w| w.first_chunk()) {
                 let point = |noise: &Noise| (noise.corner.ln(), noise.likelihood);
-                let corner = vertex(point(a), point(b), point(c)).0.exp();
+                let corner = vertex(point(a), point(b), point(c)).place.exp();
                 return Noise { corner, ..*b };
             }
             // At the edge of what was tried: further out the likelihood gains nothing.

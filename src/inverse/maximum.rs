@@ -45,7 +45,7 @@ pub(super) fn climb(
             break;
         }
         let [a, b, c] = [best - 1, best, best + 1].map(|k| (points[k].0, points[k].1.likelihood));
-        let (place, rise) = vertex(a, b, c);
+        let Top { place, rise } = vertex(a, b, c);
         if !place.is_finite() || rise < ENOUGH_RISE {
             break;
         }
@@ -77,17 +77,27 @@ pub(super) const ENOUGH_RISE: f64 = 0.05;
 /// ln of the likelihood ratio above which more of a model is significant: a torque, a further free key, further harmonics.
 pub(super) const SIGNIFICANT_RISE: f64 = 2.0;
 
-/// Returns the place of the vertex of the parabola through three points, kept between the outer ones, and its expected rise above
-/// the middle one, the best.
-pub(super) fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> (f64, f64) {
+/// Vertex of a parabola, with its expected rise above the best known point.
+pub(super) struct Top {
+    pub place: f64,
+    rise: f64,
+}
+
+/// Returns the vertex of the parabola through three points, kept between the outer ones.
+pub(super) fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Top {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let curvature = (right - left) / (c.0 - a.0);
     if !curvature.is_finite() || curvature >= 0.0 {
-        return (middle_of_wider(a, b, c), f64::INFINITY);
+        return Top {
+            place: middle_of_wider(a, b, c),
+            rise: f64::INFINITY,
+        };
     }
     let top = 0.5 * (a.0 + b.0) - 0.5 * left / curvature;
-    let place = top.clamp(a.0 + 0.1 * (b.0 - a.0), c.0 - 0.1 * (c.0 - b.0));
-    (place, -curvature * (top - b.0).powi(2))
+    Top {
+        place: top.clamp(a.0 + 0.1 * (b.0 - a.0), c.0 - 0.1 * (c.0 - b.0)),
+        rise: -curvature * (top - b.0).powi(2),
+    }
 }
 
 /// Returns the middle of the wider side of three points.

@@ -10,6 +10,14 @@ use super::super::problem::Problem;
 use crate::numeric::gauss::LOBATTO;
 use crate::numeric::hermite::cubic;
 
+/// A node of Lobatto's rule in a step.
+struct Place {
+    /// Time, s.
+    t: f64,
+    /// What a torque of 1 N m there adds to θ, rad, and to ω, rad/s, at the end of the step.
+    added: [f64; 2],
+}
+
 impl Problem<'_> {
     /// Returns the regressors of tones along states at some nodes.
     pub fn regressors(
@@ -50,16 +58,18 @@ impl Problem<'_> {
         found
     }
 
-    /// The times, s, of Lobatto's rule in a step, with what a torque of 1 N m there adds to θ, rad, and to ω, rad/s, at its end.
-    fn places(&self, times: [f64; 2], states: [State; 2]) -> [(f64, [f64; 2]); 4] {
+    /// The places of Lobatto's rule between two times.
+    fn places(&self, times: [f64; 2], states: [State; 2]) -> [Place; 4] {
         let h = times[1] - times[0];
         let ends = states.map(|[theta, omega, ..]| [theta, omega]);
         let rule = [(0.0, 1.0), (LOBATTO[0], 5.0), (LOBATTO[1], 5.0), (1.0, 1.0)];
         rule.map(|(part, weight)| {
             let [theta, _] = cubic([0.0, h], ends, part * h);
             let speed = weight * h / 12.0 / self.equation.terms(theta).m;
-            let added = [speed * h * (1.0 - part), speed];
-            (times[0] + part * h, added)
+            Place {
+                t: times[0] + part * h,
+                added: [speed * h * (1.0 - part), speed],
+            }
         })
     }
 }
@@ -71,9 +81,9 @@ impl Tone {
     }
 
     /// Returns what its a, b and ω add to θ and ω of the crank in a step.
-    fn added(&self, places: &[(f64, [f64; 2])]) -> [[f64; 2]; 3] {
+    fn added(&self, places: &[Place]) -> [[f64; 2]; 3] {
         let mut sums = [[0.0; 2]; 3];
-        for (t, added) in places {
+        for Place { t, added } in places {
             for (sum, slope) in sums.iter_mut().zip(self.slopes(*t)) {
                 *sum = [0, 1].map(|k| sum[k] + added[k] * slope);
             }
