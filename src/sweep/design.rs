@@ -1,6 +1,8 @@
 //! One design of a sweep: computes its closed-form turn, diagrams, steady state and motion, as the options ask.
 
-use super::{Source, SweepOptions};
+use std::sync::Arc;
+
+use super::{Source, Sweep};
 use crate::error::Error;
 use crate::kinematics::{self, Diagrams, Kinematics, forces, left_out_of_forces};
 use crate::mechanism::{Class, Linkage};
@@ -36,7 +38,7 @@ pub struct Design {
     /// Reason for any other outcome than done, then warnings.
     pub notes: Vec<String>,
     /// One turn in closed form, if figures of it are asked for; none for an impossible design.
-    pub kinematics: Option<Kinematics>,
+    pub kinematics: Option<Arc<Kinematics>>,
     /// Diagrams of a cycle, if asked for and defined.
     pub diagrams: Option<Diagrams>,
     /// Forward motion, if asked for and computed; the list of events is empty.
@@ -50,7 +52,7 @@ impl Design {
         index: usize,
         values: Vec<VariedValue>,
         scene: Result<Scene, Error>,
-        options: &SweepOptions,
+        sweep: &Sweep,
     ) -> Design {
         let mut design = Design {
             index,
@@ -58,19 +60,20 @@ impl Design {
             ..Design::default()
         };
         match scene {
-            Ok(scene) => design.compute(&scene, options),
+            Ok(scene) => design.compute(&scene, sweep),
             Err(error) => design.fail(Outcome::Impossible, &error),
         }
         design
     }
 
     /// Computes all that is asked of a valid scene.
-    fn compute(&mut self, scene: &Scene, options: &SweepOptions) {
+    fn compute(&mut self, scene: &Scene, sweep: &Sweep) {
+        let options = &sweep.options;
         let class = Class::of(&Linkage::new(&scene.geometry));
         self.notes.extend(kinematics::warnings(class));
-        self.kinematics = options
-            .has(Source::Turn)
-            .then(|| kinematics::of_checked(scene));
+        let turn = || Arc::new(kinematics::of_checked(scene));
+        let own = || options.has(Source::Turn).then(turn);
+        self.kinematics = sweep.turn.clone().or_else(own);
         if options.has(Source::Diagrams) {
             self.notes.extend(left_out_of_forces(scene));
             match forces(scene) {

@@ -83,7 +83,7 @@ fn at_speed(turn: &Kinematics, located: Option<Located>) -> FigureValue<'static>
 impl Figure {
     /// All figures, in the order of the columns.
     pub const ALL: &[Figure] = figures! {
-        Turn: |design| design.kinematics.as_ref(), |turn| {
+        Turn: |design| design.kinematics.as_deref(), |turn| {
             "class": Number = Word(turn.class);
             "stroke": Length = Number(turn.stroke_m);
             "advance": Angle = some(turn.advance_rad);

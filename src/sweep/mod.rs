@@ -6,9 +6,11 @@ mod options;
 mod pareto;
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::error::Error;
+use crate::kinematics::{self, Kinematics};
 pub use crate::numeric::latin_hypercube::LatinHypercube;
 use crate::numeric::parallel;
 use crate::numeric::stop::Stop;
@@ -78,6 +80,8 @@ pub struct Sweep {
     varied: Vec<Varied>,
     options: SweepOptions,
     title: String,
+    /// The turn of all designs, if figures of it are asked for and no varied key changes it.
+    turn: Option<Arc<Kinematics>>,
 }
 
 impl Sweep {
@@ -98,6 +102,7 @@ impl Sweep {
             varied,
             options,
             title: String::new(),
+            turn: None,
         };
         // Errors of the file are reported here once, not in every design.
         for one in &sweep.varied {
@@ -108,6 +113,10 @@ impl Sweep {
         let runs = |one: &Varied| ["run.duration", "run.revolutions"].contains(&&*one.key());
         let has_run = scene.run.extent.is_some() || sweep.varied.iter().any(runs);
         sweep.options.derive_computations(has_run)?;
+        let changes_turn =
+            |one: &Varied| one.key().starts_with("geometry.") || one.key() == "motion.speed";
+        let is_shared = sweep.options.has(Source::Turn) && !sweep.varied.iter().any(changes_turn);
+        sweep.turn = is_shared.then(|| Arc::new(kinematics::of_checked(&scene)));
         sweep.title = scene.title.unwrap_or_default();
         Ok(sweep)
     }
@@ -207,7 +216,7 @@ impl Sweep {
     /// Computes the design of `values`, with index `index`.
     pub fn design_of(&self, index: usize, values: Vec<VariedValue>) -> Design {
         let scene = self.scene(&values);
-        Design::new(index, values, scene, &self.options)
+        Design::new(index, values, scene, self)
     }
 
     /// Computes designs on all cores, keeps of each what `make` returns, and passes that to `take` in order, in batches.
