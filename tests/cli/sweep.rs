@@ -570,6 +570,41 @@ fn figures_of_the_motion_need_no_turn() {
     assert!(notes > 2, "{notes}");
 }
 
+/// A turn is shared by the designs that it belongs to, and by no others.
+#[test]
+fn the_turn_of_a_design_is_that_of_its_scene() {
+    use slider_crank::kinematics::kinematics;
+    use slider_crank::scene::{Crank, Draft, Scene};
+    use slider_crank::sweep::{Sweep, SweepOptions};
+    let crank = Scene::duarte().crank.expect("a crank");
+    let cases = [
+        (
+            "crank.inertia=0.02kgm^2,0.03kgm^2",
+            Scene::duarte().crank(Crank {
+                inertia: 0.03,
+                ..crank
+            }),
+        ),
+        (
+            "motion.speed=20rad/s,-50rad/s",
+            Scene::duarte().start(Scene::duarte().motion.angle, -50.0),
+        ),
+        ("geometry.offset=0mm,10mm", Scene::duarte().offset(0.01)),
+    ];
+    for (values, scene) in cases {
+        let varied = values.parse().expect("values");
+        let sweep = Sweep::new(Draft::duarte(), vec![varied], SweepOptions::default());
+        let of_design = sweep
+            .expect("a sweep")
+            .design(1)
+            .kinematics
+            .expect("a turn");
+        let of_scene = kinematics(&scene).expect("a turn");
+        assert_eq!(of_design.velocity_max, of_scene.velocity_max, "{values}");
+        assert_eq!(of_design.dead_centres, of_scene.dead_centres, "{values}");
+    }
+}
+
 #[test]
 fn what_the_scene_lacks_may_be_varied_in() {
     let folder = Folder::with(&format!("{PUMP}[run]\nduration = \"0.2 s\"\n"));
