@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Source, Sweep};
+use super::{Source, SweepOptions};
 use crate::error::Error;
 use crate::kinematics::{self, Diagrams, Kinematics, forces, left_out_of_forces};
 use crate::mechanism::{Class, Linkage};
@@ -52,7 +52,8 @@ impl Design {
         index: usize,
         values: Vec<VariedValue>,
         scene: Result<Scene, Error>,
-        sweep: &Sweep,
+        options: &SweepOptions,
+        turn: Option<Arc<Kinematics>>,
     ) -> Design {
         let mut design = Design {
             index,
@@ -60,20 +61,18 @@ impl Design {
             ..Design::default()
         };
         match scene {
-            Ok(scene) => design.compute(&scene, sweep),
+            Ok(scene) => design.compute(&scene, options, turn),
             Err(error) => design.fail(Outcome::Impossible, &error),
         }
         design
     }
 
-    /// Computes all that is asked of a valid scene.
-    fn compute(&mut self, scene: &Scene, sweep: &Sweep) {
-        let options = &sweep.options;
+    /// Computes all that is asked of a valid scene, whose turn may be known.
+    fn compute(&mut self, scene: &Scene, options: &SweepOptions, turn: Option<Arc<Kinematics>>) {
         let class = Class::of(&Linkage::new(&scene.geometry));
         self.notes.extend(kinematics::warnings(class));
-        let turn = || Arc::new(kinematics::of_checked(scene));
-        let own = || options.has(Source::Turn).then(turn);
-        self.kinematics = sweep.turn.clone().or_else(own);
+        let own = || Arc::new(kinematics::of_checked(scene));
+        self.kinematics = turn.or_else(|| options.has(Source::Turn).then(own));
         if options.has(Source::Diagrams) {
             self.notes.extend(left_out_of_forces(scene));
             match forces(scene) {

@@ -216,7 +216,7 @@ impl Sweep {
     /// Computes the design of `values`, with index `index`.
     pub fn design_of(&self, index: usize, values: Vec<VariedValue>) -> Design {
         let scene = self.scene(&values);
-        Design::new(index, values, scene, self)
+        Design::new(index, values, scene, &self.options, self.turn.clone())
     }
 
     /// Computes designs on all cores, keeps of each what `make` returns, and passes that to `take` in order, in batches.
