@@ -16,7 +16,6 @@ mod load;
 mod measurement;
 mod model;
 mod number;
-mod opposing;
 mod parts;
 mod period;
 mod problem;
