@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::watch::{self, print, say};
 use crate::error::Error;
-use crate::report::{self, Origin, Output, Picture};
+use crate::report::{self, Origin, Output, Picture, place};
 use crate::scene::{DUARTE, Draft, Scene};
 
 /// Files and streams of a command, checked before any computation.
@@ -118,15 +118,6 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
         }
     }
     Ok(())
-}
-
-/// Returns the canonical path of a file that may not exist yet.
-fn place(path: &Path) -> PathBuf {
-    let folder = path.parent();
-    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
-    let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
-    let new = || Some(folder.ok()?.join(path.file_name()?));
-    std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
 }
 
 /// Refuses a path whose extension is not among the formats `written`.

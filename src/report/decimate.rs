@@ -40,13 +40,9 @@ impl<T> Decimated<T> {
             }
             _ => self.kept.push(item),
         }
-        if self.kept.len() > self.most {
-            self.halve();
+        if self.kept.len() <= self.most {
+            return;
         }
-    }
-
-    fn halve(&mut self) {
-        let weight = self.weight;
         let mut index = 0;
         self.kept.dedup_by(|next, last| {
             index += 1;
