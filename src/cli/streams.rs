@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::watch::{self, print, say};
 use crate::error::Error;
-use crate::report::{self, Origin, Output, Picture, place};
+use crate::report::{self, Origin, Output, place};
 use crate::scene::{DUARTE, Draft, Scene};
 
 /// Files and streams of a command, checked before any computation.
@@ -170,7 +170,7 @@ pub(super) fn fill(
 
 /// Draws a figure, given as SVG, to an optional picture.
 pub(super) fn draw(
-    picture: Option<Picture>,
+    picture: Option<Output>,
     svg: impl FnOnce() -> Result<String, Error>,
 ) -> Result<(), Error> {
     picture.map_or(Ok(()), |picture| picture.draw(&svg()?))

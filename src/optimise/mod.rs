@@ -207,8 +207,7 @@ fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResul
     let (problem, varied) = (evaluator.problem, evaluator.sweep.varied());
     let best = &found.best;
     // Computed once more, with error estimates of the motion.
-    let vouched = evaluator.sweep.with_estimates();
-    let design = vouched.design_of(0, evaluator.values(&best.at));
+    let design = evaluator.vouched(&best.at);
     let number = |one: &Varied, at: f64| one.quantile(at).number.unwrap_or(f64::NAN);
     let numbers = |at: &[f64]| {
         let pairs = varied.iter().zip(at);

@@ -72,7 +72,7 @@ fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluati
     if evaluator.stop.is_requested() {
         return Err(Error::Interrupted);
     }
-    let first = evaluator.sweep.design_of(0, evaluator.values(&found[0].at));
+    let first = evaluator.design(&found[0].at);
     let note = first.notes.into_iter().next();
     let why = note.unwrap_or_else(|| "it has no such figure".to_owned());
     let what = format!(

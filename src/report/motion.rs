@@ -9,7 +9,7 @@ use super::key_values::Facts;
 use super::rows::{MOST_PLOT_ROWS, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
-use super::{DefaultView, Origin, Report, page};
+use super::{DefaultView, Report};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
@@ -134,12 +134,9 @@ impl Report for RunReport<'_> {
         }
     }
 
-    fn page(&self, origin: &Origin) -> Result<String, Error> {
-        let mut default = self.default_view();
-        if let Some(steady) = &self.summary.steady_state {
-            default.figures.push(speed_figure(steady)?);
-        }
-        page::html(origin, &self.facts(), &self.table(), &default)
+    fn page_figures(&self) -> Result<Vec<String>, Error> {
+        let steady = self.summary.steady_state.iter();
+        steady.map(speed_figure).collect()
     }
 }
 

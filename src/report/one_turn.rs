@@ -127,13 +127,9 @@ impl Report for TurnReport<'_> {
         })
     }
 
-    fn page(&self, origin: &super::Origin) -> Result<String, Error> {
-        let mut default = self.default_view();
-        for diagram in Diagram::ALL {
-            let svg = diagram.svg(self.result, self.scene, None)?;
-            default.figures.extend(svg);
-        }
-        super::page::html(origin, &self.facts(), &self.table(), &default)
+    fn page_figures(&self) -> Result<Vec<String>, Error> {
+        let svg = |diagram: Diagram| diagram.svg(self.result, self.scene, None).transpose();
+        Diagram::ALL.into_iter().filter_map(svg).collect()
     }
 }
 

@@ -37,7 +37,13 @@ pub(super) fn is_stream(path: &Path) -> bool {
 pub fn place(path: &Path) -> PathBuf {
     let target = std::fs::read_link(path).map(|to| folder(path).join(to));
     let target = target.unwrap_or_else(|_| path.to_owned());
-    let new = || Some(std::fs::canonicalize(folder(&target)).ok()?.join(target.file_name()?));
+    let new = || {
+        Some(
+            std::fs::canonicalize(folder(&target))
+                .ok()?
+                .join(target.file_name()?),
+        )
+    };
     let known = std::fs::canonicalize(path).ok();
     known.or_else(new).unwrap_or(target)
 }
@@ -108,6 +114,15 @@ impl Output {
             writer: BufWriter::with_capacity(1 << 16, stream),
             path,
         }
+    }
+
+    /// Returns the extension of the target, in lower case; empty for none.
+    pub(super) fn extension(&self) -> String {
+        let extension = Path::new(&self.target).extension().unwrap_or_default();
+        extension
+            .to_ascii_lowercase()
+            .to_string_lossy()
+            .into_owned()
     }
 
     /// Writes bytes to the buffer.
