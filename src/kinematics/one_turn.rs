@@ -151,15 +151,11 @@ impl OneTurn {
     /// Returns the row at a crank angle, rad.
     pub fn row(&self, theta: f64) -> TurnRow {
         let kinematics = self.kinematics.row(theta);
-        let motion = |row: &KinematicsRow| match row.rates {
-            Some([v, a, ..]) => [row.pose.x, v, a],
-            None => [row.pose.x, row.pose.dx, row.pose.d2x],
-        };
         TurnRow {
             forces: self.forces.as_ref().map(|forces| forces.row(theta)),
             slopes: self.has_slopes.then(|| self.slopes(theta)),
             change: self.changed.as_ref().map(|changed| {
-                let (before, after) = (motion(&kinematics), motion(&changed.row(theta)));
+                let (before, after) = (kinematics.motion(), changed.row(theta).motion());
                 [0, 1, 2].map(|i| after[i] - before[i])
             }),
             kinematics,

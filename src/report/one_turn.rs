@@ -156,9 +156,10 @@ fn values(row: &TurnRow) -> Vec<f64> {
         values.extend([slope.x, slope.v, slope.a]);
         values.extend(slope.torque);
     }
-    if let Some([x, v, a]) = row.change {
-        let [at_v, at_a] = rates.map_or([at.dx, at.d2x], |[v, a, ..]| [v, a]);
-        values.extend([x, v, a, at.x + x, at_v + v, at_a + a]);
+    if let Some(change) = row.change {
+        let before = row.kinematics.motion();
+        values.extend(change);
+        values.extend([0, 1, 2].map(|i| before[i] + change[i]));
     }
     values
 }

@@ -138,27 +138,22 @@ impl<'a> SweepWriter<'a> {
         let mut done = missing.start;
         sweep.map_designs(missing, row, |rows| {
             done += rows.len();
-            self.take(rows)?;
+            let mut text = Vec::new();
+            for (cells, line) in rows {
+                text.extend(line);
+                self.tally.take(&cells);
+                if let Some(shown) = &mut self.shown {
+                    shown.take(cells);
+                }
+            }
+            match &mut self.target {
+                Target::Nothing => {}
+                Target::Stream(output) => output.write(&text)?,
+                Target::File(file) => file.append(&text)?,
+            }
             progress(done);
             Ok(())
         })
-    }
-
-    /// Takes the cells and the line of each row.
-    fn take(&mut self, rows: Vec<(Vec<CsvCell>, Vec<u8>)>) -> Result<(), Error> {
-        let mut text = Vec::new();
-        for (cells, line) in rows {
-            text.extend(line);
-            self.tally.take(&cells);
-            if let Some(shown) = &mut self.shown {
-                shown.take(cells);
-            }
-        }
-        match &mut self.target {
-            Target::Nothing => Ok(()),
-            Target::Stream(output) => output.write(&text),
-            Target::File(file) => file.append(&text),
-        }
     }
 
     /// Returns the kept rows; none if none were asked for.
