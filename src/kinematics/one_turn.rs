@@ -162,14 +162,11 @@ impl OneTurn {
         }
     }
 
-    /// Returns the number of turns of the rows: one, or the cycle of the loads if forces are computed.
-    pub fn turns(&self) -> u32 {
-        self.forces.as_ref().map_or(1, |forces| forces.cycle_turns)
-    }
-
-    /// Iterates over the rows of all turns, from 0 to the end inclusive, every `step` (rad).
+    /// Iterates over the rows of one turn, or of the cycle of the loads if forces are computed, from 0 to the end
+    /// inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
-        angle::turns(self.turns(), step).map(|theta| self.row(theta))
+        let turns = self.forces.as_ref().map_or(1, |forces| forces.cycle_turns);
+        angle::turns(turns, step).map(|theta| self.row(theta))
     }
 
     fn slopes(&self, theta: f64) -> [LengthSlope; 3] {

@@ -187,7 +187,7 @@ impl<'a> Evaluator<'a> {
 }
 
 fn design(sweep: &Sweep, at: &[f64]) -> Design {
-    let varied = sweep.varied().iter().zip(at);
+    let varied = sweep.varied.iter().zip(at);
     sweep.design_of(0, varied.map(|(one, at)| one.quantile(*at)).collect())
 }
 

@@ -204,7 +204,7 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
 
 /// Converts a search result from the unit box to the units of the keys.
 fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
-    let (problem, varied) = (evaluator.problem, evaluator.sweep.varied());
+    let (problem, varied) = (evaluator.problem, &evaluator.sweep.varied);
     let best = &found.best;
     // Computed once more, with error estimates of the motion.
     let design = evaluator.vouched(&best.at);
@@ -236,7 +236,7 @@ fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResul
         designs: start.designs,
     });
     Optimum {
-        scene: evaluator.sweep.title().to_owned(),
+        scene: evaluator.sweep.title.clone(),
         figure: problem.goal.figure.to_string(),
         sense: if problem.goal.maximise {
             "most"

@@ -63,7 +63,7 @@ pub(super) fn run(
 
 /// Computes the designs of a sample, at least one of them with all figures.
 fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluation>, Error> {
-    let keys = evaluator.sweep.varied().len() as u64;
+    let keys = evaluator.sweep.varied.len() as u64;
     let at = |index| (0..keys).map(|key| sample.at(key, index)).collect();
     let found = parallel::map(0..sample.count, |index| evaluator.evaluate(at(index)));
     if found.iter().any(|one| one.objective.is_some()) {

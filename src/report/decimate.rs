@@ -5,9 +5,11 @@
 pub(super) struct Decimated<T> {
     most: usize,
     weight: fn(&T) -> f64,
-    kept: Vec<T>,
+    /// Items kept.
+    pub kept: Vec<T>,
     seen: u64,
-    stride: u64,
+    /// Number of items per item kept.
+    pub stride: u64,
 }
 
 impl<T> Decimated<T> {
@@ -53,15 +55,5 @@ impl<T> Decimated<T> {
             second
         });
         self.stride *= 2;
-    }
-
-    /// Returns the number of items per item kept.
-    pub fn stride(&self) -> u64 {
-        self.stride
-    }
-
-    /// Returns the items kept.
-    pub fn kept(&self) -> &[T] {
-        &self.kept
     }
 }

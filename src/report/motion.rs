@@ -34,7 +34,7 @@ impl PlotRows {
     /// Takes a row, and keeps it if its block has no row of larger contact force. The first row is refused if it lacks
     /// columns of the view.
     pub fn take(&mut self, row: &Row) -> Result<(), Error> {
-        if self.rows.kept().is_empty() {
+        if self.rows.kept.is_empty() {
             self.view.check(&columns(row))?;
         }
         self.rows.take(*row);
@@ -56,7 +56,7 @@ pub struct RunReport<'a> {
 
 impl RunReport<'_> {
     fn rows(&self) -> &[Row] {
-        self.plot.rows.kept()
+        &self.plot.rows.kept
     }
 
     /// Returns the path of the journal centre in the bearing and the clearance circle of radius `radial`, mm.
@@ -107,7 +107,7 @@ impl Report for RunReport<'_> {
         };
         let header = rows.first().map_or(String::new(), columns);
         let mut table = Table::filled(&header, rows.iter().map(with_derived));
-        table.stride = self.plot.rows.stride();
+        table.stride = self.plot.rows.stride;
         table
     }
 

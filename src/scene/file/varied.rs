@@ -38,7 +38,8 @@ pub struct Varied {
     /// Values as written.
     text: String,
     values: Variation,
-    has_numbers: bool,
+    /// Whether all values are quantities.
+    pub(crate) has_numbers: bool,
 }
 
 /// Value that a key of a scene takes.
@@ -85,11 +86,6 @@ impl Varied {
     /// Returns the SI unit of the values in the form of scene files; empty for numbers and words.
     pub fn unit(&self) -> &'static str {
         self.path.unit()
-    }
-
-    /// Whether all values are quantities.
-    pub fn has_numbers(&self) -> bool {
-        self.has_numbers
     }
 
     /// Returns the key, as `geometry.offset`.
