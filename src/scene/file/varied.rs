@@ -95,7 +95,8 @@ impl Varied {
 
     /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
-        let name = self.path.column();
+        let name = self.key().replace('[', "_");
+        let name = name.replace("].", "_").replace('.', "_");
         match self.path.key.kind.quantity() {
             Some(quantity) if self.has_numbers => quantity.column(&name),
             _ => name,
