@@ -8,7 +8,7 @@ use super::streams::{Streams, check_extension};
 use super::values::angle;
 use super::watch::{print, say};
 use crate::error::Error;
-use crate::report::{Output, Picture, Pose, Sketch, animation};
+use crate::report::{Output, Pose, Sketch, animation};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, simulate_rows};
 
@@ -102,9 +102,10 @@ fn draw(arguments: &Arguments, scene: &Scene, as_dxf: bool) -> Result<(), Error>
         ));
     }
     let (sketch, pose) = (Sketch::of(scene), Pose { theta, x: row.x });
+    let output = Output::create(&arguments.out)?;
     match as_dxf {
-        true => Output::create(&arguments.out)?.text(&sketch.dxf(pose))?,
-        false => Picture::create(&arguments.out)?.draw(&sketch.svg(pose))?,
+        true => output.text(&sketch.dxf(pose))?,
+        false => output.draw(&sketch.svg(pose))?,
     }
     print(&format!("theta  {degrees} deg\nx      {} m\n", row.x))
 }

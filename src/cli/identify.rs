@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::reading::ReadingArguments;
-use super::streams::{Streams, check_inputs, create};
+use super::streams::{Streams, check_inputs, create, fill};
 use crate::error::Error;
 use crate::inverse::identify::{FreeKey, identify_keys};
 use crate::report;
@@ -41,8 +41,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     streams.spare_tables(&written)?;
     let out = create(arguments.out.as_ref())?;
     let result = identify_keys(&draft, &|scene| scene, &arguments.free, &measurement, None)?;
-    if let Some(output) = out {
-        report::identification_csv(&result, output)?;
-    }
+    fill(out, || Ok(report::identification_csv(&result)))?;
     streams.show(&result, || report::identification(&result))
 }

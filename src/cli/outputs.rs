@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::streams::{Streams, check_extension, create, draw, fill, page};
 use crate::error::Error;
-use crate::report::{EXTENSIONS, Origin, Output, Picture, Report, Shape, View};
+use crate::report::{EXTENSIONS, Origin, Output, Report, Shape, View};
 
 /// Where a picture goes, and how large it is.
 #[derive(Debug, Args)]
@@ -36,9 +36,9 @@ pub(super) struct PlotOfRows {
 
 impl Plot {
     /// Opens the picture, if asked for; its extension must be one of a picture.
-    pub fn open(&self) -> Result<Option<Picture>, Error> {
+    pub fn open(&self) -> Result<Option<Output>, Error> {
         check_extension(self.plot.as_ref(), &EXTENSIONS)?;
-        self.plot.as_deref().map(Picture::create).transpose()
+        create(self.plot.as_ref())
     }
 }
 
@@ -95,7 +95,7 @@ impl Outputs {
 /// Open outputs of a command.
 pub(super) struct Targets {
     pub rows: Option<Output>,
-    pub picture: Option<Picture>,
+    pub picture: Option<Output>,
     pub page: Option<Output>,
     view: View,
 }

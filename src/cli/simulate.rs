@@ -73,26 +73,16 @@ struct Rows<'a> {
     loose: bool,
 }
 
-impl Rows<'_> {
-    /// Returns [`Error::Interrupted`] if a request to stop is older than [`GRACE`].
-    fn check_stop(&mut self) -> Result<(), Error> {
-        if !self.stop.is_requested() {
-            return Ok(());
-        }
-        match self.seen.get_or_insert_with(Instant::now).elapsed() > GRACE {
-            true => Err(Error::Interrupted),
-            false => Ok(()),
-        }
-    }
-}
-
 impl RowSink for Rows<'_> {
     fn wants_rows(&self) -> bool {
         self.writer.is_some() || self.preview.is_some() || self.plots
     }
 
     fn row(&mut self, row: &Row) -> Result<(), Error> {
-        self.check_stop()?;
+        if self.stop.is_requested() && self.seen.get_or_insert_with(Instant::now).elapsed() > GRACE
+        {
+            return Err(Error::Interrupted);
+        }
         self.t = row.t;
         if let Some(preview) = &mut self.preview {
             preview.take(row);

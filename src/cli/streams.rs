@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::watch::{self, print, say};
 use crate::error::Error;
-use crate::report::{self, Origin, Output, Picture};
+use crate::report::{self, Origin, Output, place};
 use crate::scene::{DUARTE, Draft, Scene};
 
 /// Files and streams of a command, checked before any computation.
@@ -120,15 +120,6 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
     Ok(())
 }
 
-/// Returns the canonical path of a file that may not exist yet.
-fn place(path: &Path) -> PathBuf {
-    let folder = path.parent();
-    let folder = folder.filter(|folder| !folder.as_os_str().is_empty());
-    let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
-    let new = || Some(folder.ok()?.join(path.file_name()?));
-    std::fs::canonicalize(path).unwrap_or_else(|_| new().unwrap_or_else(|| path.to_owned()))
-}
-
 /// Refuses a path whose extension is not among the formats `written`.
 pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
     let is_known = |ending: &OsStr| {
@@ -179,7 +170,7 @@ pub(super) fn fill(
 
 /// Draws a figure, given as SVG, to an optional picture.
 pub(super) fn draw(
-    picture: Option<Picture>,
+    picture: Option<Output>,
     svg: impl FnOnce() -> Result<String, Error>,
 ) -> Result<(), Error> {
     picture.map_or(Ok(()), |picture| picture.draw(&svg()?))

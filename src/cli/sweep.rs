@@ -175,7 +175,7 @@ pub(super) fn run(arguments: &Arguments, stop: &Stop) -> Result<(), Error> {
         fill(page, || report::sweep_page(&summary, &table, &origin(read)))?;
     }
     streams.show(&summary, || report::sweep_text(&summary))?;
-    if summary.done() == 0 && summary.part[0] <= summary.part[1] {
+    if !summary.status.contains_key("done") && summary.part[0] <= summary.part[1] {
         let why = "no design could be computed; the notes of each row say why";
         return Err(Error::Incomplete(why.to_owned()));
     }

@@ -141,6 +141,14 @@ pub(crate) fn warnings(class: Class) -> Vec<String> {
     said.iter().map(|what| (*what).to_owned()).collect()
 }
 
+impl KinematicsRow {
+    /// Returns x, v and a of the slider, m, m/s and m/s²; without a speed x, x' and x''.
+    pub fn motion(&self) -> [f64; 3] {
+        let Pose { x, dx, d2x, .. } = self.pose;
+        self.rates.map_or([x, dx, d2x], |[v, a, ..]| [x, v, a])
+    }
+}
+
 impl Kinematics {
     /// Returns the row at a crank angle, rad.
     pub fn row(&self, theta: f64) -> KinematicsRow {

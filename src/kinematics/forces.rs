@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::mechanism::{
     Equation, EquivalentMasses, InertiaForces, Limits, Linkage, Reactions, Reactor,
 };
-use crate::numeric::{angle, maximum};
+use crate::numeric::maximum;
 use crate::plan::Cycle;
 use crate::scene::Scene;
 
@@ -127,11 +127,6 @@ impl ForceAnalysis {
             first_order_acceleration: first.d2x * squared,
             first_order_torque: self.masses.reciprocating_kg * first.dx_d2x * squared,
         }
-    }
-
-    /// Iterates over the rows of the cycle, from angle 0 to the end inclusive, every `step` (rad).
-    pub fn rows(&self, step: f64) -> impl Iterator<Item = (f64, ForceRow)> + '_ {
-        angle::turns(self.cycle_turns, step).map(|theta| (theta, self.row(theta)))
     }
 
     /// Returns the angle at which the cycle ends, rad.

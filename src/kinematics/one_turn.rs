@@ -151,29 +151,22 @@ impl OneTurn {
     /// Returns the row at a crank angle, rad.
     pub fn row(&self, theta: f64) -> TurnRow {
         let kinematics = self.kinematics.row(theta);
-        let motion = |row: &KinematicsRow| match row.rates {
-            Some([v, a, ..]) => [row.pose.x, v, a],
-            None => [row.pose.x, row.pose.dx, row.pose.d2x],
-        };
         TurnRow {
             forces: self.forces.as_ref().map(|forces| forces.row(theta)),
             slopes: self.has_slopes.then(|| self.slopes(theta)),
             change: self.changed.as_ref().map(|changed| {
-                let (before, after) = (motion(&kinematics), motion(&changed.row(theta)));
+                let (before, after) = (kinematics.motion(), changed.row(theta).motion());
                 [0, 1, 2].map(|i| after[i] - before[i])
             }),
             kinematics,
         }
     }
 
-    /// Returns the number of turns of the rows: one, or the cycle of the loads if forces are computed.
-    pub fn turns(&self) -> u32 {
-        self.forces.as_ref().map_or(1, |forces| forces.cycle_turns)
-    }
-
-    /// Iterates over the rows of all turns, from 0 to the end inclusive, every `step` (rad).
+    /// Iterates over the rows of one turn, or of the cycle of the loads if forces are computed, from 0 to the end
+    /// inclusive, every `step` (rad).
     pub fn rows(&self, step: f64) -> impl Iterator<Item = TurnRow> + '_ {
-        angle::turns(self.turns(), step).map(|theta| self.row(theta))
+        let turns = self.forces.as_ref().map_or(1, |forces| forces.cycle_turns);
+        angle::turns(turns, step).map(|theta| self.row(theta))
     }
 
     fn slopes(&self, theta: f64) -> [LengthSlope; 3] {

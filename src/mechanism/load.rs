@@ -141,7 +141,7 @@ impl Loads {
 
     /// Returns the first row out of step with the turns, rad, after `from` on the way to `to`, in either direction.
     pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        self.first_on_way(from, |load| load.corner_out_of_step(from, to))
+        self.first_on_way(from, |load| load.out_of_step()?.row_on_way(from, to))
     }
 
     /// Returns the first row, rad, of tables over the crank angle after `from` on the way to `to`, in either direction.

@@ -6,8 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering as Memory};
 
 use super::{AGREEMENT, LEAST_IMPROVEMENT, Problem};
 use crate::numeric::stop::Stop;
-use crate::scene::VariedValue;
-use crate::sweep::{Goal, Outcome, Source, Sweep};
+use crate::sweep::{Design, Goal, Outcome, Source, Sweep};
 
 /// Objective and constraints over the unit box: coordinate 0 is the lower bound of a key, 1 the upper one.
 pub(super) struct Evaluator<'a> {
@@ -65,9 +64,14 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    pub fn values(&self, at: &[f64]) -> Vec<VariedValue> {
-        let varied = self.sweep.varied().iter().zip(at);
-        varied.map(|(one, at)| one.quantile(*at)).collect()
+    /// Computes the design at a point of the unit box.
+    pub fn design(&self, at: &[f64]) -> Design {
+        design(self.sweep, at)
+    }
+
+    /// Computes the design at a point of the unit box, with error estimates of its motion.
+    pub fn vouched(&self, at: &[f64]) -> Design {
+        design(&self.sweep.with_estimates(), at)
     }
 
     /// Computes and ranks a design; returns one without figures after a request to stop.
@@ -76,7 +80,7 @@ impl<'a> Evaluator<'a> {
             return self.ranked(at, None, Vec::new());
         }
         self.computed.fetch_add(1, Memory::Relaxed);
-        let design = self.sweep.design_of(0, self.values(&at));
+        let design = self.design(&at);
         let goal = self.problem.goal;
         let margins = self.problem.constraints.iter().map(|constraint| {
             let value = constraint.figure.number(&design)?;
@@ -154,8 +158,7 @@ impl<'a> Evaluator<'a> {
         if self.problem.goal.figure.source <= Source::Diagrams || self.stop.is_requested() {
             return least;
         }
-        let vouched = self.sweep.with_estimates();
-        let design = vouched.design_of(0, self.values(&one.at));
+        let design = self.vouched(&one.at);
         let motion = design.motion.as_ref().and_then(|run| {
             let error = run.error_estimate?;
             let fastest = run.omega_max.abs().max(run.omega_min.abs());
@@ -181,6 +184,11 @@ impl<'a> Evaluator<'a> {
             _ => other.violation - one.violation > LEAST_IMPROVEMENT,
         }
     }
+}
+
+fn design(sweep: &Sweep, at: &[f64]) -> Design {
+    let varied = sweep.varied.iter().zip(at);
+    sweep.design_of(0, varied.map(|(one, at)| one.quantile(*at)).collect())
 }
 
 /// Returns the interquartile range of at least one value; the full range if that is zero, 1 if both are zero or not finite.

@@ -204,11 +204,10 @@ fn bounds(varied: &[Varied]) -> Result<Vec<[f64; 2]>, Error> {
 
 /// Converts a search result from the unit box to the units of the keys.
 fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResult) -> Optimum {
-    let (problem, varied) = (evaluator.problem, evaluator.sweep.varied());
+    let (problem, varied) = (evaluator.problem, &evaluator.sweep.varied);
     let best = &found.best;
     // Computed once more, with error estimates of the motion.
-    let vouched = evaluator.sweep.with_estimates();
-    let design = vouched.design_of(0, evaluator.values(&best.at));
+    let design = evaluator.vouched(&best.at);
     let number = |one: &Varied, at: f64| one.quantile(at).number.unwrap_or(f64::NAN);
     let numbers = |at: &[f64]| {
         let pairs = varied.iter().zip(at);
@@ -237,7 +236,7 @@ fn report(evaluator: &Evaluator, bounds: &[[f64; 2]], found: search::SearchResul
         designs: start.designs,
     });
     Optimum {
-        scene: evaluator.sweep.title().to_owned(),
+        scene: evaluator.sweep.title.clone(),
         figure: problem.goal.figure.to_string(),
         sense: if problem.goal.maximise {
             "most"

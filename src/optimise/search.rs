@@ -63,7 +63,7 @@ pub(super) fn run(
 
 /// Computes the designs of a sample, at least one of them with all figures.
 fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluation>, Error> {
-    let keys = evaluator.sweep.varied().len() as u64;
+    let keys = evaluator.sweep.varied.len() as u64;
     let at = |index| (0..keys).map(|key| sample.at(key, index)).collect();
     let found = parallel::map(0..sample.count, |index| evaluator.evaluate(at(index)));
     if found.iter().any(|one| one.objective.is_some()) {
@@ -72,7 +72,7 @@ fn explore(evaluator: &Evaluator, sample: LatinHypercube) -> Result<Vec<Evaluati
     if evaluator.stop.is_requested() {
         return Err(Error::Interrupted);
     }
-    let first = evaluator.sweep.design_of(0, evaluator.values(&found[0].at));
+    let first = evaluator.design(&found[0].at);
     let note = first.notes.into_iter().next();
     let why = note.unwrap_or_else(|| "it has no such figure".to_owned());
     let what = format!(

@@ -100,18 +100,6 @@ impl MethodRun {
         })
     }
 
-    /// Whether the run reached its end; if the equations end earlier (`ends`), whether it ran at all.
-    fn reached_end(&self, ends: bool) -> bool {
-        let summary = self.result.as_ref().ok();
-        summary.is_some_and(|summary| ends || summary.stopped.is_none())
-    }
-
-    fn run_again(&mut self, options: &PrecisionOptions) {
-        if let Ok(summary) = run(&self.scene, self.method, false, options) {
-            self.wall_times_s.push(black_box(summary).wall_s);
-        }
-    }
-
     /// Returns the row, measured against the first reference of another identity.
     pub(super) fn row(&self, references: &[(Option<Identity>, Reference)]) -> PrecisionRow {
         let mut row = PrecisionRow {
@@ -187,23 +175,26 @@ fn error(value: f64, reference: DoubleDouble, reference_error: f64) -> (f64, boo
     }
 }
 
-/// Times all cells in rounds, alternately forwards and backwards, to spread disturbances of the machine over all.
-/// `ends`: the equations end before the run.
+/// Times all cells that reached their end in rounds, alternately forwards and backwards, to spread disturbances of the
+/// machine over all. If the equations end before the run (`ends`), it is enough that a cell ran at all.
 pub(super) fn time(cells: &mut [MethodRun], ends: bool, options: &PrecisionOptions) {
     let begun = Instant::now();
     for round in 0..options.repeats.max(1) {
         if round > 0 && begun.elapsed().as_secs_f64() > options.most_s {
             break;
         }
-        let mut served: Vec<_> = cells
-            .iter_mut()
-            .filter(|cell| cell.reached_end(ends))
-            .collect();
+        let is_served = |cell: &&mut MethodRun| {
+            let run = cell.result.as_ref();
+            run.is_ok_and(|run| ends || run.stopped.is_none())
+        };
+        let mut served: Vec<_> = cells.iter_mut().filter(is_served).collect();
         if round % 2 == 1 {
             served.reverse();
         }
         for cell in served {
-            cell.run_again(options);
+            if let Ok(summary) = run(&cell.scene, cell.method, false, options) {
+                cell.wall_times_s.push(black_box(summary).wall_s);
+            }
         }
     }
 }

@@ -5,9 +5,11 @@
 pub(super) struct Decimated<T> {
     most: usize,
     weight: fn(&T) -> f64,
-    kept: Vec<T>,
+    /// Items kept.
+    pub kept: Vec<T>,
     seen: u64,
-    stride: u64,
+    /// Number of items per item kept.
+    pub stride: u64,
 }
 
 impl<T> Decimated<T> {
@@ -40,13 +42,9 @@ impl<T> Decimated<T> {
             }
             _ => self.kept.push(item),
         }
-        if self.kept.len() > self.most {
-            self.halve();
+        if self.kept.len() <= self.most {
+            return;
         }
-    }
-
-    fn halve(&mut self) {
-        let weight = self.weight;
         let mut index = 0;
         self.kept.dedup_by(|next, last| {
             index += 1;
@@ -57,15 +55,5 @@ impl<T> Decimated<T> {
             second
         });
         self.stride *= 2;
-    }
-
-    /// Returns the number of items per item kept.
-    pub fn stride(&self) -> u64 {
-        self.stride
-    }
-
-    /// Returns the items kept.
-    pub fn kept(&self) -> &[T] {
-        &self.kept
     }
 }

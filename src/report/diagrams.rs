@@ -102,31 +102,22 @@ fn turning_moment(diagrams: &Diagrams, rows: &[TurnRow]) -> Figure {
 fn pressures(scene: &Scene, rows: &[TurnRow]) -> Vec<Figure> {
     let distances = rows.iter().map(|row| row.kinematics.pose.x.abs());
     let far = distances.fold(0.0, f64::max);
-    let gases = scene.forces.iter().filter_map(|load| match load {
-        Load::Gas { pressure, area, .. } => Some((pressure, *area)),
-        _ => None,
-    });
-    let figure = |(pressure, area): (&crate::scene::Table, f64)| {
+    let figure = |load: &Load| {
+        let Load::Gas { pressure, area, .. } = load else {
+            return None;
+        };
         let points = rows.iter().map(|row| {
             let volume = area * (far - row.kinematics.pose.x.abs());
             (1e6 * volume, 1e-5 * pressure.value(row.kinematics.theta))
         });
-        Figure::new(
-            "indicator diagram",
-            Axis::linear("swept volume [cm³]"),
-            Axis::linear("pressure [bar]"),
-        )
-        .line("", points.collect())
+        let across = Axis::linear("swept volume [cm³]");
+        let figure = Figure::new("indicator diagram", across, Axis::linear("pressure [bar]"));
+        Some(figure.line("", points.collect()))
     };
-    gases.map(figure).collect()
+    scene.forces.iter().filter_map(figure).collect()
 }
 
 fn polar(rows: &[TurnRow]) -> Vec<Figure> {
-    // Components along the crank and a quarter turn ahead of it.
-    let turned = |row: &TurnRow, [x, y]: [f64; 2]| {
-        let (sin, cos) = row.kinematics.theta.sin_cos();
-        (x * cos + y * sin, y * cos - x * sin)
-    };
     let figure = |what: &str, turns: bool, of: fn(&Reactions) -> [f64; 2]| {
         let [how, along, across] = match turns {
             true => [
@@ -138,11 +129,11 @@ fn polar(rows: &[TurnRow]) -> Vec<Figure> {
         };
         let title = format!("{what}, {how}");
         let points = rows.iter().filter_map(|row| {
-            let force = of(&row.forces?.reactions);
-            Some(match turns {
-                true => turned(row, force),
-                false => force.into(),
-            })
+            let [x, y] = of(&row.forces?.reactions);
+            // Components along the crank and a quarter turn ahead of it, or along x and y.
+            let angle = if turns { row.kinematics.theta } else { 0.0 };
+            let (sin, cos) = angle.sin_cos();
+            Some((x * cos + y * sin, y * cos - x * sin))
         });
         Figure::new(title, Axis::linear(along), Axis::linear(across))
             .equal()

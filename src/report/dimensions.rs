@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::scene::{Joint, Scene};
+use crate::scene::Scene;
 
 /// Dimensions of the mechanism, m; body points as coordinates along the body and to the left of it.
 #[derive(Debug, Serialize)]
@@ -25,7 +25,7 @@ pub(super) struct Dimensions {
 /// Loose joint with its radial clearance, m.
 #[derive(Debug, Serialize)]
 struct Loose {
-    joint: &'static str,
+    joint: String,
     radial: f64,
 }
 
@@ -42,10 +42,7 @@ impl Dimensions {
             crank_cg: crank.map(|crank| [crank.cg, crank.cg_lateral]),
             rod_cg: rod.map(|rod| [rod.cg, rod.cg_lateral]),
             loose: scene.clearance.as_ref().map(|clearance| Loose {
-                joint: match clearance.joint {
-                    Joint::CrankPin => "crank pin",
-                    Joint::WristPin => "wrist pin",
-                },
+                joint: clearance.joint.name().replace('-', " "),
                 radial: clearance.radial,
             }),
         }

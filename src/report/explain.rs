@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::key_values::{Facts, degrees, fact, given, six};
 use super::text::NAME_WIDTH;
 use crate::explain::{Explanation, FrictionAt, TermsAt};
+use crate::scene::counted;
 
 /// Returns the explanation as text.
 pub fn explanation(result: &Explanation) -> String {
@@ -53,8 +54,7 @@ fn computation(result: &Explanation) -> Facts {
     facts.add("  state", state);
     facts.add("  events", plan.events.join(", "));
     let cycle = match (&plan.cycle.turns, &plan.cycle.why_not) {
-        (Some(1), _) => "1 turn".to_owned(),
-        (Some(turns), _) => format!("{turns} turns"),
+        (Some(turns), _) => counted(*turns as usize, "turn"),
         (None, why) => format!("none: {}", why.as_deref().unwrap_or_default()),
     };
     facts.add("  cycle of the loads", cycle);

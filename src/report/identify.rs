@@ -1,9 +1,7 @@
 //! Reports of a parameter identification: text and CSV.
 
-use super::Output;
 use super::csv;
 use super::key_values::{Facts, digits, fact, rounded, six};
-use crate::error::Error;
 use crate::inverse::identify::Identification;
 use crate::scene::Measured;
 
@@ -35,9 +33,9 @@ pub fn identification(result: &Identification) -> String {
     facts.lines(22)
 }
 
-/// Writes one CSV row per identified value.
-pub fn identification_csv(result: &Identification, output: Output) -> Result<(), Error> {
+/// Returns one CSV row per identified value.
+pub fn identification_csv(result: &Identification) -> String {
     let header = "key,unit,start,value,standard_error,half_band";
     let rows = result.values.iter().map(|one| csv::fields(header, one));
-    output.text(&csv::text(header, rows))
+    csv::text(header, rows)
 }

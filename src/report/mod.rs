@@ -44,9 +44,9 @@ pub use key_values::Facts;
 pub use motion::{PlotRows, RunReport};
 pub use one_turn::{TurnReport, sized};
 pub use optimise::{optimum, starts_csv};
-pub use output::{Output, is_standard_output};
+pub use output::{Output, is_standard_output, place};
 pub use page::Origin;
-pub use picture::{EXTENSIONS, Picture};
+pub use picture::EXTENSIONS;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use presentation::{Report, json};
 pub use reproduce::{

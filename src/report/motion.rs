@@ -9,7 +9,7 @@ use super::key_values::Facts;
 use super::rows::{MOST_PLOT_ROWS, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
-use super::{DefaultView, Origin, Report, page};
+use super::{DefaultView, Report};
 use crate::error::Error;
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
@@ -34,7 +34,7 @@ impl PlotRows {
     /// Takes a row, and keeps it if its block has no row of larger contact force. The first row is refused if it lacks
     /// columns of the view.
     pub fn take(&mut self, row: &Row) -> Result<(), Error> {
-        if self.rows.kept().is_empty() {
+        if self.rows.kept.is_empty() {
             self.view.check(&columns(row))?;
         }
         self.rows.take(*row);
@@ -56,7 +56,7 @@ pub struct RunReport<'a> {
 
 impl RunReport<'_> {
     fn rows(&self) -> &[Row] {
-        self.plot.rows.kept()
+        &self.plot.rows.kept
     }
 
     /// Returns the path of the journal centre in the bearing and the clearance circle of radius `radial`, mm.
@@ -107,7 +107,7 @@ impl Report for RunReport<'_> {
         };
         let header = rows.first().map_or(String::new(), columns);
         let mut table = Table::filled(&header, rows.iter().map(with_derived));
-        table.stride = self.plot.rows.stride();
+        table.stride = self.plot.rows.stride;
         table
     }
 
@@ -134,12 +134,9 @@ impl Report for RunReport<'_> {
         }
     }
 
-    fn page(&self, origin: &Origin) -> Result<String, Error> {
-        let mut default = self.default_view();
-        if let Some(steady) = &self.summary.steady_state {
-            default.figures.push(speed_figure(steady)?);
-        }
-        page::html(origin, &self.facts(), &self.table(), &default)
+    fn page_figures(&self) -> Result<Vec<String>, Error> {
+        let steady = self.summary.steady_state.iter();
+        steady.map(speed_figure).collect()
     }
 }
 

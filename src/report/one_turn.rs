@@ -127,13 +127,9 @@ impl Report for TurnReport<'_> {
         })
     }
 
-    fn page(&self, origin: &super::Origin) -> Result<String, Error> {
-        let mut default = self.default_view();
-        for diagram in Diagram::ALL {
-            let svg = diagram.svg(self.result, self.scene, None)?;
-            default.figures.extend(svg);
-        }
-        super::page::html(origin, &self.facts(), &self.table(), &default)
+    fn page_figures(&self) -> Result<Vec<String>, Error> {
+        let svg = |diagram: Diagram| diagram.svg(self.result, self.scene, None).transpose();
+        Diagram::ALL.into_iter().filter_map(svg).collect()
     }
 }
 
@@ -160,9 +156,10 @@ fn values(row: &TurnRow) -> Vec<f64> {
         values.extend([slope.x, slope.v, slope.a]);
         values.extend(slope.torque);
     }
-    if let Some([x, v, a]) = row.change {
-        let [at_v, at_a] = rates.map_or([at.dx, at.d2x], |[v, a, ..]| [v, a]);
-        values.extend([x, v, a, at.x + x, at_v + v, at_a + a]);
+    if let Some(change) = row.change {
+        let before = row.kinematics.motion();
+        values.extend(change);
+        values.extend([0, 1, 2].map(|i| before[i] + change[i]));
     }
     values
 }

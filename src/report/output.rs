@@ -32,11 +32,20 @@ pub(super) fn is_stream(path: &Path) -> bool {
     path.exists() && !path.is_dir() && (is_open || !path.is_file())
 }
 
-/// Returns the target of a symbolic link, which keeps the link itself in place.
-fn followed(path: &Path) -> PathBuf {
-    std::fs::canonicalize(path)
-        .or_else(|_| std::fs::read_link(path).map(|to| folder(path).join(to)))
-        .unwrap_or_else(|_| path.to_owned())
+/// Returns the canonical path of a file that may not exist yet; for a symbolic link that of its target, which keeps the
+/// link itself in place.
+pub fn place(path: &Path) -> PathBuf {
+    let target = std::fs::read_link(path).map(|to| folder(path).join(to));
+    let target = target.unwrap_or_else(|_| path.to_owned());
+    let new = || {
+        Some(
+            std::fs::canonicalize(folder(&target))
+                .ok()?
+                .join(target.file_name()?),
+        )
+    };
+    let known = std::fs::canonicalize(path).ok();
+    known.or_else(new).unwrap_or(target)
 }
 
 fn folder(path: &Path) -> &Path {
@@ -107,6 +116,15 @@ impl Output {
         }
     }
 
+    /// Returns the extension of the target, in lower case; empty for none.
+    pub(super) fn extension(&self) -> String {
+        let extension = Path::new(&self.target).extension().unwrap_or_default();
+        extension
+            .to_ascii_lowercase()
+            .to_string_lossy()
+            .into_owned()
+    }
+
     /// Writes bytes to the buffer.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let written = self.writer.write_all(bytes);
@@ -138,7 +156,7 @@ fn opened(path: &Path) -> io::Result<(Stream, Option<PathBuf>)> {
         let file = File::options().append(true).open(path)?;
         return Ok((Stream::File(file), None));
     }
-    let path = followed(path);
+    let path = place(path);
     let folder = folder(&path);
     if !folder.is_dir() {
         let why = format!("the folder `{}` does not exist", folder.display());

@@ -1,6 +1,5 @@
 //! Picture files: writes a figure, given as SVG, as SVG, PNG or PDF by the extension of the file.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -13,26 +12,11 @@ use crate::error::Error;
 /// Extensions of picture files.
 pub const EXTENSIONS: [&str; 3] = ["svg", "png", "pdf"];
 
-/// File to which a figure is drawn.
-#[derive(Debug)]
-pub struct Picture {
-    output: Output,
-    ending: String,
-}
-
-impl Picture {
-    /// Opens the file; extension `png` or `pdf` selects the format, which is SVG otherwise and on standard output.
-    pub fn create(path: &Path) -> Result<Picture, Error> {
-        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-        Ok(Picture {
-            output: Output::create(path)?,
-            ending: ending.to_string_lossy().into_owned(),
-        })
-    }
-
-    /// Draws a figure given as SVG.
+impl Output {
+    /// Draws a figure given as SVG; extension `png` or `pdf` selects the format, which is SVG otherwise and on standard
+    /// output.
     pub fn draw(mut self, svg: &str) -> Result<(), Error> {
-        let bytes = match self.ending.as_str() {
+        let bytes = match self.extension().as_str() {
             // Two pixels per pixel of the figure are sharp in print and on high-resolution screens.
             "png" => pixels(svg, 2.0)?.encode_png().map_err(failed)?,
             "pdf" => {
@@ -42,10 +26,10 @@ impl Picture {
                 let options = svg2pdf::ConversionOptions::default();
                 svg2pdf::to_pdf(&outlines(svg)?, options, page).map_err(failed)?
             }
-            _ => return self.output.text(svg),
+            _ => return self.text(svg),
         };
-        self.output.write(&bytes)?;
-        self.output.finish()
+        self.write(&bytes)?;
+        self.finish()
     }
 }
 

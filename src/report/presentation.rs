@@ -32,9 +32,18 @@ pub trait Report {
         view.svg(&self.table(), self.default_view())
     }
 
+    /// Returns the static figures of the page, as SVG.
+    fn page_figures(&self) -> Result<Vec<String>, Error> {
+        Ok(Vec::new())
+    }
+
     /// Returns the result as one HTML page.
     fn page(&self, origin: &Origin) -> Result<String, Error> {
-        page::html(origin, &self.facts(), &self.table(), &self.default_view())
+        let default = DefaultView {
+            figures: self.page_figures()?,
+            ..self.default_view()
+        };
+        page::html(origin, &self.facts(), &self.table(), &default)
     }
 }
 

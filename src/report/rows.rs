@@ -12,7 +12,6 @@ const MOTION: &str =
 pub(super) const REACTIONS: &str = "crank_bearing_x_n,crank_bearing_y_n,crank_pin_x_n,crank_pin_y_n,wrist_pin_x_n,wrist_pin_y_n,guide_n,shaking_x_n,shaking_y_n,shaking_moment_nm";
 const CLEARANCE: &str =
     "x_ideal_m,v_ideal_m_per_s,a_ideal_m_per_s2,journal_x_m,journal_y_m,contact_force_n";
-const TORQUE: &str = "crank_torque_nm";
 
 /// Maximum number of rows kept for pictures and pages; a page of so many holds about 20 megabytes.
 pub(super) const MOST_PLOT_ROWS: usize = 100_000;
@@ -51,7 +50,7 @@ impl RowWriter {
 pub(super) fn header(row: &Row) -> String {
     let mut columns = vec![MOTION];
     columns.extend(row.reactions.map(|_| REACTIONS));
-    columns.extend(row.driving_torque.map(|_| TORQUE));
+    columns.extend(row.driving_torque.map(|_| "crank_torque_nm"));
     columns.extend(row.clearance.map(|_| CLEARANCE));
     columns.join(",")
 }
@@ -121,7 +120,7 @@ impl Preview {
 
     /// Returns the rows kept, and the last row of the run.
     pub fn rows(&self) -> Vec<Row> {
-        let mut rows = self.few.kept().to_vec();
+        let mut rows = self.few.kept.clone();
         let end = rows.last().map_or(f64::NEG_INFINITY, |row| row.t);
         rows.extend(self.last.filter(|last| last.t > end));
         rows

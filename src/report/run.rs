@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::diagrams::stems;
 use super::key_values::{Facts, fact, given, in_turn, six, text_table, with_error};
 use crate::error::Error;
+use crate::scene::counted;
 use crate::simulate::{
     ClearanceSummary, ContactStatistics, Estimated, Flywheel, Row, SpeedExtreme, SpeedOrder,
     SteadyState, Summary,
@@ -85,9 +86,8 @@ fn events(summary: &Summary) -> String {
     for kind in "dead-centre,turning-point,limit,stick,slip,rest".split(',') {
         let noun = kind.replace('-', " ");
         let number = summary.events.iter().filter(|e| e.kind == kind).count();
-        let plural = if number == 1 { "" } else { "s" };
         if number > 0 || kind != noun {
-            said.push(format!("{number} {noun}{plural}"));
+            said.push(counted(number, &noun));
         }
     }
     said.join(", ")

@@ -2,6 +2,7 @@
 
 use super::curves::CURVE_STEP;
 use super::key_values::{Facts, fact, given, six, text_table, with_error};
+use super::quantity::{Quantity, split};
 use super::text::{NAME_WIDTH, extreme, place};
 use super::{DefaultView, Report, Table, View};
 use crate::error::Error;
@@ -22,28 +23,28 @@ pub struct StaticsReport<'a> {
 }
 
 impl StaticsReport<'_> {
-    /// Returns name and unit of the unknown load.
-    fn sought(&self) -> (&'static str, &'static str) {
-        match self.result.sought {
-            "crank-torque" => ("crank torque", "N m"),
-            _ => ("slider force", "N"),
-        }
+    /// Returns the column of the unknown load.
+    fn sought(&self) -> Quantity {
+        Quantity::of(match self.result.sought {
+            "crank-torque" => "crank_torque_nm",
+            _ => "slider_force_n",
+        })
     }
 }
 
 impl Report for StaticsReport<'_> {
     fn facts(&self) -> Facts {
         let result = self.result;
-        let (what, unit) = self.sought();
+        let Quantity { label, unit, .. } = self.sought();
         let mut facts = Facts::of(&result.scene);
         facts.add("class", result.class);
-        fact!(facts, "sought" => "{what} beside the other loads");
+        fact!(facts, "sought" => "{label} beside the other loads");
         facts.add("friction coefficient", given(result.friction));
         for found in &result.least {
-            facts.add("least", extreme(found, unit));
+            facts.add("least", extreme(found, &unit));
         }
         for found in &result.least_with_friction {
-            facts.add("least with friction", extreme(found, unit));
+            facts.add("least with friction", extreme(found, &unit));
         }
         for position in &result.positions {
             facts.add(position.kind, place(position));
@@ -54,9 +55,9 @@ impl Report for StaticsReport<'_> {
 
     /// Returns the facts, and a table at multiples of 15 deg.
     fn text(&self) -> String {
-        let (what, unit) = self.sought();
+        let Quantity { label, unit, .. } = self.sought();
         let header =
-            format!("theta [deg],{what} [{unit}],from,to,side thrust [N],transmission [deg]");
+            format!("theta [deg],{label} [{unit}],from,to,side thrust [N],transmission [deg]");
         let rows = self.result.rows(15f64.to_radians()).map(|row| {
             let [_, value, min, max, thrust, transmission, ..] = cells(&row);
             let degrees = transmission.to_degrees();
@@ -72,12 +73,10 @@ impl Report for StaticsReport<'_> {
     }
 
     fn table(&self) -> Table {
-        let sought = match self.result.sought {
-            "crank-torque" => "crank_torque_nm,crank_torque_min_nm,crank_torque_max_nm",
-            _ => "slider_force_n,slider_force_min_n,slider_force_max_n",
-        };
+        let sought = self.sought().name;
+        let (base, unit) = split(&sought);
         let header = format!(
-            "theta_rad,{sought},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
+            "theta_rad,{sought},{base}_min{unit},{base}_max{unit},side_thrust_n,transmission_rad,self_locking,velocity_ratio,crank_pin_angle_rad"
         );
         let rows = self.result.rows(self.every).map(|row| cells(&row));
         let mut table = Table::filled(&header, rows);

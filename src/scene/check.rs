@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::number::with_unit;
-use super::{Places, Problem, Problems};
+use super::{Places, Problem};
 
 /// Largest magnitude of a value, SI; the reciprocal is the least positive one. The product of five such values, an
 /// energy, neither overflows nor vanishes in double precision.
@@ -19,11 +19,6 @@ impl Check<'_> {
     pub fn add(&mut self, field: impl Display, what: impl Into<String>, help: impl Into<String>) {
         let problem = Problem::new(&field.to_string(), what, help);
         self.problems.push(problem);
-    }
-
-    /// Returns the problems found, with their places, as the error.
-    pub fn result(self) -> Result<(), Problems> {
-        self.places.reject_any(self.problems)
     }
 
     /// Whether none of these fields has a problem.

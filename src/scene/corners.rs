@@ -7,7 +7,7 @@ use super::{Load, Periodicity, Table, Variable};
 
 impl Load {
     /// Returns the crank angles, rad, at which the load is not smooth, from its table: all rows if the table has no
-    /// period; the rows of one cycle if it is in step with the turns; none otherwise ([`Load::corners_out_of_step`]).
+    /// period; the rows of one cycle if it is in step with the turns; none otherwise ([`Load::out_of_step`]).
     pub fn angle_corners(&self) -> Vec<f64> {
         let Some(table) = self.angle_table() else {
             return Vec::new();
@@ -28,17 +28,6 @@ impl Load {
     pub fn corners_between(&self, low: f64, high: f64) -> Vec<f64> {
         let table = self.angle_table();
         table.map_or_else(Vec::new, |table| table.curve.points_between(low, high))
-    }
-
-    /// Returns the corners between two crank angles, rad, of a periodic table out of step with the turns.
-    pub fn corners_out_of_step(&self, low: f64, high: f64) -> Vec<f64> {
-        let load = self.out_of_step();
-        load.map_or_else(Vec::new, |load| load.corners_between(low, high))
-    }
-
-    /// Returns the first corner out of step with the turns, rad, after `from` on the way to `to`, in either direction.
-    pub fn corner_out_of_step(&self, from: f64, to: f64) -> Option<f64> {
-        self.out_of_step()?.row_on_way(from, to)
     }
 
     /// Returns the first row, rad, of a table over the crank angle after `from` towards `to`, in either direction.
@@ -68,7 +57,7 @@ impl Load {
     }
 
     /// Returns the load if its table over the crank angle is periodic, but not in step with the turns.
-    fn out_of_step(&self) -> Option<&Load> {
+    pub fn out_of_step(&self) -> Option<&Load> {
         let table = self.angle_table()?;
         (table.period().is_some() && turns_in_step(table).is_none()).then_some(self)
     }

@@ -229,14 +229,13 @@ impl Load {
     /// Whether the load is known to be always zero, which leaves it out of the model.
     pub fn is_zero(&self) -> bool {
         match self {
-            Load::Constant(value) => *value == 0.0,
             Load::Viscous(coefficient) => *coefficient == 0.0,
             Load::Motor { stall, .. } => *stall == 0.0,
             Load::Spring { stiffness, .. } => *stiffness == 0.0,
             Load::Table(table) => table.farthest_from_zero() == 0.0,
             Load::Gas { area, .. } => *area == 0.0,
             Load::Dry(magnitude) => magnitude.is_zero(),
-            Load::Expression(_) => self.fixed() == Some(0.0),
+            Load::Constant(_) | Load::Expression(_) => self.fixed() == Some(0.0),
             Load::Function { .. } => false,
         }
     }

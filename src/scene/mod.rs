@@ -16,7 +16,6 @@ mod load;
 mod measurement;
 mod model;
 mod number;
-mod opposing;
 mod parts;
 mod period;
 mod problem;
@@ -37,9 +36,9 @@ pub use load::Load;
 pub(crate) use measurement::Unwrapped;
 pub use measurement::{Beside, BesideColumn, DUARTE_MOTION, Measured, Measurement, Reading};
 pub use model::{LoadKey, LoadOf, MovedScene, Scene};
-#[cfg(feature = "cli")]
-pub(crate) use number::rounded;
 pub(crate) use number::unrounded;
+#[cfg(feature = "cli")]
+pub(crate) use number::{counted, rounded};
 pub use parts::{
     Branch, Crank, Every, Extent, Friction, Geometry, Gravity, InertiaAbout, Motion, MotionKind,
     Rod, RodModel, Run, Slider,

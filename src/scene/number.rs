@@ -54,7 +54,7 @@ pub(super) fn computed(value: f64) -> String {
 }
 
 /// Formats a count with its noun: `1 row`, `2 rows`.
-pub(super) fn counted(count: usize, noun: &str) -> String {
+pub(crate) fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 

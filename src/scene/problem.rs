@@ -130,13 +130,6 @@ pub(super) struct Source {
 }
 
 impl Places {
-    /// Returns the text of the file, and the byte range of the value of a key.
-    #[cfg(feature = "cli")]
-    pub(super) fn of(&self, field: &str) -> Option<(&str, Range<usize>)> {
-        let source = self.0.as_ref()?;
-        Some((&source.text, source.spans.get(field)?.clone()))
-    }
-
     /// Returns problems of the scene, with their places, as the error, unless the list is empty.
     pub(crate) fn reject_any(&self, list: Vec<Problem>) -> Result<(), Problems> {
         match list.is_empty() {

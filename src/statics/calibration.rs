@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::numeric::line_fit::LineFit;
+use crate::numeric::median::range;
 use crate::scene::calibration_points;
 
 /// Line reading = intercept + slope load, and the forces of given readings.
@@ -48,11 +49,8 @@ pub fn calibrate(file: &Path, readings: &[f64]) -> Result<Calibration, Error> {
         return Err(refused(what, "give readings that change with the load"));
     }
     let mut warnings = Vec::new();
-    let (least, most) = points
-        .iter()
-        .fold((f64::MAX, f64::MIN), |(low, high), (x, _)| {
-            (low.min(*x), high.max(*x))
-        });
+    let loads: Vec<f64> = points.iter().map(|(load, _)| *load).collect();
+    let (least, most) = range(&loads);
     let mut forces = Vec::new();
     for reading in readings {
         if !reading.is_finite() {

@@ -77,9 +77,12 @@ fn check_count(varied: &[Varied], sample: Option<LatinHypercube>) -> Result<(), 
 #[derive(Clone, Debug)]
 pub struct Sweep {
     draft: Draft,
-    varied: Vec<Varied>,
-    options: SweepOptions,
-    title: String,
+    /// Varied keys.
+    pub(crate) varied: Vec<Varied>,
+    /// Options, with the figures and computations derived from each other.
+    pub(crate) options: SweepOptions,
+    /// Title of the scene.
+    pub(crate) title: String,
     /// The turn of all designs, if figures of it are asked for and no varied key changes it.
     turn: Option<Arc<Kinematics>>,
 }
@@ -128,26 +131,6 @@ impl Sweep {
             Some(sample) => sample.count as usize,
             None => self.varied.iter().map(Varied::len).product(),
         }
-    }
-
-    /// Returns the varied keys.
-    pub fn varied(&self) -> &[Varied] {
-        &self.varied
-    }
-
-    /// Returns the key figures of each design.
-    pub fn figures(&self) -> &[Figure] {
-        &self.options.figures
-    }
-
-    /// Returns the Latin hypercube from which designs are drawn; none for all combinations.
-    pub fn sample(&self) -> Option<LatinHypercube> {
-        self.options.sample
-    }
-
-    /// Returns the title of the scene.
-    pub fn title(&self) -> &str {
-        &self.title
     }
 
     /// Returns a copy of the sweep that estimates the error of each motion.

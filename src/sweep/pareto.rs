@@ -39,7 +39,8 @@ pub struct Member {
 pub struct ParetoFront {
     /// Sense of each goal: true to maximise.
     maximise: Vec<bool>,
-    members: Vec<Member>,
+    /// Designs of the front.
+    pub members: Vec<Member>,
 }
 
 impl ParetoFront {
@@ -67,10 +68,5 @@ impl ParetoFront {
             design,
             figures: figures.to_vec(),
         });
-    }
-
-    /// Returns the front.
-    pub fn members(&self) -> &[Member] {
-        &self.members
     }
 }

@@ -165,13 +165,10 @@ fn searches_and_sweeps_say_that_they_are_interrupted() {
     let stop = Stop::default();
     let mut options = SweepOptions::default();
     options.run.stop = Some(stop.clone());
-    let rods = "geometry.rod=150mm:160mm:100000".parse().expect("values");
-    let sweep = Sweep::new(Draft::duarte(), vec![rods], options).expect("a sweep");
-    let plain = Sweep::new(
-        Draft::duarte(),
-        sweep.varied().to_vec(),
-        SweepOptions::default(),
-    );
+    let rods = "geometry.rod=150mm:160mm:100000".parse();
+    let rods = vec![rods.expect("values")];
+    let sweep = Sweep::new(Draft::duarte(), rods.clone(), options).expect("a sweep");
+    let plain = Sweep::new(Draft::duarte(), rods, SweepOptions::default());
     assert_eq!(sweep.identity(), plain.expect("a sweep").identity());
     let mut taken = 0;
     let complete = |design: slider_crank::sweep::Design| {

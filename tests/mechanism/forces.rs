@@ -56,7 +56,7 @@ fn the_first_order_approaches_the_exact_for_long_rods() {
             .slider(Slider { mass: 2.0 })
             .constant_speed(0.0, 10.0);
         let result = forces(&scene).unwrap();
-        for (_, row) in result.rows(0.1) {
+        for row in (0..63).map(|k| result.row(0.1 * f64::from(k))) {
             assert!(
                 (row.first_order_torque - row.torque).abs() < most * 4.0,
                 "{row:?}"
@@ -133,8 +133,6 @@ fn the_largest_torques_are_those_of_all_turns_of_the_cycle() {
         1.0,
         1e-9,
     );
-    let last = found.rows(1f64.to_radians()).last().unwrap();
-    close("end", last.0, 2.0 * TAU, 1.0, 1e-15);
 }
 
 /// A slider alone on a rod that is hardly longer than the crank: the torque m x' x'' ω² has peaks as narrow as the root

@@ -35,18 +35,14 @@ impl Motion {
             return Ok(Motion { name, table });
         }
         let measured = Measurement::load(file, &Reading::default())?;
-        let column = match measured.measured() {
-            Measured::Theta => "theta_rad",
-            Measured::Gamma => "gamma_rad",
-            Measured::X => "x_m",
-            Measured::Omega => "omega_rad_per_s",
-        };
-        let values = match measured.measured() {
+        let of = measured.measured();
+        let column = of.quantity().column(of.name());
+        let values = match of {
             Measured::Theta => measured.unwrapped()?.theta,
             _ => measured.values().to_vec(),
         };
         let times = (TIME.to_owned(), measured.times().to_vec());
-        let table = Table::of_numbers([times, (column.to_owned(), values)]);
+        let table = Table::of_numbers([times, (column, values)]);
         Ok(Motion { name, table })
     }
 

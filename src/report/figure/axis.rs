@@ -38,7 +38,8 @@ pub struct Axis {
     /// Label used where the full one does not fit; empty for none.
     short: String,
     kind: Kind,
-    range: Option<(f64, f64)>,
+    /// Exact range; none if the axis fits the values.
+    pub(in crate::report) range: Option<(f64, f64)>,
 }
 
 impl Axis {
@@ -76,11 +77,6 @@ impl Axis {
     pub fn range(mut self, low: f64, high: f64) -> Axis {
         self.range = Some((low, high));
         self
-    }
-
-    /// Whether the range is set.
-    pub(in crate::report) fn has_range(&self) -> bool {
-        self.range.is_some()
     }
 
     /// Sets the range, widened by the usual free space of an axis.

@@ -82,7 +82,7 @@ fn loads(report: &InverseReport, view: &View) -> Result<Vec<Figure>, Error> {
     panels[0] = middles.fold(panels[0].clone(), |figure, t| {
         figure.vertical_mark(t, &label)
     });
-    let cut = match panels[0].y.has_range() {
+    let cut = match panels[0].y.range.is_some() {
         true => "; peaks at dead centres are cut off",
         false => "",
     };

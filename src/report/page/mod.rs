@@ -95,6 +95,7 @@ pub(super) fn html(
         scatter: &default.scatter,
     };
     // Only the end tag has a meaning inside a script element; JSON can escape it.
+    let failed = Error::write("page");
     let data = serde_json::to_string(&data).map_err(|error| failed(error.into()))?;
     let data = data.replace('<', "\\u003c");
     // The scripts have all events.
@@ -124,9 +125,5 @@ pub(super) fn html(
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     let page = environment.render_str(TEMPLATE, page);
-    page.map_err(|error| failed(error.into()))
-}
-
-fn failed(source: Box<dyn std::error::Error + Send + Sync>) -> Error {
-    Error::write("page")(std::io::Error::other(source))
+    page.map_err(|error| failed(std::io::Error::other(error)))
 }

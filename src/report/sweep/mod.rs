@@ -73,7 +73,7 @@ impl<'a> SweepWriter<'a> {
     ) -> Result<SweepWriter<'a>, Error> {
         let mut shown = asked.kept.map(Decimated::new);
         let header = header(sweep);
-        let percentiles = asked.percentiles || sweep.sample().is_some();
+        let percentiles = asked.percentiles || sweep.options.sample.is_some();
         let mut tally = Tally::new(&header, percentiles, &asked.goals)?;
         let names: Vec<CsvCell> = header.iter().map(|name| CsvCell::from(&**name)).collect();
         let header = if part == 1 { line(&names) } else { Vec::new() };
@@ -138,34 +138,29 @@ impl<'a> SweepWriter<'a> {
         let mut done = missing.start;
         sweep.map_designs(missing, row, |rows| {
             done += rows.len();
-            self.take(rows)?;
+            let mut text = Vec::new();
+            for (cells, line) in rows {
+                text.extend(line);
+                self.tally.take(&cells);
+                if let Some(shown) = &mut self.shown {
+                    shown.take(cells);
+                }
+            }
+            match &mut self.target {
+                Target::Nothing => {}
+                Target::Stream(output) => output.write(&text)?,
+                Target::File(file) => file.append(&text)?,
+            }
             progress(done);
             Ok(())
         })
     }
 
-    /// Takes the cells and the line of each row.
-    fn take(&mut self, rows: Vec<(Vec<CsvCell>, Vec<u8>)>) -> Result<(), Error> {
-        let mut text = Vec::new();
-        for (cells, line) in rows {
-            text.extend(line);
-            self.tally.take(&cells);
-            if let Some(shown) = &mut self.shown {
-                shown.take(cells);
-            }
-        }
-        match &mut self.target {
-            Target::Nothing => Ok(()),
-            Target::Stream(output) => output.write(&text),
-            Target::File(file) => file.append(&text),
-        }
-    }
-
     /// Returns the kept rows; none if none were asked for.
     pub fn table(&self) -> Option<Table> {
         let shown = self.shown.as_ref()?;
-        let mut table = Table::of_rows(&header(self.sweep), shown.kept());
-        table.stride = shown.stride();
+        let mut table = Table::of_rows(&header(self.sweep), &shown.kept);
+        table.stride = shown.stride;
         Some(table)
     }
 
@@ -182,8 +177,8 @@ impl<'a> SweepWriter<'a> {
 }
 
 fn header(sweep: &Sweep) -> Vec<String> {
-    let varied = sweep.varied().iter().map(|one| one.column());
-    let figures = sweep.figures().iter().map(ToString::to_string);
+    let varied = sweep.varied.iter().map(|one| one.column());
+    let figures = sweep.options.figures.iter().map(ToString::to_string);
     let all = ["design".to_owned()].into_iter().chain(varied);
     let all = all.chain(["status".to_owned()]).chain(figures);
     all.chain(["notes".to_owned()]).collect()
@@ -191,12 +186,12 @@ fn header(sweep: &Sweep) -> Vec<String> {
 
 fn cells_of(sweep: &Sweep, design: &Design) -> Vec<CsvCell> {
     let mut cells = vec![CsvCell::from((design.index + 1) as f64)];
-    for (varied, value) in sweep.varied().iter().zip(&design.values) {
-        let number = value.number.filter(|_| varied.has_numbers());
+    for (varied, value) in sweep.varied.iter().zip(&design.values) {
+        let number = value.number.filter(|_| varied.has_numbers);
         cells.push(number.map_or_else(|| CsvCell::from(&*printable(&value.text)), CsvCell::from));
     }
     cells.push(design.outcome.name().into());
-    let figures = sweep.figures().iter();
+    let figures = sweep.options.figures.iter();
     cells.extend(figures.map(|figure| match figure.value(design) {
         sweep::FigureValue::Number(number) => number.into(),
         sweep::FigureValue::Word(word) => word.into(),

@@ -118,13 +118,6 @@ pub struct SweepExtreme {
     pub design: usize,
 }
 
-impl SweepSummary {
-    /// Returns the number of designs with status `done`.
-    pub fn done(&self) -> usize {
-        self.status.get("done").copied().unwrap_or(0)
-    }
-}
-
 /// Returns a sweep as one page: scatter plots of any column over any other.
 pub fn sweep_page(summary: &SweepSummary, table: &Table, origin: &Origin) -> Result<String, Error> {
     let mut facts = facts(summary);

@@ -97,7 +97,7 @@ impl Tally {
         taken_up: usize,
         wall_s: f64,
     ) -> SweepSummary {
-        let varied = sweep.varied().iter().map(|one| VariedKey {
+        let varied = sweep.varied.iter().map(|one| VariedKey {
             key: one.key(),
             values: one.to_string(),
             count: one.len(),
@@ -105,7 +105,7 @@ impl Tally {
             last: one.value(one.len() - 1).text,
         });
         SweepSummary {
-            scene: sweep.title().to_owned(),
+            scene: sweep.title.clone(),
             designs: sweep.len(),
             part: [range.start + 1, range.end],
             taken_up,
@@ -126,7 +126,7 @@ impl Tally {
             designs: self.rows,
             part: [1, self.rows],
             status: self.status,
-            pareto_front: self.front.members().iter().map(member).collect(),
+            pareto_front: self.front.members.iter().map(member).collect(),
             figures: self
                 .columns
                 .into_iter()

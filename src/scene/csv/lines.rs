@@ -65,12 +65,8 @@ impl Dialect {
         let lines = part
             .split_inclusive('\n')
             .map(|line| line.trim_end_matches(['\n', '\r']));
-        lines.filter(move |line| !self.is_blank(line) && !self.is_comment(line))
-    }
-
-    fn is_blank(self, line: &str) -> bool {
-        line.chars()
-            .all(|c| c == self.delimiter || c.is_whitespace())
+        let separates = move |c: char| c == self.delimiter || c.is_whitespace();
+        lines.filter(move |line| !line.chars().all(separates) && !self.is_comment(line))
     }
 
     /// Whether a line begins with `%`, with `#` other than in `#N/A` and the like, or with `;` that separates no cells.

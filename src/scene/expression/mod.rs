@@ -12,7 +12,6 @@ use std::fmt;
 use super::{Instant, Variable, Variables};
 use crate::numeric::enclosure::Enclosed;
 use operand::{FUNCTIONS_1, FUNCTIONS_2, JUMPING, Op, Operand};
-pub(super) use opposing::OpposingPart;
 use parser::Parser;
 
 /// Depth of the evaluation stack, in values; deeper expressions are refused when they are read.

@@ -1,15 +1,42 @@
-//! Part of a formula that opposes motion, proved on its syntax tree: f = a − m sgn(w), with the speed w of the body.
+//! Loads that oppose motion: dry loads, and formulas of which a part does, proved on the syntax tree: f = a − m sgn(w),
+//! with the speed w of the body.
 
 use super::operand::{FUNCTIONS_1, Op};
 use super::{Expression, Variable};
 use crate::numeric::enclosure::{Enclosed, Interval};
+use crate::scene::Load;
 
 /// Formula as the sum of a dry load, which opposes motion and holds at rest, and the rest.
-pub(crate) struct OpposingPart {
+struct OpposingPart {
     /// a; none if it is zero.
-    pub rest: Option<Expression>,
+    rest: Option<Expression>,
     /// m, not negative at rest.
-    pub magnitude: Expression,
+    magnitude: Expression,
+}
+
+impl Load {
+    /// Returns the loads that the load is the sum of: a formula with the sign of the speed of its body is a dry load,
+    /// which holds at rest as well, beside the rest of the formula.
+    pub(crate) fn parts(&self, on_slider: bool) -> Vec<Load> {
+        let speed = match on_slider {
+            true => Variable::V,
+            false => Variable::Omega,
+        };
+        let opposing = match self {
+            Load::Expression(expression) => expression.opposing(speed),
+            _ => None,
+        };
+        let Some(OpposingPart { rest, magnitude }) = opposing else {
+            return vec![self.clone()];
+        };
+        let magnitude = Load::Expression(magnitude);
+        let dry = match magnitude.fixed() {
+            Some(value) => Load::dry(value),
+            None => Load::Dry(Box::new(magnitude)),
+        };
+        let rest = rest.map(Load::Expression);
+        rest.into_iter().chain([dry]).collect()
+    }
 }
 
 /// Operations in postfix order; none: zero.
@@ -21,7 +48,7 @@ type LinearInSign = [Operand; 2];
 impl Expression {
     /// Splits the expression by the sign or step of a speed, omega or v; none if it is not linear in that sign, or if
     /// the magnitude may be negative at rest or is zero there.
-    pub(crate) fn opposing(&self, speed: Variable) -> Option<OpposingPart> {
+    fn opposing(&self, speed: Variable) -> Option<OpposingPart> {
         if !self.reads.has(speed) {
             return None;
         }

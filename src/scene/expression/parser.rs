@@ -85,10 +85,6 @@ impl<'a> Parser<'a> {
         found
     }
 
-    fn take_minus(&mut self) -> bool {
-        self.take('-') || self.take(number::MINUS)
-    }
-
     fn sum(&mut self) -> Result<(), ExpressionError> {
         let signs = [
             ('+', Op::Add),
@@ -127,7 +123,7 @@ impl<'a> Parser<'a> {
             return Err(self.error(TOO_DEEP));
         }
         self.nesting += 1;
-        if self.take_minus() {
+        if self.take('-') || self.take(number::MINUS) {
             self.signed()?;
             self.ops.push(Op::Negate);
         } else if self.take('+') {

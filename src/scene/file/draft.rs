@@ -177,7 +177,7 @@ impl Draft {
         }
         let mut scene = assemble::scene(&mut check, contents);
         validate::problems(&scene, &mut check);
-        check.result()?;
+        check.places.reject_any(check.problems)?;
         scene.places = self.places.clone();
         Ok(scene)
     }

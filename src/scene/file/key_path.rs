@@ -20,12 +20,6 @@ impl KeyPath {
     pub fn unit(&self) -> &'static str {
         self.key.kind.quantity().map_or("", Quantity::si)
     }
-
-    /// Returns the path as the name of a column, as `torque_2_value`.
-    pub fn column(&self) -> String {
-        let name = self.to_string();
-        name.replace('[', "_").replace("].", "_").replace('.', "_")
-    }
 }
 
 /// Parses a path; the number of a table counts from 1 and may be left out for the first.

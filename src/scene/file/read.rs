@@ -259,8 +259,11 @@ impl Check<'_> {
         what: String,
         help: String,
     ) {
-        let place = self.places.of(field);
-        let span = place.and_then(|(source, span)| inside(source, span, text, at));
+        let source = self.places.0.as_ref();
+        let span = source.and_then(|source| {
+            let value = source.spans.get(field)?.clone();
+            inside(&source.text, value, text, at)
+        });
         let problem = Problem::new(field, what, help).at(span);
         self.problems.push(problem);
     }

@@ -38,7 +38,8 @@ pub struct Varied {
     /// Values as written.
     text: String,
     values: Variation,
-    has_numbers: bool,
+    /// Whether all values are quantities.
+    pub(crate) has_numbers: bool,
 }
 
 /// Value that a key of a scene takes.
@@ -87,11 +88,6 @@ impl Varied {
         self.path.unit()
     }
 
-    /// Whether all values are quantities.
-    pub fn has_numbers(&self) -> bool {
-        self.has_numbers
-    }
-
     /// Returns the key, as `geometry.offset`.
     pub fn key(&self) -> String {
         self.path.to_string()
@@ -99,7 +95,8 @@ impl Varied {
 
     /// Returns the key as the name of a column, with the SI unit of its numbers, as `geometry_offset_m`.
     pub fn column(&self) -> String {
-        let name = self.path.column();
+        let name = self.key().replace('[', "_");
+        let name = name.replace("].", "_").replace('.', "_");
         match self.path.key.kind.quantity() {
             Some(quantity) if self.has_numbers => quantity.column(&name),
             _ => name,

@@ -33,7 +33,8 @@ impl Measured {
         }
     }
 
-    pub(super) fn quantity(self) -> Quantity {
+    /// Returns the physical quantity.
+    pub(crate) fn quantity(self) -> Quantity {
         match self {
             Measured::X => Quantity::Length,
             Measured::Omega => Quantity::AngularSpeed,

@@ -14,30 +14,33 @@ use crate::scene::unit::Quantity;
 use crate::scene::{Problem, Variable};
 
 /// Text of two columns of numbers under a header; `name` is that of the file.
-struct Pairs<'a> {
-    name: &'a str,
-    text: &'a str,
+struct Pairs {
+    name: String,
+    text: String,
     dialect: Dialect,
 }
 
-impl<'a> Pairs<'a> {
-    fn new(name: &'a str, text: &'a str) -> Pairs<'a> {
-        let dialect = Dialect::of(text, 0);
-        Pairs {
+impl Pairs {
+    /// Decodes the bytes of a file.
+    fn decoded(file: &Path, bytes: Vec<u8>) -> Result<Pairs, String> {
+        let name = file.display().to_string();
+        let text = text::decoded(bytes).map_err(|what| format!("{name}: {what}"))?;
+        Ok(Pairs {
             name,
+            dialect: Dialect::of(&text, 0),
             text,
-            dialect,
-        }
+        })
     }
 
     /// Puts the place of a row before a fault in it.
     fn at(&self, row: &str, what: &str) -> String {
-        format!("{} line {}: {what}", self.name, line_number(self.text, row))
+        let line = line_number(&self.text, row);
+        format!("{} line {line}: {what}", self.name)
     }
 
     /// Returns the two cells of the header; `expected` is an example of one.
-    fn header(&self, expected: &str) -> Result<[&'a str; 2], String> {
-        let row = self.dialect.rows(self.text).next().unwrap_or_default();
+    fn header(&self, expected: &str) -> Result<[&str; 2], String> {
+        let row = self.dialect.rows(&self.text).next().unwrap_or_default();
         let what = match self.dialect.list(row)[..] {
             _ if Dialect::open_quote(row).is_some() => OPEN_QUOTE.to_owned(),
             [x, y] if [x, y].iter().all(|cell| cell.parse::<f64>().is_err()) => return Ok([x, y]),
@@ -54,8 +57,8 @@ impl<'a> Pairs<'a> {
     }
 
     /// Returns the rows below the header, each with its two numbers.
-    fn numbers(&self) -> Result<Vec<(&'a str, [f64; 2])>, String> {
-        let rows = self.dialect.rows(self.text).skip(1);
+    fn numbers(&self) -> Result<Vec<(&str, [f64; 2])>, String> {
+        let rows = self.dialect.rows(&self.text).skip(1);
         rows.map(|row| Ok((row, self.pair(row)?))).collect()
     }
 
@@ -70,7 +73,7 @@ impl<'a> Pairs<'a> {
         };
         let number = |column: usize, text: &str| {
             cell::parse(text, false).map_err(|wrong| {
-                let line = line_number(self.text, row);
+                let line = line_number(&self.text, row);
                 format!("{} line {line} column {column}: {}", self.name, wrong.what)
             })
         };
@@ -88,15 +91,13 @@ impl Table {
         interpolation: Interpolation,
         period: Option<f64>,
     ) -> Result<Table, Problem> {
-        let name = file.display().to_string();
         let bytes = std::fs::read(file).map_err(|error| {
-            let what = format!("`{name}` cannot be read: {error}");
+            let what = format!("`{}` cannot be read: {error}", file.display());
             let help = "give the path of a CSV file, relative to the scene file";
             Problem::new("file", what, help)
         })?;
         let wrong = |what: String| columns_error(of, what);
-        let text = text::decoded(bytes).map_err(|what| wrong(format!("{name}: {what}")))?;
-        let pairs = Pairs::new(&name, &text);
+        let pairs = Pairs::decoded(file, bytes).map_err(wrong)?;
         let columns = columns(&pairs, of, value).map_err(wrong)?;
         let list = pairs.numbers().map_err(wrong)?;
         let [x, y] = [columns[0].factor, columns[1].factor];
@@ -107,7 +108,7 @@ impl Table {
                 .map(|(_, pair)| (pair[0] * x, pair[1] * y))
                 .collect(),
             columns,
-            whole: format!("{name}: "),
+            whole: format!("{}: ", pairs.name),
             place: &|row| pairs.at(list[row].0, ""),
         };
         let curve = rows.curve(interpolation, period)?;
@@ -149,10 +150,10 @@ pub struct LoadTable {
 /// # Errors
 /// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with the fault of the table.
 pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
-    let Ok(text) = text::decoded(text::bytes(file)?) else {
+    let Ok(pairs) = Pairs::decoded(file, text::bytes(file)?) else {
         return Ok(None);
     };
-    let Ok(cells) = Pairs::new("", &text).header("") else {
+    let Ok(cells) = pairs.header("") else {
         return Ok(None);
     };
     let [first, second] = cells.map(header::split);
@@ -176,14 +177,11 @@ pub fn load_table(file: &Path) -> Result<Option<LoadTable>, Error> {
 /// # Errors
 /// [`Error::Read`] if the file cannot be read, [`Error::Refused`] with line and column if it is no calibration.
 pub fn calibration_points(file: &Path) -> Result<Vec<(f64, f64)>, Error> {
-    let name = file.display().to_string();
     let wrong = |what: String| {
         let help = "the file has two columns, as `load [N],reading`, and a row for each load";
         Error::refused(what, help)
     };
-    let text = text::decoded(text::bytes(file)?);
-    let text = text.map_err(|what| wrong(format!("{name}: {what}")))?;
-    let pairs = Pairs::new(&name, &text);
+    let pairs = Pairs::decoded(file, text::bytes(file)?).map_err(wrong)?;
     let [load, _] = pairs.header("load [N],reading").map_err(wrong)?;
     let unit = header::split(load).into_column(Quantity::Force);
     let unit = unit.map_err(|what| wrong(pairs.at(load, &what)))?;

@@ -81,11 +81,6 @@ impl Table {
         self.curve.enclose(over)
     }
 
-    /// Returns the first and last argument, in SI, of a table without period.
-    pub fn range(&self) -> Option<(f64, f64)> {
-        self.curve.period.is_none().then(|| self.curve.range())
-    }
-
     /// Returns the period (rad or s), if the table has one.
     pub fn period(&self) -> Option<f64> {
         self.curve.period

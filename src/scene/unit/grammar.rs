@@ -22,7 +22,10 @@ pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
         divided: false,
         power,
     };
-    let mut rest = without_one(text.trim());
+    // The 1 of `1/min` is left out.
+    let one = text.trim().strip_prefix('1').map(str::trim_start);
+    let one = one.filter(|after| after.starts_with('/'));
+    let mut rest = one.unwrap_or(text.trim());
     let mut product = begin(rest, 1);
     let mut around = Vec::new();
     loop {
@@ -60,12 +63,6 @@ pub(super) fn unit_factor(text: &str) -> Result<Factor, String> {
     }
     let text = text.trim();
     Err(format!("`{rest}` in the unit `{text}` is not understood"))
-}
-
-/// Returns the unit without the 1 of `1/min`.
-fn without_one(text: &str) -> &str {
-    let after = text.strip_prefix('1').map(str::trim_start);
-    after.filter(|after| after.starts_with('/')).unwrap_or(text)
 }
 
 fn factor_of(rest: &mut &str) -> Result<Factor, String> {

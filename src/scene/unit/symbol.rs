@@ -24,14 +24,6 @@ impl Factor {
         dimension: [0; 4],
     };
 
-    /// One revolution, 2π rad.
-    const REVOLUTION: Factor = Factor {
-        numerator: 2.0,
-        pi: 1,
-        dimension: [0, 0, 0, 1],
-        ..Factor::ONE
-    };
-
     pub(super) fn times(mut self, other: Factor, power: i32) -> Factor {
         let (up, down) = if power >= 0 {
             (other.numerator, other.denominator)
@@ -53,7 +45,8 @@ impl Factor {
     pub(super) fn revolutions(self) -> Option<Factor> {
         let per_minute = self.numerator == 1.0 && self.denominator == 60.0;
         let plain = (self.ten, self.pi, self.dimension) == (0, 0, [0, 0, -1, 0]);
-        (per_minute && plain).then(|| self.times(Factor::REVOLUTION, 1))
+        let turn = symbol("rev")?;
+        (per_minute && plain).then(|| self.times(turn, 1))
     }
 
     /// Returns the value of these digits, in SI units and radians.

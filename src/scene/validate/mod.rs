@@ -33,7 +33,7 @@ impl Scene {
             places: &self.places,
         };
         problems(self, &mut check);
-        check.result()
+        check.places.reject_any(check.problems)
     }
 }
 

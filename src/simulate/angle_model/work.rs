@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::AngleModel;
 use crate::numeric::angle::{self, Angle};
 use crate::numeric::gauss;
+use crate::scene::Load;
 
 impl AngleModel<'_> {
     /// Returns the first panel end after `from` towards `to`, in either direction, rad, that is no corner of each turn.
@@ -69,8 +70,8 @@ impl AngleModel<'_> {
         cuts.extend(corners.filter(|corner| low < *corner && *corner < high));
         let before = self.turns * TAU;
         let loads = self.equation.loads().called();
-        let out_of_step =
-            loads.flat_map(|load| load.corners_out_of_step(low + before, high + before));
+        let loads = loads.filter_map(Load::out_of_step);
+        let out_of_step = loads.flat_map(|load| load.corners_between(low + before, high + before));
         cuts.extend(out_of_step.map(|corner| corner - before));
         if !self.panel_ends_are_corners {
             let panel_ends = self.panel_ends.between(low + before, high + before);
