@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
-use super::super::stop::{Stopped, why_not_applicable};
+use super::super::stop::Stopped;
 use super::cycles::{CycleRun, SceneCycleMap};
 use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
@@ -215,10 +215,7 @@ fn unbounded() -> Error {
 
 fn not_computed(why: NotApplicable) -> Error {
     Error::refused(
-        format!(
-            "the steady state cannot be computed: {}",
-            why_not_applicable(why)
-        ),
+        format!("the steady state cannot be computed: {why}"),
         "look at the loads; or simulate until the motion repeats",
     )
 }
