@@ -111,7 +111,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         .filter_map(|at| Some([at.theta_rad, at.to_rad?]))
         .collect();
     let mut warnings = Vec::new();
-    let reads = statics.equation().loads().reads();
+    let reads = statics.equation().loads().reads;
     let motion = Variables::T.or(Variables::OMEGA).or(Variables::V);
     if !reads.disjoint(motion) {
         warnings

@@ -107,11 +107,15 @@ impl<const N: usize> ContactFollower<'_, N> {
             let rates = self.model.mechanism.rates(&s, touch(Phase::Link, None));
             rates.normal
         });
-        let mut tally = simpson(force.map(f64::abs), h);
-        if force[1] < 0.0 {
-            tally.drawn = h;
+        let [first, middle, last] = force.map(f64::abs);
+        Tally {
+            touching: h,
+            drawn: if force[1] < 0.0 { h } else { 0.0 },
+            impulse: h / 6.0 * (first + 4.0 * middle + last),
+            squared: h / 6.0 * (first * first + 4.0 * middle * middle + last * last),
+            peak: first.max(middle).max(last),
+            ..Tally::default()
         }
-        tally
     }
 
     /// Returns the sizes of the joint forces in a state of a step, N.
@@ -165,15 +169,5 @@ impl<const N: usize> ContactFollower<'_, N> {
             }
         }
         self.peaks = Some(peaks);
-    }
-}
-
-fn simpson([first, middle, last]: [f64; 3], h: f64) -> Tally {
-    Tally {
-        touching: h,
-        impulse: h / 6.0 * (first + 4.0 * middle + last),
-        squared: h / 6.0 * (first * first + 4.0 * middle * middle + last * last),
-        peak: first.max(middle).max(last),
-        ..Tally::default()
     }
 }

@@ -138,7 +138,7 @@ impl<'a> CycleMap<'a> {
     /// Returns the energy gained by a cycle, J: the work of its loads, exact also where it is small beside the energy.
     fn gained(&self, run: &Simulation) -> f64 {
         let rotation = self.task.extent.angle().unwrap_or_default();
-        let torque = self.task.equation().loads().constant_torque();
+        let torque = self.task.equation().loads().constant.torque;
         let by_torque = torque * rotation.copysign(self.task.speed);
         run.work.unwrap_or(f64::NAN) + by_torque
     }

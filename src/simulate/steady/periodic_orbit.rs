@@ -110,7 +110,7 @@ fn search(
 /// Solves for the periodic motion over a number of turns, after which the loads repeat.
 fn solve(cycles: &mut CycleMap<'_>, turns: u32, step: f64) -> Result<PeriodicOrbit, Error> {
     let task = cycles.task;
-    let reads = task.equation().loads().reads();
+    let reads = task.equation().loads().reads;
     let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
     if !by_speed && task.maker.guide.is_none() {
         let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
