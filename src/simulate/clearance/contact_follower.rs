@@ -137,7 +137,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         for (t, what) in found.into_iter().filter(|(t, _)| *t <= last) {
             let (theta, omega) = step.at(t);
             match what {
-                Crossing::Angle(_) => self.event("dead-centre", t, theta, omega),
+                Crossing::Angle => self.event("dead-centre", t, theta, omega),
                 Crossing::Turning => self.event("turning-point", t, theta, 0.0),
             }
         }
