@@ -8,7 +8,8 @@ use crate::numeric::stop::Stop;
 /// Settings of an integration in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings<'a> {
-    /// Explicit Runge-Kutta method of the crate ode_solvers; none: Gauss collocation of order 24, solved by Picard iteration.
+    /// Explicit Runge-Kutta method of the crate ode_solvers; none: Gauss collocation of order 24, solved by Picard
+    /// iteration (sweeps).
     pub method: Option<RungeKutta>,
     /// Tolerance of the local error, relative and absolute.
     pub tolerance: f64,

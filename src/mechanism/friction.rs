@@ -119,6 +119,7 @@ impl Free {
         match self.holding() {
             Some(touch) if self.band(mu_static) >= 0.0 => FromRest::Hold(touch),
             _ if self.clear_of_jam(mu) <= 0.0 => FromRest::Jam,
+            // Beyond the static band the pull decides: friction cannot reverse it.
             _ => FromRest::Move(self.pull.signum()),
         }
     }
