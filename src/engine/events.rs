@@ -10,8 +10,8 @@ use crate::numeric::root;
 /// Kind of a located event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
-    /// Passage of the watched angle with this index.
-    Angle(usize),
+    /// Passage of a watched angle.
+    Angle,
     /// Sign change of the speed.
     Turning,
 }
@@ -104,7 +104,7 @@ impl SpeedAt {
 fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f64, Crossing)>) {
     let (a, b) = (step.at(from).0, step.at(to).0);
     let direction = (b - a).signum();
-    for (index, angle) in watched.iter().enumerate() {
+    for angle in watched {
         let mut turn = ((a.min(b) - ANGLE_ROUNDING - angle) / TAU).floor();
         loop {
             let target = angle + turn * TAU;
@@ -115,7 +115,7 @@ fn passages(step: &Step, watched: &[f64], from: f64, to: f64, found: &mut Vec<(f
                 && direction * (target - b) <= ANGLE_ROUNDING
             {
                 let t = step.time_of_angle(target, from, to).unwrap_or(to);
-                found.push((t, Crossing::Angle(index)));
+                found.push((t, Crossing::Angle));
             }
             turn += 1.0;
         }

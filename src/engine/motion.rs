@@ -1,6 +1,7 @@
 //! Equation of motion as the integrators see it.
 
 use std::cell::Cell;
+use std::ops::Deref;
 
 use crate::numeric::angle::Angle;
 use crate::numeric::enclosure::{MotionPiece, Variation};
@@ -120,6 +121,29 @@ impl<'a> Counted<'a> {
         left <= least_roundings * rounding
     }
 
+    /// Returns [`Motion::acceleration`], counted.
+    pub fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
+        let acceleration = self.motion.acceleration(t, angle, speed);
+        self.note(acceleration, t, angle, speed);
+        acceleration
+    }
+
+    /// Returns [`Motion::acceleration_and_power`], counted.
+    pub fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
+        let (acceleration, power) = self.motion.acceleration_and_power(t, angle, speed);
+        self.note(acceleration, t, angle, speed);
+        (acceleration, power)
+    }
+
+    /// Computes a batch as [`Motion::fill`], counted.
+    pub fn fill(&self, batch: &mut Batch) {
+        self.motion.fill(batch);
+        for i in 0..NODES {
+            let angle = Angle::new(batch.turns, batch.theta[i]);
+            self.note(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
+        }
+    }
+
     fn note(&self, acceleration: f64, t: f64, angle: Angle, speed: f64) {
         self.evaluations.set(self.evaluations.get() + 1);
         // A non-finite state results from an earlier non-finite evaluation.
@@ -130,52 +154,11 @@ impl<'a> Counted<'a> {
     }
 }
 
-impl Motion for Counted<'_> {
-    fn acceleration(&self, t: f64, angle: Angle, speed: f64) -> f64 {
-        let acceleration = self.motion.acceleration(t, angle, speed);
-        self.note(acceleration, t, angle, speed);
-        acceleration
-    }
+/// What is no evaluation is not counted.
+impl<'a> Deref for Counted<'a> {
+    type Target = dyn Motion + 'a;
 
-    fn acceleration_and_power(&self, t: f64, angle: Angle, speed: f64) -> (f64, f64) {
-        let (acceleration, power) = self.motion.acceleration_and_power(t, angle, speed);
-        self.note(acceleration, t, angle, speed);
-        (acceleration, power)
-    }
-
-    fn depends_on_time(&self) -> bool {
-        self.motion.depends_on_time()
-    }
-
-    fn has_power(&self) -> bool {
-        self.motion.has_power()
-    }
-
-    fn next_corner(&self, t: f64) -> f64 {
-        self.motion.next_corner(t)
-    }
-
-    fn varies_between_nodes(&self) -> bool {
-        self.motion.varies_between_nodes()
-    }
-
-    fn variation(&self, reach: &MotionPiece, ellipse: f64) -> Variation {
-        self.motion.variation(reach, ellipse)
-    }
-
-    fn corner_on_way(&self, from: f64, to: f64) -> Option<f64> {
-        self.motion.corner_on_way(from, to)
-    }
-
-    fn of_times(&self, t: &[f64; NODES]) -> [[f64; 2]; NODES] {
-        self.motion.of_times(t)
-    }
-
-    fn fill(&self, batch: &mut Batch) {
-        self.motion.fill(batch);
-        for i in 0..NODES {
-            let angle = Angle::new(batch.turns, batch.theta[i]);
-            self.note(batch.alpha[i], batch.t[i], angle, batch.omega[i]);
-        }
+    fn deref(&self) -> &(dyn Motion + 'a) {
+        self.motion
     }
 }

@@ -1,24 +1,16 @@
 //! Start, settings and end of an integration in time.
 
-use super::runge_kutta;
+use super::runge_kutta::RungeKutta;
 use super::step::Step;
 use crate::numeric::angle::Angle;
 use crate::numeric::stop::Stop;
 
-/// Integration method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Gauss collocation of order 24, solved by Picard iteration (sweeps).
-    Picard,
-    /// Explicit Runge-Kutta method of the crate ode_solvers.
-    Library(runge_kutta::RungeKutta),
-}
-
 /// Settings of an integration in time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings<'a> {
-    /// Integration method.
-    pub method: Method,
+    /// Explicit Runge-Kutta method of the crate ode_solvers; none: Gauss collocation of order 24, solved by Picard
+    /// iteration (sweeps).
+    pub method: Option<RungeKutta>,
     /// Tolerance of the local error, relative and absolute.
     pub tolerance: f64,
     /// Last time, s.

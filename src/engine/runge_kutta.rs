@@ -9,7 +9,7 @@ use std::cell::Cell;
 use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, Dopri5, OutputType, SVector, System};
 
-use super::Motion;
+use super::Counted;
 use super::run_in_time::{Finish, Settings};
 use super::step::{Node, Step};
 use crate::numeric::angle::Angle;
@@ -44,7 +44,7 @@ impl RungeKutta {
 /// Arguments of [`integrate`].
 pub struct Call<'a> {
     /// Equation of motion.
-    pub motion: &'a dyn Motion,
+    pub motion: &'a Counted<'a>,
     /// Method.
     pub method: RungeKutta,
     /// Tolerance of the local error and unit of work.

@@ -7,9 +7,9 @@ use super::resolution::{Feature, unresolved_on};
 use super::runge_kutta::{self, Call};
 use super::step::{Node, Step};
 use super::work_forecast::WorkForecast;
-use super::{Counted, Motion, WorkLimit};
+use super::{Counted, WorkLimit};
 
-pub use super::run_in_time::{Ends, Finish, Method, MotionState, Settings, UNLIMITED_TIME};
+pub use super::run_in_time::{Ends, Finish, MotionState, Settings, UNLIMITED_TIME};
 
 /// Integrates and hands every accepted step to `sink`, which ends the run by returning true. Returns the reason for the
 /// end, the last step (angles without the turns) and the number of steps.
@@ -35,8 +35,8 @@ pub fn run(
         forecast_end.is_some()
     };
     let (finish, last, steps) = match settings.method {
-        Method::Picard => collocation::run(motion, start, settings, watched),
-        Method::Library(method) => in_calls(motion, start, settings, method, watched),
+        None => collocation::run(motion, start, settings, watched),
+        Some(method) => in_calls(motion, start, settings, method, watched),
     };
     match (finish, forecast_end) {
         (Finish::Stopped, Some(why)) => (why, last, steps),

@@ -25,10 +25,10 @@ pub(super) fn friction_at(
     theta: f64,
 ) -> Result<Option<(Option<f64>, FrictionAt)>, Error> {
     let guide = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
-    if guide.friction().is_none() && !guide.loads().are_dry() {
+    if guide.friction.is_none() && !guide.loads().are_dry() {
         return Ok(None);
     }
-    let friction = guide.friction();
+    let friction = guide.friction;
     let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
     let (angle, omega) = (Angle::from(theta), scene.motion.speed);
     let dx = equation.terms(theta).pose.dx;
@@ -48,7 +48,7 @@ pub(super) fn friction_at(
         let found = match guide.at_rest(angle).held(0.0).free.from_rest(mu, mu_static) {
             FromRest::Hold(touch) => Some((0.0, touch.friction)),
             FromRest::Move(direction) => sliding(direction),
-            FromRest::Jam(_) => None,
+            FromRest::Jam => None,
         };
         let band = Statics::new(scene, mu_static)?.crank_torque(theta).band;
         (found, band.map_or([None; 2], |band| [band.min, band.max]))

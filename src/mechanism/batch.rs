@@ -139,7 +139,7 @@ impl CurveEquation {
     /// Whether q is the crank angle and far from limits: near them, sines that differ in the last place are other
     /// motions.
     pub fn may_be_batched(&self) -> bool {
-        self.curve().is_crank_angle() && self.curve().linkage().stays_far_from_limits()
+        self.curve().is_crank_angle() && self.curve().linkage.stays_far_from_limits()
     }
 
     /// Computes θ̈ (rad/s²) at N instants of a crank whose slider slides with c = −μ sgn(v) sgn(N), against dry loads in

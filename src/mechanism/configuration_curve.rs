@@ -22,7 +22,8 @@ use crate::numeric::angle::Angle;
 /// Connected set of positions of a mechanism, with a coordinate q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
-    linkage: Linkage,
+    /// Linkage.
+    pub linkage: Linkage,
     pub(super) chart: Chart,
     /// Whole turns of the crank that are added to the angle of the chart.
     pub(super) turns: f64,
@@ -81,11 +82,6 @@ impl Curve {
         let off = theta.minus(self.crank_angle(q)) / TAU;
         self.turns = off.round();
         self
-    }
-
-    /// Returns the linkage.
-    pub fn linkage(&self) -> &Linkage {
-        &self.linkage
     }
 
     /// Whether the coordinate is the crank angle.

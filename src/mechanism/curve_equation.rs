@@ -16,7 +16,8 @@ pub struct CurveEquation {
     /// Equation over the crank angle.
     pub(super) equation: Equation,
     curve: Curve,
-    friction: Option<Friction>,
+    /// Friction at the guide, if any.
+    pub friction: Option<Friction>,
 }
 
 /// Terms of the equation that depend on the position alone.
@@ -74,15 +75,10 @@ impl CurveEquation {
         self.equation.loads()
     }
 
-    /// Returns the friction at the guide, if any.
-    pub fn friction(&self) -> Option<Friction> {
-        self.friction
-    }
-
     /// Computes the terms at coordinate q, rad.
     pub fn terms(&self, q: f64) -> CurveTerms {
         let pose = self.curve.pose(q);
-        let path = pose.rod_path(self.curve.linkage(), &self.equation.rod);
+        let path = pose.rod_path(&self.curve.linkage, &self.equation.rod);
         self.equation.curve_terms(pose, &path)
     }
 
@@ -93,7 +89,7 @@ impl CurveEquation {
 
     /// Returns the variables of the loads; the crank angle, which costs an inverse tangent, only if a load reads it.
     pub fn instant(&self, pose: &CurvePose, t: f64, q: Angle, speed: f64) -> Instant {
-        let theta = match self.loads().reads().has(Variable::Theta) {
+        let theta = match self.loads().reads.has(Variable::Theta) {
             true => self.curve.crank_angle(q).radians(),
             false => 0.0,
         };

@@ -188,7 +188,7 @@ impl Curve {
     pub fn enclosed_state(&self, piece: &MotionPiece, slider: SliderUse) -> EnclosedState {
         let point = Interval::point;
         let ranges = match &self.chart {
-            Chart::Crank => return self.linkage().enclosed_state(piece, slider),
+            Chart::Crank => return self.linkage.enclosed_state(piece, slider),
             Chart::Rod(swapped) => {
                 let ranges = swapped.enclose(piece.angle, true);
                 match swapped.s < 0.0 {
@@ -200,7 +200,7 @@ impl Curve {
                     false => ranges,
                 }
             }
-            Chart::Rocker(rocker) => rocker.enclose(self.linkage(), piece.angle),
+            Chart::Rocker(rocker) => rocker.enclose(&self.linkage, piece.angle),
         };
         EnclosedState {
             t: piece.t,

@@ -59,7 +59,7 @@ pub enum FromRest {
     /// The coordinate begins to move in this direction, ±1.
     Move(f64),
     /// Rigid bodies have no unique motion.
-    Jam(Jam),
+    Jam,
 }
 
 impl Free {
@@ -116,17 +116,12 @@ impl Free {
 
     /// Decides between rest and motion from rest; rest is kept if the static band holds.
     pub fn from_rest(&self, mu: f64, mu_static: f64) -> FromRest {
-        if self.band(mu_static) >= 0.0
-            && let Some(touch) = self.holding()
-        {
-            return FromRest::Hold(touch);
+        match self.holding() {
+            Some(touch) if self.band(mu_static) >= 0.0 => FromRest::Hold(touch),
+            _ if self.clear_of_jam(mu) <= 0.0 => FromRest::Jam,
+            // Beyond the static band the pull decides: friction cannot reverse it.
+            _ => FromRest::Move(self.pull.signum()),
         }
-        if self.clear_of_jam(mu) <= 0.0 {
-            let sgn_v = (self.pull * self.dx).signum();
-            return FromRest::Jam(self.jam(mu, sgn_v));
-        }
-        // Beyond the static band the pull decides: friction cannot reverse it.
-        FromRest::Move(self.pull.signum())
     }
 }
 

@@ -8,9 +8,10 @@ use crate::scene::{Instant, Load, Scene, Variables};
 /// Loads of a scene; those with a potential (constants, springs) apart from those whose work must be integrated.
 #[derive(Clone, Debug, Default)]
 pub struct Loads {
-    constant: LoadValue,
+    /// Constant torque, N m, and force, N.
+    pub constant: LoadValue,
     /// Damping coefficients −d torque/dω, N m s/rad, and −d force/dv, N s/m.
-    damping: LoadValue,
+    pub damping: LoadValue,
     pub(super) stiffness: f64,
     /// Loads of the position alone, without a known potential.
     pub(super) placed: NonlinearLoads,
@@ -20,10 +21,12 @@ pub struct Loads {
     pub(super) mixed: NonlinearLoads,
     /// Dry loads, which oppose motion.
     pub(super) dry: NonlinearLoads,
-    reads: Variables,
-    /// Variables that the timed, mixed and dry loads depend on.
-    reads_of_states: Variables,
-    on_slider: bool,
+    /// Variables that the loads depend on.
+    pub reads: Variables,
+    /// Variables that the nonlinear loads of speed or time depend on.
+    pub reads_of_states: Variables,
+    /// Whether a force acts on the slider.
+    pub on_slider: bool,
 }
 
 impl Loads {
@@ -67,21 +70,6 @@ impl Loads {
                 None => self.class(&other, on_slider).0.push((other, on_slider)),
             },
         }
-    }
-
-    /// Returns the variables that the loads depend on.
-    pub fn reads(&self) -> Variables {
-        self.reads
-    }
-
-    /// Returns the variables that the nonlinear loads of speed or time depend on.
-    pub fn reads_of_states(&self) -> Variables {
-        self.reads_of_states
-    }
-
-    /// Whether a force acts on the slider.
-    pub fn on_slider(&self) -> bool {
-        self.on_slider
     }
 
     /// Whether there is no load at all.
@@ -154,11 +142,6 @@ impl Loads {
         corners.min_by(|a, b| (a - from).abs().total_cmp(&(b - from).abs()))
     }
 
-    /// Returns the constant torque on the crank, N m.
-    pub fn constant_torque(&self) -> f64 {
-        self.constant.torque
-    }
-
     /// Whether the scene has dry loads, which oppose motion.
     pub fn are_dry(&self) -> bool {
         !self.dry.is_empty()
@@ -227,11 +210,6 @@ impl Loads {
     /// Returns −dQ/dω of the loads that are linear in the speed, N m s/rad, where x' is `dx` (m/rad).
     pub fn damping(&self, dx: f64) -> f64 {
         self.damping.torque + self.damping.force * dx * dx
-    }
-
-    /// Returns −d torque/dω (N m s/rad) and −d force/dv (N s/m) of the loads that are linear in the speed.
-    pub fn dampings(&self) -> [f64; 2] {
-        [self.damping.torque, self.damping.force]
     }
 
     /// Returns torque and force of the nonlinear loads of speed or time at some instants.

@@ -7,7 +7,8 @@ use crate::scene::{Instant, RodModel, Scene};
 /// Static problem of a scene: weight and loads at rest.
 #[derive(Clone, Debug)]
 pub struct Statics {
-    equation: Equation,
+    /// Equation of the scene.
+    pub equation: Equation,
     reactor: Reactor,
     friction: f64,
 }
@@ -54,11 +55,6 @@ impl Statics {
             reactor: Reactor::new(&scene)?,
             friction,
         })
-    }
-
-    /// Returns the equation of the scene.
-    pub fn equation(&self) -> &Equation {
-        &self.equation
     }
 
     /// Returns the slider force (N, along +x) that holds the scene in equilibrium, beside its loads: F = (V' − τ)/x',

@@ -59,7 +59,7 @@ impl TorqueSlope {
         let inertia = squared * (bilinear(&change, &path) + bilinear(&path, &change) + of_slider);
         let of_weight = -dot(weight.rod, change.dp) - weight.slider[0] * slope.dx;
         let force = self.equation.load(theta / omega, theta, omega).force;
-        let [_, damping] = loads.dampings();
+        let damping = loads.damping.force;
         let force_slope = -loads.stiffness * slope.x - damping * slope.dx * omega;
         inertia + of_weight - force * slope.dx - force_slope * pose.dx
             + self.moved_mass(pose, squared, length)

@@ -105,9 +105,9 @@ impl Loads {
 
     /// Returns what the loads make of the slider.
     pub fn slider_use(&self) -> SliderUse {
-        match self.reads().disjoint(Variables::X.or(Variables::V)) {
+        match self.reads.disjoint(Variables::X.or(Variables::V)) {
             false => SliderUse::Read,
-            true if self.on_slider() => SliderUse::Moved,
+            true if self.on_slider => SliderUse::Moved,
             true => SliderUse::Untouched,
         }
     }

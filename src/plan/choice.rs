@@ -199,9 +199,7 @@ fn why_not_angle(scene: &Scene, loads: &Loads, class: Class) -> Option<String> {
 fn jams(scene: &Scene) -> bool {
     let linkage = Linkage::new(&scene.geometry);
     let guide = CurveEquation::new(scene, Curve::on_crank(&linkage));
-    let mu = guide
-        .friction()
-        .map_or(0.0, |friction| friction.coefficient);
+    let mu = guide.friction.map_or(0.0, |friction| friction.coefficient);
     let clear = |theta: f64| 1.0 - mu * guide.terms(theta).normal().force.abs();
     let grid = linkage.turn_grid(true).into_iter();
     let known: Vec<(f64, f64)> = grid.map(|theta| (theta, clear(theta))).collect();

@@ -189,7 +189,7 @@ fn state(engine: Engine, scene: &Scene, loads: &Loads) -> Vec<&'static str> {
             if !loads.have_potential() || scene.friction.is_some() {
                 state.push("work of the loads");
             }
-            if loads.reads().has(Variable::T) {
+            if loads.reads.has(Variable::T) {
                 state.push("t");
             }
             state

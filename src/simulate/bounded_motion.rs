@@ -27,7 +27,7 @@ impl BoundedMotion {
         // Friction brings most swings to rest, which says more; loads in time may push the crank later: wait for both.
         let least_count = if task.stops_at_reversal {
             0
-        } else if task.equation().loads().reads().has(Variable::T) {
+        } else if task.equation().loads().reads.has(Variable::T) {
             10_000
         } else if task.may_stick() {
             200

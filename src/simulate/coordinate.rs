@@ -23,7 +23,7 @@ impl Motion for Equation {
     }
 
     fn depends_on_time(&self) -> bool {
-        self.loads().reads().has(Variable::T)
+        self.loads().reads.has(Variable::T)
     }
 
     fn has_power(&self) -> bool {

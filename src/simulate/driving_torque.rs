@@ -133,7 +133,7 @@ impl ConstantSpeedMotion<'_> {
     pub fn samples(&self) -> Result<Samples, NoRange> {
         let turn = self.turn();
         let loads = self.equation().loads();
-        let reads = loads.reads();
+        let reads = loads.reads;
         let repeats = !reads.has(Variable::T) && !reads.has(Variable::Theta);
         let is_one_turn = repeats && self.end >= turn;
         // Bounds the work: turns that differ are all searched.

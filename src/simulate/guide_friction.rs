@@ -86,7 +86,7 @@ impl GuideFriction {
         scene.friction?;
         let equation = CurveEquation::new(scene, Curve::on_crank(equation.linkage()));
         Some(GuideFriction {
-            mu: equation.friction()?.coefficient,
+            mu: equation.friction?.coefficient,
             equation,
         })
     }
@@ -102,7 +102,7 @@ impl GuideFriction {
         table: &mut Table<PanelPlace>,
     ) {
         let c = -self.mu * signs * sign_between_dead_centres(dx);
-        let [torque, force] = loads.dampings();
+        let LoadValue { torque, force } = loads.damping;
         let mut switch = table.switch.take().unwrap_or_default();
         for (i, normal) in normals.iter().enumerate() {
             let load_effect = GuideLoadEffect {
@@ -150,7 +150,7 @@ impl GuideFriction {
             return (0.0, GuideForces::default());
         }
         let free = self.equation.free(t, angle, omega);
-        let crank = self.equation.curve().linkage().r;
+        let crank = self.equation.curve().linkage.r;
         let mut dx = free.dx;
         if dx.abs() < DEAD_CENTRE_WIDTH * crank {
             // At a dead centre x' is taken just before it, at the start of the run just after it.

@@ -125,7 +125,7 @@ fn over_orbit(run: &Simulation) -> Option<Parametrization<'_>> {
     let end = run.summary.last.t_s;
     let maker = run.maker.as_ref()?;
     // The time of a place costs more than all else: it is computed only where a load reads it.
-    let timed = maker.equation.loads().reads().has(Variable::T);
+    let timed = maker.equation.loads().reads.has(Variable::T);
     let reactions = move |at: f64| {
         let (angle, speed) = orbit.state_at_position(at)?;
         let t = if timed {

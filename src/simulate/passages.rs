@@ -81,8 +81,8 @@ impl OrbitPiece<'_> {
     /// Lists the dead centres of a motion that does not turn back until an orbit time (s), at most `kept`; counts all.
     fn one_way(&self, until: f64, kept: usize) -> (Vec<MotionState>, u64) {
         let orbit = self.orbit;
-        let from = (orbit.start(), orbit.direction());
-        let way = orbit.state(until).0.minus(orbit.start()).abs();
+        let from = (orbit.start, orbit.direction);
+        let way = orbit.state(until).0.minus(orbit.start).abs();
         dead_centres_on_way(self.task, from, way, kept, |ahead| {
             let known = orbit.passage(ahead).filter(|(t, _)| *t <= until);
             known.unwrap_or_else(|| (until, orbit.state(until).1))
@@ -145,7 +145,7 @@ impl OrbitPiece<'_> {
             true => once.iter().map(rounds).sum(),
             false => self.one_way(self.end, 0).1,
         };
-        let turns = if turns_back { 0.0 } else { orbit.direction() };
+        let turns = if turns_back { 0.0 } else { orbit.direction };
         let most = total.min(kept as u64) * u64::from(!once.is_empty());
         let again = (0u64..).map(|round| round as f64).flat_map(|round| {
             once.iter().map(move |(kind, at)| {
@@ -185,7 +185,7 @@ impl RowSource for OrbitPiece<'_> {
         if !self.orbit.rotates() {
             return root::bracketed(|t| self.turned(t) - turned, from, to);
         }
-        let before = self.orbit.start().minus(self.task.start());
+        let before = self.orbit.start.minus(self.task.start());
         let own = self.orbit.time_of_turn((turned - before).abs())?;
         Some(self.begin + own)
     }

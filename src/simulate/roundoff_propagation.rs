@@ -3,9 +3,9 @@
 use super::saltation::saltation;
 use super::state_transition::AccelerationSlopes;
 use super::stick_slip::{CurveMotion, StickSlipPhase};
+use crate::engine::runge_kutta::RungeKutta;
 use crate::engine::step::Step;
-use crate::engine::time::Method;
-use crate::engine::{Counted, Motion, NODES};
+use crate::engine::{Counted, NODES};
 use crate::mechanism::Equation;
 use crate::numeric::ROUNDING_DEVIATION;
 use crate::numeric::covariance_factor::{CovarianceFactor, Transition};
@@ -32,10 +32,10 @@ struct StepEnd {
 
 impl RoundoffPropagation {
     /// Starts without roundoff, as in a balance.
-    pub fn new(method: Method) -> RoundoffPropagation {
+    pub fn new(method: Option<RungeKutta>) -> RoundoffPropagation {
         RoundoffPropagation {
             covariance: CovarianceFactor::default(),
-            rounds_states: !matches!(method, Method::Picard),
+            rounds_states: method.is_some(),
             evaluations: 0,
             before: None,
         }
@@ -49,7 +49,7 @@ impl RoundoffPropagation {
 
     /// Carries the covariance over a step of the crank angle; adds a unit of the end acceleration, the rounded angle
     /// and the rounded times at which loads are evaluated.
-    pub fn step(&mut self, equation: &Equation, motion: &dyn Motion, step: &Step) {
+    pub fn step(&mut self, equation: &Equation, motion: &Counted<'_>, step: &Step) {
         let slopes = AccelerationSlopes::of(motion, step);
         let transition = slopes.transition(step);
         let end = &step.end;
@@ -134,7 +134,7 @@ impl RoundoffPropagation {
     }
 
     /// Carries the covariance over a jump of the acceleration at the start of a step, from that `before`, rad/s².
-    fn pass_jump(&mut self, motion: &dyn Motion, step: &Step, before: f64) {
+    fn pass_jump(&mut self, motion: &Counted<'_>, step: &Step, before: f64) {
         if let Some(saltation) = saltation(motion, step, before) {
             self.covariance = self.covariance.propagated(&saltation);
         }

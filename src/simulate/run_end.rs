@@ -165,13 +165,12 @@ impl RunEnd {
 
 /// Returns the reason for a run that misses its goal or ends without a finite state, though no engine gave one.
 fn unexplained_end(extent: Extent, last: &Final, turned: f64) -> Option<Why> {
-    let (goal, reached) = match extent {
-        Extent::Duration(duration) => (duration, last.t_s),
-        Extent::Revolutions(turns) => (turns * TAU, turned.abs()),
-    };
-    let angle_rounding = match extent {
-        Extent::Duration(_) => 0.0,
-        Extent::Revolutions(_) => 2.0 * f64::EPSILON * last.theta_rad.abs(),
+    let (goal, reached, angle_rounding) = match extent {
+        Extent::Duration(duration) => (duration, last.t_s, 0.0),
+        Extent::Revolutions(turns) => {
+            let rounding = 2.0 * f64::EPSILON * last.theta_rad.abs();
+            (turns * TAU, turned.abs(), rounding)
+        }
     };
     // Half of all digits: far more than the rounding of a goal.
     let missed = goal - reached > f64::EPSILON.sqrt() * goal + angle_rounding;

@@ -7,7 +7,7 @@ use super::options::Options;
 use super::row::RowMaker;
 use super::schedule::Schedule;
 use super::stop::Why;
-use crate::engine::runge_kutta;
+use crate::engine::runge_kutta::RungeKutta;
 use crate::engine::time::{self, MotionState, Settings};
 use crate::error::Error;
 use crate::mechanism::{Class, Equation, Limits, Reactor};
@@ -133,9 +133,9 @@ impl<'a> RunSetup<'a> {
         let unit = 0.5 * inertia * self.speed.powi(2).max(1.0);
         Settings {
             method: match self.plan.stepper {
-                Some(Stepper::Dop853) => time::Method::Library(runge_kutta::RungeKutta::Dop853),
-                Some(Stepper::Dopri5) => time::Method::Library(runge_kutta::RungeKutta::Dopri5),
-                _ => time::Method::Picard,
+                Some(Stepper::Dop853) => Some(RungeKutta::Dop853),
+                Some(Stepper::Dopri5) => Some(RungeKutta::Dopri5),
+                _ => None,
             },
             tolerance: self.scene.run.tolerance,
             t_end: match self.extent {

@@ -4,14 +4,14 @@
 //! A load that jumps where the crank passes an angle jumps earlier on a motion that is ahead, by δθ/θ̇; one that jumps
 //! with the speed, by δθ̇/θ̈. One that jumps in time jumps on all motions at once.
 
-use crate::engine::Motion;
+use crate::engine::Counted;
 use crate::engine::step::Step;
 use crate::numeric::angle::Angle;
 use crate::numeric::covariance_factor::Transition;
 
 /// Returns the saltation matrix at the start of a step, from the acceleration `before`, rad/s²; none for a jump in
 /// time.
-pub(super) fn saltation(motion: &dyn Motion, step: &Step, before: f64) -> Option<Transition> {
+pub(super) fn saltation(motion: &Counted<'_>, step: &Step, before: f64) -> Option<Transition> {
     let start = &step.start;
     let jump = start.alpha - before;
     // A jump in the last half of the digits changes no more of a perturbation.

@@ -25,7 +25,7 @@ pub(super) fn torques(task: &RunSetup<'_>, theta: f64) -> Torques {
 /// not lift it out. None otherwise, and with friction, dry loads, loads in time, clearance or limits.
 pub(super) fn stalled(task: &RunSetup<'_>, last: &Final) -> Option<Why> {
     let equation = task.equation();
-    let timed = equation.loads().reads().has(Variable::T);
+    let timed = equation.loads().reads.has(Variable::T);
     let loose = task.scene.reduced().clearance.is_some();
     if task.may_stick() || timed || loose || !task.turns_fully() {
         return None;

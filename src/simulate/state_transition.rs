@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 use nalgebra::{Matrix3, Vector2};
 
 use crate::engine::step::Step;
-use crate::engine::{Batch, Motion};
+use crate::engine::{Batch, Counted};
 use crate::numeric::covariance_factor::Transition;
 
 /// Values at the nodes of the rule.
@@ -38,7 +38,7 @@ pub(super) struct AccelerationSlopes {
 
 impl AccelerationSlopes {
     /// Computes the slopes at the nodes of a step, by forward differences.
-    pub fn of(motion: &dyn Motion, step: &Step) -> AccelerationSlopes {
+    pub fn of(motion: &Counted<'_>, step: &Step) -> AccelerationSlopes {
         let (start, end, h) = (&step.start, &step.end, step.length());
         // Differences, about the square root of a rounding: of the angle, rad, no more than in the step, as slopes near
         // a limit are steep, but enough to exceed rounding; of the speed, relative to the speed or 1 rad/s; of the
@@ -194,9 +194,8 @@ fn commutator(x: &Matrix3<f64>, y: &Matrix3<f64>) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Counted;
     use crate::engine::WorkLimit;
-    use crate::engine::time::{self, Method, MotionState, Settings};
+    use crate::engine::time::{self, MotionState, Settings};
     use crate::mechanism::Equation;
     use crate::numeric::angle::Angle;
     use crate::scene::{Crank, Expression, Load, Scene};
@@ -219,7 +218,7 @@ mod tests {
     /// Steps of a run from a start to a time.
     fn steps(motion: &Equation, start: MotionState, t_end: f64) -> Vec<Step> {
         let settings = Settings {
-            method: Method::Picard,
+            method: None,
             tolerance: 1e-14,
             t_end,
             way: f64::INFINITY,
@@ -248,7 +247,8 @@ mod tests {
                 speed,
             };
             for step in steps(&equation, start(0.0, angle, speed), 3.0) {
-                let found = AccelerationSlopes::of(&equation, &step).transition(&step);
+                let found =
+                    AccelerationSlopes::of(&Counted::new(&equation), &step).transition(&step);
                 let from = step.start;
                 let end = |part: [f64; 2]| {
                     let beside = start(from.t, from.theta + part[0], from.omega + part[1]);

@@ -139,11 +139,11 @@ impl Motion for CurveMotion<'_> {
     }
 
     fn depends_on_time(&self) -> bool {
-        self.equation.loads().reads().has(Variable::T)
+        self.equation.loads().reads.has(Variable::T)
     }
 
     fn has_power(&self) -> bool {
-        self.equation.friction().is_some() || !self.equation.loads().have_potential()
+        self.equation.friction.is_some() || !self.equation.loads().have_potential()
     }
 
     fn next_corner(&self, t: f64) -> f64 {
@@ -191,7 +191,7 @@ impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
     fn values(&self, t: f64, angle: Angle, speed: f64) -> Signs {
         let curve = self.equation.curve();
         let place = curve.pose(angle.rest);
-        let (normal, clear) = match self.equation.friction() {
+        let (normal, clear) = match self.equation.friction {
             Some(friction) => {
                 self.evaluations.update(|before| before + 1);
                 let opposed = self.opposed.get();
@@ -217,7 +217,7 @@ impl EventFunction<{ EventIndex::ALL.len() }> for CurveEvents<'_> {
 
     /// Only the normal force and the distance from jamming have a double sign change between close positions.
     fn shown_travel(&self, angle: Angle) -> f64 {
-        match self.equation.friction() {
+        match self.equation.friction {
             Some(_) => self.equation.curve().shown_distance(angle.rest),
             None => f64::INFINITY,
         }
@@ -239,7 +239,7 @@ pub(super) fn signs(values: Signs, ahead: Signs, direction: f64) -> Signs {
 
 /// Returns the sliding phase that belongs to the signs.
 pub(super) fn sliding(equation: &CurveEquation, signs: &Signs) -> StickSlipPhase {
-    let friction = equation.friction();
+    let friction = equation.friction;
     let mu = friction.map_or(0.0, |friction| friction.coefficient);
     StickSlipPhase::Sliding {
         c: -mu * signs[Speed as usize] * signs[DeadCentre as usize] * signs[NormalForce as usize],

@@ -4,7 +4,6 @@ use std::fmt;
 
 use serde::{Serialize, Serializer};
 
-use crate::engine::energy::NotApplicable;
 use crate::engine::time::MotionState;
 use crate::mechanism::Jam;
 use crate::scene::{Load, unrounded};
@@ -246,20 +245,5 @@ impl fmt::Display for Torques {
         let what = if self.by_motor { "motor" } else { "crank" };
         let [drive, load] = [self.drive, self.load].map(unrounded);
         write!(f, "{what} torque {drive} N m, load {load} N m")
-    }
-}
-
-/// Returns the reason that a motion over the crank angle is not applicable, as a clause of a message.
-pub(super) fn why_not_applicable(why: NotApplicable) -> &'static str {
-    match why {
-        NotApplicable::Equilibrium => "it starts at rest without a force",
-        NotApplicable::NotFinite => "a load has no finite value on the way",
-        NotApplicable::NotSmooth => "a load is not smooth",
-        NotApplicable::TooSlow => "the crank comes too near to rest",
-        NotApplicable::WorkLimit => "it takes more evaluations than the work limit allows",
-        NotApplicable::TooManyTurns => "it takes more turns than the work limit allows",
-        NotApplicable::TooLong => {
-            "its turns differ from each other, and they are too many to be kept"
-        }
     }
 }

@@ -101,7 +101,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         ));
     }
     let statics = Statics::new(&scene, friction)?;
-    let linkage = statics.equation().linkage();
+    let linkage = statics.equation.linkage();
     let limits = Limits::new(linkage, 0.0);
     let mut positions = linkage.named_positions();
     positions.extend(linkage.self_locking(friction));
@@ -111,7 +111,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         .filter_map(|at| Some([at.theta_rad, at.to_rad?]))
         .collect();
     let mut warnings = Vec::new();
-    let reads = statics.equation().loads().reads();
+    let reads = statics.equation.loads().reads;
     let motion = Variables::T.or(Variables::OMEGA).or(Variables::V);
     if !reads.disjoint(motion) {
         warnings
@@ -120,7 +120,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
     if scene.clearance.is_some() {
         warnings.push("the clearance of the scene plays no part in the equilibrium".to_owned());
     }
-    let equation = statics.equation();
+    let equation = &statics.equation;
     let without_value = |theta: f64| {
         linkage.pose(theta).is_regular() && !equation.load(0.0, theta, 0.0).is_finite()
     };
@@ -158,7 +158,7 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
 impl StaticAnalysis {
     /// Returns the equilibrium at a crank angle, rad.
     pub fn row(&self, theta: f64) -> StaticsRow {
-        let linkage = self.statics.equation().linkage();
+        let linkage = self.statics.equation.linkage();
         let pose = linkage.pose(theta);
         // Between the directions from A to O and from A to P.
         let (axis_x, axis_y) = (linkage.s * pose.cos_phi, -pose.sin_phi);

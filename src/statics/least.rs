@@ -9,7 +9,7 @@ impl StaticAnalysis {
     /// Locates the least magnitudes over the cycle, without friction and with it; loads that do not repeat may
     /// differ in the next turn. A zero that lasts counts where it begins.
     pub(super) fn least(&self) -> [Vec<Located>; 2] {
-        let (equation, whole) = (self.statics.equation(), self.whole());
+        let (equation, whole) = (&self.statics.equation, self.whole());
         let of = |balance: Equilibrium| balance.band.map_or(f64::NAN, |band| band.value);
         // V' − τ − F x': the crank torque, and the slider force times x', which has no poles at the dead centres.
         let torque = |theta: f64| of(self.statics.crank_torque(theta.rem_euclid(whole)));

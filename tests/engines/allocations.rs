@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use slider_crank::engine::WorkLimit;
-use slider_crank::engine::time::{Method as Stepper, MotionState, Settings, run};
+use slider_crank::engine::time::{MotionState, Settings, run};
 use slider_crank::engine::{Counted, Motion};
 use slider_crank::error::Error;
 use slider_crank::numeric::angle::Angle;
@@ -39,7 +39,7 @@ impl Motion for Pendulum {
 fn steps_take_no_memory() {
     let integrate = |t_end: f64| {
         let settings = Settings {
-            method: Stepper::Picard,
+            method: None,
             tolerance: 1e-10,
             t_end,
             way: f64::INFINITY,

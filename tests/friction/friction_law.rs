@@ -223,7 +223,7 @@ proptest! {
                     prop_assert_eq!(acceleration * way > 0.0, way == direction, "{} {}", way, acceleration);
                 }
             }
-            FromRest::Jam(_) => prop_assert!(free.clear_of_jam(mu) <= 0.0),
+            FromRest::Jam => prop_assert!(free.clear_of_jam(mu) <= 0.0),
         }
     }
 

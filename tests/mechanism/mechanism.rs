@@ -213,7 +213,7 @@ fn loads_tell_what_they_read_and_whether_they_have_a_potential() {
         (empty().force(of_time), false, Variables::T, true),
     ] {
         let loads = Loads::new(&scene);
-        let got = (loads.have_potential(), loads.reads(), loads.on_slider());
+        let got = (loads.have_potential(), loads.reads, loads.on_slider);
         assert_eq!(
             got,
             (potential, reads, on_slider),

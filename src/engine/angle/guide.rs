@@ -28,7 +28,7 @@ impl AngleRun {
         let mut done = 0;
         while done < count {
             let (index, _) = segment.located(Angle::new(turns, kinetic[done]))?;
-            let known = segment.panel(index)?;
+            let known = segment.panels.get(index)?;
             let local = |angle: &f64| known.local(Angle::new(turns, *angle));
             let left = &mut kinetic[done..count];
             let is_on = |angle: &&f64| known.piece.nearest(local(angle)).is_some();

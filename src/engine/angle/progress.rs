@@ -56,7 +56,7 @@ impl Progress {
         solution: &PanelSolution,
     ) -> Panel {
         let rule = table.rule;
-        let work = solution.work(rule, piece.span(), 1.0);
+        let work = solution.work(rule, piece.span, 1.0);
         // Under steep loads the end energy is not the sum of start and gain.
         let summed = solution.end == self.kinetic + solution.gain;
         (self.kinetic, self.kinetic_low) = if summed {

@@ -38,13 +38,16 @@ pub fn run<D: Dynamics>(
     let why = loop {
         let at_cycle = stepper.panels.at_cycle();
         let (cost, t) = (stepper.cost(), stepper.progress.t.0);
-        if at_cycle && segment.len() > 0 && forecast.reason_to_stop(cost, t, cycle).is_some() {
+        if at_cycle
+            && !segment.panels.is_empty()
+            && forecast.reason_to_stop(cost, t, cycle).is_some()
+        {
             break Some(NotApplicable::TooManyTurns);
         }
         if repeats && at_cycle && stepper.progress.turns.abs() >= SINGLE_TURNS {
             return poincare_map::run(stepper, segment, goal);
         }
-        if segment.len() >= MOST_PANELS {
+        if segment.panels.len() >= MOST_PANELS {
             break Some(NotApplicable::TooLong);
         }
         match stepper.advance(&mut segment, &first, goal) {
@@ -88,7 +91,10 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         let MotionState { angle, speed, .. } = self.start;
         let orbit = Orbit::one_way(angle, speed, first, later);
         let last = orbit.last_segment();
-        let panel = last.last().ok_or(why.unwrap_or(NotApplicable::TooLong))?;
+        let panel = last
+            .panels
+            .last()
+            .ok_or(why.unwrap_or(NotApplicable::TooLong))?;
         let end = match goal {
             Goal::Time(until) if why.is_none() => until,
             Goal::Turned(way) if why.is_none() => orbit.time_of_turn(way).unwrap_or(orbit.length()),
@@ -96,10 +102,10 @@ impl<D: Dynamics> PanelStepper<'_, D> {
         };
         let mut work = from.work + self.progress.work;
         if why.is_none() {
-            let whole = self.solution.work(panel.rule, panel.piece.span(), 1.0);
+            let whole = self.solution.work(panel.rule, panel.piece.span, 1.0);
             let until_end = last.panel_at(from.until(end)).map(|(panel, since)| {
                 let x = panel.position(since);
-                self.solution.work(panel.rule, panel.piece.span(), x)
+                self.solution.work(panel.rule, panel.piece.span, x)
             });
             work = work - whole + until_end.unwrap_or_default();
         }

@@ -1,8 +1,8 @@
 //! Attempted step: first guess, outcome and error estimate.
 
+use super::super::NODES;
 use super::super::resolution::Unresolved;
 use super::super::step::Step;
-use super::super::{Motion, NODES};
 use super::guide::guided;
 use super::state::State;
 use super::step::Collocation;

@@ -14,10 +14,10 @@ mod tableau;
 
 use std::f64::consts::TAU;
 
+use super::Counted;
 use super::resolution::Feature;
 use super::step::{Node, Step};
 use super::time::{Finish, MotionState, Settings};
-use super::{Counted, Motion};
 use attempt::{Accepted, Rejection};
 pub use guide::tolerance_beside;
 use state::State;

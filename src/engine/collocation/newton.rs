@@ -4,7 +4,7 @@
 use nalgebra::{Const, LU, SMatrix, SVector};
 
 use super::super::step::Step;
-use super::super::{Batch, Motion, NODES};
+use super::super::{Batch, Counted, NODES};
 use super::state::State;
 use super::step::Collocation;
 use super::tableau::Tableau;
@@ -20,7 +20,7 @@ pub(super) struct Newton {
 impl Newton {
     /// Factorizes the matrix from difference quotients of f at the states of a batch with known accelerations. None if
     /// it is not finite, or f is not steep in the speed.
-    pub fn new(motion: &dyn Motion, batch: &Batch, tableau: &Tableau, h: f64) -> Option<Newton> {
+    pub fn new(motion: &Counted<'_>, batch: &Batch, tableau: &Tableau, h: f64) -> Option<Newton> {
         let by_speed = slopes(motion, batch, |batch| &mut batch.omega);
         let by_angle = slopes(motion, batch, |batch| &mut batch.theta);
         let matrix = SMatrix::<f64, NODES, NODES>::from_fn(|i, j| {
@@ -78,7 +78,7 @@ fn is_steep(slopes: &[f64; NODES], h: f64) -> bool {
 
 /// Computes ∂f at the nodes with respect to a part of the state, by forward differences.
 fn slopes(
-    motion: &dyn Motion,
+    motion: &Counted<'_>,
     batch: &Batch,
     part: fn(&mut Batch) -> &mut [f64; NODES],
 ) -> [f64; NODES] {

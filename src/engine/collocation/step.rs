@@ -5,7 +5,7 @@ use multiversion::multiversion;
 use super::super::resolution::{Feature, Unresolved, unresolved_on};
 use super::super::step::{Step, TERMS};
 use super::super::time::Settings;
-use super::super::{Batch, Counted, Motion, NODES};
+use super::super::{Batch, Counted, NODES};
 use super::attempt::{Accepted, Rejection, last_term};
 use super::newton::Newton;
 use super::state::State;

@@ -59,7 +59,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
         };
         let (mut stages, h, end, then) = loop {
             let (stages, h) = self.controlled_step(longest)?;
-            let end = self.snapped(*stages.end(), h);
+            let end = self.snapped(stages.end, h);
             let then = self.sample(None, &end);
             if then.depth > 0.0 || depth <= self.model.rounding(&self.y) {
                 break (stages, h, end, then);
@@ -128,7 +128,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let mut stages = Stages::new(&mut rates, &self.y, &first, length);
             self.evaluations += 11;
             let error = stages.error(&scale, self.counted);
-            let end = *stages.end();
+            let end = stages.end;
             let next = if ds == to - s { to } else { s + ds };
             let then = self.sample(Some(next * next), &end);
             let sound = end[0] > self.y[0] && then.depth_rate * (to - from) > 0.0;

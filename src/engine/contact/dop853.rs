@@ -8,7 +8,8 @@ pub(super) struct Stages<const N: usize> {
     k: [[f64; N]; 13],
     start: [f64; N],
     length: f64,
-    end: [f64; N],
+    /// State at the end.
+    pub end: [f64; N],
 }
 
 #[inline(always)]
@@ -71,11 +72,6 @@ impl<const N: usize> Stages<N> {
             length,
             end,
         }
-    }
-
-    /// Returns the state at the end.
-    pub fn end(&self) -> &[f64; N] {
-        &self.end
     }
 
     /// Sets the rate at the end, which the dense output needs.

@@ -29,7 +29,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             rate: h * rate,
             curvature: h * h * bend,
         };
-        let end = self.snapped(*stages.end(), h);
+        let end = self.snapped(stages.end, h);
         let then = self.sample(None, &end);
         stages.set_last_rate(then.rates);
         let ends = [
@@ -74,7 +74,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             self.enter(Phase::Contact { approach });
             Ok(())
         } else {
-            let end = self.snapped(*stages.end(), h);
+            let end = self.snapped(stages.end, h);
             self.accept_to(&stages, end, then)
         }
     }
@@ -83,7 +83,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     pub(super) fn inside(&mut self, stages: &mut Stages<N>) -> (Dense<N>, Sample<N>) {
         let (model, phase) = (self.model, self.phase);
         let near = self.near;
-        let then = self.sample(None, &{ *stages.end() });
+        let then = self.sample(None, &stages.end);
         stages.set_last_rate(then.rates);
         self.evaluations += 3;
         let mut rates = |_: f64, y: &[f64; N]| model.sample(&near, phase, None, y).rates;
@@ -93,14 +93,14 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
     /// Accepts the first part of a step, of length h, s.
     pub(super) fn cut_at(&mut self, h: f64) -> Halt {
         let stages = self.try_step(h);
-        let end = self.snapped(*stages.end(), h);
+        let end = self.snapped(stages.end, h);
         self.accept_at(stages, end)
     }
 
     /// Accepts the first part of a step, about h (s) long, up to the zero of the gap, by Newton's method.
     fn cut(&mut self, h: f64) -> Halt {
         let stages = self.try_step(h);
-        let mut end = *stages.end();
+        let mut end = stages.end;
         for _ in 0..3 {
             let [gap, rate, _] = self.model.gap(&self.near, &end, &self.now.rates);
             let dt = -gap / rate;

@@ -200,7 +200,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
             let stages = self.try_step(h);
             let error = stages.error(&self.scale(h), self.counted);
             if error <= 1.0 {
-                if let Some(shorter) = self.unresolved_after(stages.end()) {
+                if let Some(shorter) = self.unresolved_after(&stages.end) {
                     self.h = shorter;
                     rejected = true;
                     continue;
@@ -232,7 +232,7 @@ impl<M: Contact<N>, const N: usize> Runner<'_, M, N> {
 
     fn link(&mut self) -> Halt {
         let (stages, h) = self.controlled_step(f64::INFINITY)?;
-        let end = self.snapped(self.model.relinked(stages.end()), h);
+        let end = self.snapped(self.model.relinked(&stages.end), h);
         self.accept_at(stages, end)
     }
 }

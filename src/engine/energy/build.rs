@@ -84,13 +84,13 @@ impl Segment {
         };
         let mut attempts = 0;
         while builder.segment.after == After::Ends
-            && (builder.segment.len() == 0 || builder.segment.duration.0 <= until)
+            && (builder.segment.panels.is_empty() || builder.segment.duration.0 <= until)
         {
             attempts += 1;
             if attempts > MOST_PANELS {
                 return Err(NotApplicable::TooLong);
             }
-            if builder.segment.len() > 0 && profile.is_spent() {
+            if !builder.segment.panels.is_empty() && profile.is_spent() {
                 break;
             }
             builder.panel(tolerance)?;
@@ -110,7 +110,7 @@ impl Builder<'_> {
         let at = piece.from;
         // A panel of this length, rad, is accepted unresolved: it holds a corner that the profile does not announce.
         let shortest = 1e-13 * at.abs().max(1.0);
-        let short = piece.span().abs() <= shortest;
+        let short = piece.span.abs() <= shortest;
         if short && self.profile.has_pole(piece.to) {
             return Err(NotApplicable::NotFinite);
         }
@@ -138,7 +138,7 @@ impl Builder<'_> {
                 });
             }
             _ if short => return Err(NotApplicable::NotFinite),
-            _ => self.shorten(piece.span().abs()),
+            _ => self.shorten(piece.span.abs()),
         }
         Ok(())
     }
@@ -239,7 +239,7 @@ impl Builder<'_> {
         }
         let [first, last] = [from, to].map(|theta| self.profile.inertia_and_force(theta).1);
         let more = -panel.residual / last;
-        let slope = (last - first) / panel.piece.span();
+        let slope = (last - first) / panel.piece.span;
         if (more * slope).abs() < 0.5 * last.abs() && last * self.now.direction < 0.0 {
             Improvement::Turning(TurningPoint {
                 way: ahead.way + more,
@@ -258,13 +258,13 @@ impl Builder<'_> {
         let piece = panel.piece;
         self.now.angle = piece.to;
         if let Some(ahead) = &mut self.ahead {
-            ahead.way -= piece.span();
+            ahead.way -= piece.span;
         }
         panel.turns = self.now.direction * self.turns;
         self.now.kinetic = panel.kinetic_at_end;
         self.largest = self.largest.max(self.now.kinetic);
         // A corner may have cut this panel short.
-        self.length = self.length.max(2.0 * piece.span().abs());
+        self.length = self.length.max(2.0 * piece.span.abs());
         self.segment.push(panel);
         if piece.turning == Turning::AtEnd {
             self.segment.after = After::TurnsBack;

@@ -25,7 +25,7 @@ impl Orbit {
     pub fn rounding(&self, t: f64) -> Option<f64> {
         let piece = &self.panel_at(t)?.0.piece;
         let most = piece.from.abs().max(piece.to.abs());
-        Some(0.5 * f64::EPSILON * (piece.span().abs() + most))
+        Some(0.5 * f64::EPSILON * (piece.span.abs() + most))
     }
 
     /// Returns the truncation error of the speed at a time (s), relative to the speed.

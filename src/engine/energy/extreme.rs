@@ -60,7 +60,7 @@ fn local_extremes(values: &[f64], mut visit: impl FnMut(usize, f64, f64)) {
 pub(super) fn extremes(piece: &Piece, rule: &Rule, slopes: &Values) -> [Peak; 2] {
     let mut slowness = *slopes;
     if piece.turning != Turning::Nowhere {
-        let half = 0.5 * piece.span().abs();
+        let half = 0.5 * piece.span.abs();
         for (slowness, x) in slowness.iter_mut().zip(rule.points()) {
             *slowness = half * *slowness / piece.dtheta(*x).abs();
         }
@@ -80,7 +80,7 @@ impl Panel {
         let bend = self.slope.derivative();
         let twist = bend.derivative();
         // The speed is dθ/dx over dt/dx: its derivative has the sign of this rate.
-        let uphill = sign * self.piece.span().signum();
+        let uphill = sign * self.piece.span.signum();
         let rate = |x: f64| {
             let [bend, twist] = bend.values_with(&twist, x);
             let bent = match self.piece.d2theta() {
@@ -154,7 +154,7 @@ pub(super) fn extreme(panels: &[&Panel], sign: f64) -> f64 {
     let peak = |panel: &Panel| panel.extremes[usize::from(sign > 0.0)];
     // A bound beyond zero admits any speed; no rival, none.
     let speed = |panel: &Panel, value: f64| match sign * value < 0.0 {
-        true => -0.5 * panel.piece.span().abs() / value,
+        true => -0.5 * panel.piece.span.abs() / value,
         false => sign * f64::INFINITY,
     };
     let at_points = panels.iter().map(|panel| speed(panel, peak(panel).value));

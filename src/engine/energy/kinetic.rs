@@ -37,7 +37,7 @@ impl Energy<'_> {
         let tail = self.force.tail();
         match self.piece.turning {
             Turning::Nowhere => {
-                let share = self.force.largest() * self.piece.span().abs() / self.kinetic;
+                let share = self.force.largest() * self.piece.span.abs() / self.kinetic;
                 tail * share.min(1.0) <= tolerance || tail <= noise
             }
             _ => tail <= 4.0 * tolerance.max(noise),
@@ -46,13 +46,13 @@ impl Energy<'_> {
 
     /// Returns the truncation error of the energy due to the force series, J.
     pub fn truncation_error(&self) -> f64 {
-        let largest = self.force.largest() * self.piece.span().abs();
+        let largest = self.force.largest() * self.piece.span.abs();
         self.force.tail() * largest / self.rule.degree() as f64
     }
 
     /// Computes K at the points of a piece without turning point: K at its start plus the integral of the force.
     pub fn kinetic_at_points(&self, force: &Values) -> Values {
-        let half = 0.5 * self.piece.span();
+        let half = 0.5 * self.piece.span;
         self.rule
             .integrals(force)
             .map(|work| self.kinetic + half * work)
@@ -71,7 +71,7 @@ impl Energy<'_> {
                 weight * u * self.force.value(at)
             })
             .sum();
-        sum * self.piece.span().signum()
+        sum * self.piece.span.signum()
     }
 
     /// Locates the turning point just before the point `j`, at which the energy is not positive.
@@ -81,7 +81,7 @@ impl Energy<'_> {
             return Attempt::Unresolved;
         }
         let work = self.force.integral();
-        let half = 0.5 * self.piece.span();
+        let half = 0.5 * self.piece.span;
         let x = root::bracketed(
             |x| match self.piece.turning {
                 Turning::Nowhere => self.kinetic + half * work.value(x),
@@ -135,7 +135,7 @@ impl Noise {
     /// rounding error of the force itself, N m. The kinetic energy is a force times a distance, which is not rounded.
     pub fn of(energy: &Energy<'_>, inertia: &Values, force: &Values, rounding: f64) -> Noise {
         let ((light, heavy), (low, high)) = (range(inertia), range(force));
-        let span = energy.piece.span().abs();
+        let span = energy.piece.span.abs();
         // Sum of the last two terms of a series due to rounding of its values, in roundings.
         let last_terms = 8.0;
         let units = last_terms * f64::EPSILON;
@@ -180,8 +180,8 @@ impl TimeSensitivity {
         TimeSensitivity {
             at_turn: at_turn.abs(),
             rise: other / at_turn,
-            rounding: angle_rounding * (high - low) / piece.span().abs() + noise,
-            energy: averaged * angle_rounding * (high - low) + noise * piece.span().abs(),
+            rounding: angle_rounding * (high - low) / piece.span.abs() + noise,
+            energy: averaged * angle_rounding * (high - low) + noise * piece.span.abs(),
         }
     }
 
@@ -190,7 +190,7 @@ impl TimeSensitivity {
         // Rounded factors of both energies move a turning point even where the energy difference is exact.
         let factors = 3.0;
         match piece.turning {
-            Turning::AtEnd => (factors * energy_error / self.at_turn).min(piece.span().abs()),
+            Turning::AtEnd => (factors * energy_error / self.at_turn).min(piece.span.abs()),
             _ => 0.0,
         }
     }

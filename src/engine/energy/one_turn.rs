@@ -35,9 +35,9 @@ impl OneTurn {
         }
         let rule = Rule::of(MAX_DEGREE);
         let mut done = 0.0;
-        let panels = segment.pieces().map(|piece| {
+        let panels = segment.panels.iter().map(|&Panel { piece, .. }| {
             let [inertia, force] = profile.on_piece(&piece);
-            let half = 0.5 * piece.span();
+            let half = 0.5 * piece.span;
             let work = rule.integrals(&force).map(|work| done + half * work);
             done = work[MAX_DEGREE];
             TabulatedPanel {
@@ -93,7 +93,7 @@ impl OneTurn {
 impl TabulatedPanel {
     /// Computes dt/dx at the points, s.
     fn slopes(&self, kinetic: f64) -> Values {
-        let half = 0.5 * self.piece.span().abs();
+        let half = 0.5 * self.piece.span.abs();
         std::array::from_fn(|j| half * (0.5 * self.inertia[j] / (kinetic + self.work[j])).sqrt())
     }
 

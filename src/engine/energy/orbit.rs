@@ -14,8 +14,10 @@ use crate::numeric::exact::two_sum;
 /// Motion known from its energy: angle and speed as functions of time.
 #[derive(Clone, Debug)]
 pub struct Orbit {
-    pub(super) start: Angle,
-    pub(super) direction: f64,
+    /// Initial angle.
+    pub start: Angle,
+    /// Sign of the initial speed: +1 or −1.
+    pub direction: f64,
     /// Speed at the start, rad/s.
     pub(super) speed: f64,
     /// True if the start is a turning point.
@@ -138,16 +140,6 @@ impl Orbit {
             }
             _ => None,
         }
-    }
-
-    /// Returns the initial angle.
-    pub fn start(&self) -> Angle {
-        self.start
-    }
-
-    /// Returns the sign of the initial speed: +1 or −1.
-    pub fn direction(&self) -> f64 {
-        self.direction
     }
 
     /// True if the crank rotates fully and the motion repeats.
@@ -279,7 +271,8 @@ impl Orbit {
 
     /// Returns the number of panels.
     pub fn panels(&self) -> usize {
-        self.forward.len() + self.backward.as_ref().map_or(0, Segment::len)
+        let back = self.backward.as_ref();
+        self.forward.panels.len() + back.map_or(0, |back| back.panels.len())
     }
 }
 

@@ -53,18 +53,17 @@ pub(in crate::engine) struct Piece {
     /// Angle at the end, rad, in either direction.
     pub to: f64,
     /// Signed length, rad: to a turning point next to `from` it has digits that the rounded `to` has lost.
-    way: f64,
+    pub span: f64,
     pub turning: Turning,
 }
 
 impl Piece {
     /// Makes the piece between two angles, rad.
     pub fn between(from: f64, to: f64, turning: Turning) -> Piece {
-        let way = to - from;
         Piece {
             from,
             to,
-            way,
+            span: to - from,
             turning,
         }
     }
@@ -74,19 +73,14 @@ impl Piece {
         Piece {
             from,
             to: from + way,
-            way,
+            span: way,
             turning: Turning::AtEnd,
         }
     }
 
-    /// Returns the signed length, rad.
-    pub fn span(&self) -> f64 {
-        self.way
-    }
-
     /// Cuts a piece without turning points at the fraction `share`.
     pub fn cut(&self, share: f64) -> [Piece; 2] {
-        let middle = self.from + share * self.span();
+        let middle = self.from + share * self.span;
         let part = |from, to| Piece::between(from, to, self.turning);
         [part(self.from, middle), part(middle, self.to)]
     }
@@ -94,7 +88,7 @@ impl Piece {
     /// Returns the angle, rad, at x in [−1, 1].
     pub fn angle(&self, x: f64) -> f64 {
         match self.turning {
-            Turning::AtEnd => self.to - 0.25 * (1.0 - x) * (1.0 - x) * self.span(),
+            Turning::AtEnd => self.to - 0.25 * (1.0 - x) * (1.0 - x) * self.span,
             _ => self.from + self.way_to(x),
         }
     }
@@ -102,9 +96,9 @@ impl Piece {
     /// Returns the signed distance from the start at x, rad.
     pub fn way_to(&self, x: f64) -> f64 {
         match self.turning {
-            Turning::Nowhere => 0.5 * (1.0 + x) * self.span(),
-            Turning::AtStart => 0.25 * (1.0 + x) * (1.0 + x) * self.span(),
-            Turning::AtEnd => (1.0 - 0.25 * (1.0 - x) * (1.0 - x)) * self.span(),
+            Turning::Nowhere => 0.5 * (1.0 + x) * self.span,
+            Turning::AtStart => 0.25 * (1.0 + x) * (1.0 + x) * self.span,
+            Turning::AtEnd => (1.0 - 0.25 * (1.0 - x) * (1.0 - x)) * self.span,
         }
     }
 
@@ -115,15 +109,15 @@ impl Piece {
             Turning::AtStart => 0.5 * (1.0 + x),
             Turning::AtEnd => 0.5 * (1.0 - x),
         };
-        share * self.span()
+        share * self.span
     }
 
     /// Returns d²θ/dx², rad.
     pub fn d2theta(&self) -> f64 {
         match self.turning {
             Turning::Nowhere => 0.0,
-            Turning::AtStart => 0.5 * self.span(),
-            Turning::AtEnd => -0.5 * self.span(),
+            Turning::AtStart => 0.5 * self.span,
+            Turning::AtEnd => -0.5 * self.span,
         }
     }
 
@@ -135,7 +129,7 @@ impl Piece {
 
     /// Returns x at an angle (rad) of the piece.
     pub fn variable(&self, theta: f64) -> f64 {
-        let share = ((theta - self.from) / self.span()).clamp(0.0, 1.0);
+        let share = ((theta - self.from) / self.span).clamp(0.0, 1.0);
         match self.turning {
             Turning::Nowhere => 2.0 * share - 1.0,
             Turning::AtStart => 2.0 * share.sqrt() - 1.0,

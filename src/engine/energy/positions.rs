@@ -21,15 +21,15 @@ impl Orbit {
             Some((panel, after)) if !whole && after < panel.duration.0 => {
                 segment.index_at(until) as f64 + 0.5 * (1.0 + panel.position(after))
             }
-            _ => segment.len() as f64,
+            _ => segment.panels.len() as f64,
         };
         let of_panel = |index: usize| {
-            let panel = segment.panel(index);
+            let panel = segment.panels.get(index);
             let count = panel.map_or(0, |panel| panel.rule.degree());
             let x = move |j: usize| -(PI * j as f64 / count as f64).cos();
             (0..count).map(move |j| index as f64 + 0.5 * (1.0 + x(j)))
         };
-        let inside = (0..segment.len()).flat_map(of_panel);
+        let inside = (0..segment.panels.len()).flat_map(of_panel);
         let mut positions: Vec<f64> = inside.take_while(|at| *at < last).chain([last]).collect();
         if let (true, &[_, second, .., before, last]) = (whole, &positions[..]) {
             positions.insert(0, before - last);
@@ -53,13 +53,13 @@ impl Orbit {
 
     /// Returns the panel of a position and its variable x.
     fn at_position(&self, at: f64) -> Option<(&Panel, f64)> {
-        let count = self.forward.len();
+        let count = self.forward.panels.len();
         let at = match self.rotates() {
             true => at.rem_euclid(count as f64),
             false => at,
         };
         let index = (at as usize).min(count.saturating_sub(1));
         let x = (2.0 * (at - index as f64) - 1.0).clamp(-1.0, 1.0);
-        Some((self.forward.panel(index)?, x))
+        Some((self.forward.panels.get(index)?, x))
     }
 }

@@ -47,21 +47,28 @@ impl dyn Profile + '_ {
     }
 }
 
-/// Reason why a motion cannot be computed over the crank angle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Reason why a motion cannot be computed over the crank angle, as a clause of a message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotApplicable {
     /// Equilibrium: at rest without a force.
+    #[error("it starts at rest without a force")]
     Equilibrium,
     /// Value not finite: limit position of the mechanism, or undefined load.
+    #[error("a load has no finite value on the way")]
     NotFinite,
     /// Evaluation limit reached.
+    #[error("it takes more evaluations than the work limit allows")]
     WorkLimit,
     /// Number of turns for which the limit would be reached long before the end.
+    #[error("it takes more turns than the work limit allows")]
     TooManyTurns,
     /// Too many panels to keep: a long run with unequal turns.
+    #[error("its turns differ from each other, and they are too many to be kept")]
     TooLong,
     /// Jump of a load, or a corner that the mechanism does not announce.
+    #[error("a load is not smooth")]
     NotSmooth,
     /// Speed too near zero for the angle to be the independent variable.
+    #[error("the crank comes too near to rest")]
     TooSlow,
 }

@@ -2,7 +2,6 @@
 
 use super::extreme::extreme;
 use super::panel::Panel;
-use super::piece::Piece;
 use crate::numeric::angle::Angle;
 use crate::numeric::exact::two_sum;
 
@@ -25,7 +24,7 @@ pub(in crate::engine) enum After {
 /// Sequence of panels.
 #[derive(Clone, Debug)]
 pub(in crate::engine) struct Segment {
-    panels: Vec<Panel>,
+    pub panels: Vec<Panel>,
     /// Total duration, s: rounded value and remainder.
     pub duration: (f64, f64),
     pub after: After,
@@ -67,15 +66,10 @@ impl Segment {
         whole.unwrap_or_default()
     }
 
-    /// Iterates over the pieces of the panels.
-    pub fn pieces(&self) -> impl Iterator<Item = Piece> + '_ {
-        self.panels.iter().map(|panel| panel.piece)
-    }
-
     /// Combines segments with the same pieces linearly, with weights of sum one.
     pub fn blend(segments: &[Segment], shares: &[f64]) -> Segment {
         let mut segment = Segment::open();
-        for index in 0..segments.first().map_or(0, Segment::len) {
+        for index in 0..segments.first().map_or(0, |first| first.panels.len()) {
             let parts = segments.iter().zip(shares);
             let panel =
                 Panel::blend(parts.map(|(segment, share)| (&segment.panels[index], *share)));
@@ -101,11 +95,6 @@ impl Segment {
         let panel = &self.panels[self.index_at(after)];
         let (rest, speed) = panel.state(after - panel.begin);
         (Angle::new(panel.turns, rest), speed)
-    }
-
-    /// Returns the last panel.
-    pub fn last(&self) -> Option<&Panel> {
-        self.panels.last()
     }
 
     /// Returns the time (s) at which an angle is reached and the speed there (rad/s); none off the segment. Angles off
@@ -156,11 +145,6 @@ impl Segment {
         Some((panel, after - panel.begin))
     }
 
-    /// Returns a panel.
-    pub fn panel(&self, index: usize) -> Option<&Panel> {
-        self.panels.get(index)
-    }
-
     /// Returns the index of the panel at a time, s.
     pub fn index_at(&self, after: f64) -> usize {
         let begun = self.panels.partition_point(|panel| panel.begin <= after);
@@ -171,10 +155,5 @@ impl Segment {
     pub fn largest_kinetic(&self) -> f64 {
         let ends = self.panels.iter().map(|panel| panel.kinetic_at_end);
         ends.fold(0.0, f64::max)
-    }
-
-    /// Returns the number of panels.
-    pub fn len(&self) -> usize {
-        self.panels.len()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{ForceAlong, NodeCriterion, Unresolved, unresolved};
 use crate::engine::step::Step;
-use crate::engine::{Batch, Counted, Motion, NODES};
+use crate::engine::{Batch, Counted, NODES};
 use crate::numeric::enclosure::{Interval, MotionPiece, Variation};
 use crate::numeric::gauss::{legendre_change, legendre_series};
 use crate::numeric::root;

@@ -65,7 +65,7 @@ fn is_balanced(scene: &Scene, linkage: &Linkage) -> bool {
         let equation = CurveEquation::new(scene, curve);
         let loads = equation.loads();
         !loads.are_dry()
-            && !loads.reads().has(Variable::T)
+            && !loads.reads.has(Variable::T)
             && equation.free(0.0, q, 0.0).acceleration == 0.0
     })
 }

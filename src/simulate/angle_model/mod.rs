@@ -105,7 +105,7 @@ impl<'a> AngleModel<'a> {
             load_corners,
             panel_ends,
             panel_ends_are_corners: known_cycle == Some(1),
-            repeats: loads.have_potential() && loads.constant_torque() == 0.0,
+            repeats: loads.have_potential() && loads.constant.torque == 0.0,
             work_of_turn: None,
             evaluations: Cell::new(0),
             limit: task.options.limit(),
@@ -221,11 +221,11 @@ impl Dynamics for AngleModel<'_> {
     }
 
     fn reads_time(&self) -> bool {
-        self.has_state_loads() && self.equation.loads().reads().has(Variable::T)
+        self.has_state_loads() && self.equation.loads().reads.has(Variable::T)
     }
 
     fn state_variable(&self) -> Option<StateVariable> {
-        let reads = self.equation.loads().reads_of_states();
+        let reads = self.equation.loads().reads_of_states;
         let of_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
         match (reads.has(Variable::T), of_speed) {
             (true, false) => Some(StateVariable::Time),

@@ -25,7 +25,7 @@ impl AngleModel<'_> {
 
     /// Computes the work of one turn and the error of it, J, for loads of the position alone that repeat each turn.
     pub(super) fn work_of_one_turn(&self) -> (f64, f64) {
-        let torque = TAU * self.equation.loads().constant_torque();
+        let torque = TAU * self.equation.loads().constant.torque;
         let (mut work, mut size) = (torque, torque.abs());
         if !self.equation.loads().have_potential() {
             work += self.work_between(0.0, TAU, 0.0);

@@ -11,7 +11,7 @@ use super::super::second_run::MARGIN;
 use super::super::simulation::Simulation;
 use super::super::warning::Warning;
 use super::SecondRun;
-use super::contact_follower::ContactHistory;
+use super::contact_follower::ContactFollower;
 use super::journal_record::JournalRecord;
 use super::motion::{DRIVEN, FREE, Loose, phi};
 use super::result::{Beyond, ClearanceSummary, Horizon, LooseFinal};
@@ -26,7 +26,7 @@ impl<const N: usize> Loose<'_, N> {
     pub(super) fn concluded(
         &self,
         ended: &ContactEnd<N>,
-        seen: &ContactHistory,
+        seen: &ContactFollower<'_, N>,
         mut record: Record,
         last: &LooseState,
         wall_s: f64,
@@ -101,9 +101,14 @@ impl<const N: usize> Loose<'_, N> {
     }
 
     /// Finds the time up to which the journal follows the tighter run, with the statistics of both runs beyond it.
-    fn horizon(&self, seen: &ContactHistory, tighter: &SecondRun, end: &LooseState) -> Horizon {
+    fn horizon(
+        &self,
+        seen: &ContactFollower<'_, N>,
+        tighter: &SecondRun,
+        end: &LooseState,
+    ) -> Horizon {
         let distance = 0.01 * self.mechanism.clearance.radial;
-        let parted = seen.record.agrees_until(&tighter.record, distance);
+        let parted = seen.journal.agrees_until(&tighter.record, distance);
         let t = parted.unwrap_or(end.t);
         let statistics = |record: &JournalRecord| {
             let (tally, from) = record.since(t);
@@ -118,7 +123,7 @@ impl<const N: usize> Loose<'_, N> {
             },
             whole_run: parted.is_none(),
             beyond: parted.map(|_| Beyond {
-                run: statistics(&seen.record),
+                run: statistics(&seen.journal),
                 tighter: statistics(&tighter.record),
             }),
         }
@@ -128,7 +133,7 @@ impl<const N: usize> Loose<'_, N> {
     /// t, s. In the deepest impact, of depth δ and force F, the energy 2Fδ/5 stops the free bodies of mass m,
     /// v = √(4Fδ/5m), and returns them about as fast. The relative error of the force, and of the change 2v of
     /// velocity, is 3/2 of that of the depth; the next impact ends it.
-    fn struck(&self, seen: &ContactHistory, gap: f64, t: f64) -> f64 {
+    fn struck(&self, seen: &ContactFollower<'_, N>, gap: f64, t: f64) -> f64 {
         let scene = &self.task.scene;
         let slider = scene.slider.map_or(0.0, |slider| slider.mass);
         let mass = match self.mechanism.clearance.joint {
@@ -145,7 +150,7 @@ impl<const N: usize> Loose<'_, N> {
 
     fn summary(
         &self,
-        seen: &ContactHistory,
+        seen: &ContactFollower<'_, N>,
         [work, lost]: [f64; 2],
         last: &LooseState,
         error: impl Fn(fn(&LooseState) -> f64, f64) -> Option<f64>,
@@ -182,7 +187,7 @@ impl<const N: usize> Loose<'_, N> {
     fn warnings(
         &self,
         summary: &ClearanceSummary,
-        seen: &ContactHistory,
+        seen: &ContactFollower<'_, N>,
         compared: bool,
     ) -> Vec<Warning> {
         let unknown = self.task.options.estimate && !compared;

@@ -12,40 +12,22 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::MotionState;
 use crate::mechanism::LooseState;
 
-pub(super) struct ContactHistory {
-    pub record: JournalRecord,
-    pub total: Tally,
-    pub separations: u64,
-    /// Largest absolute energy up to now, J: of the start, and of work minus loss.
-    pub energy: f64,
-    pub ends_at: Option<LooseState>,
-    pub peaks: Option<[Peak; FORCES]>,
-    phase: Phase,
-    sticking: bool,
-}
-
-impl ContactHistory {
-    pub fn new(width: f64, energy: f64) -> ContactHistory {
-        ContactHistory {
-            record: JournalRecord::new(width),
-            total: Tally::default(),
-            separations: 0,
-            energy,
-            ends_at: None,
-            peaks: None,
-            phase: Phase::Flight,
-            sticking: false,
-        }
-    }
-}
-
+/// Observer of the accepted steps of a run, with what it has seen up to now.
 pub(super) struct ContactFollower<'a, const N: usize> {
     pub model: &'a Loose<'a, N>,
     /// Dead centres, rad in [0, 2π).
     pub dead_centres: Vec<f64>,
     /// Recorder of rows and events; none for the run of comparison.
     pub recorder: Option<Recorder<'a>>,
-    pub seen: ContactHistory,
+    pub journal: JournalRecord,
+    pub total: Tally,
+    pub separations: u64,
+    /// Largest absolute energy up to now, J: of the start, and of work minus loss.
+    pub energy: f64,
+    pub ends_at: Option<LooseState>,
+    pub peaks: Option<[Peak; FORCES]>,
+    pub phase: Phase,
+    pub sticking: bool,
 }
 
 impl<const N: usize> ContactFollower<'_, N> {
@@ -58,13 +40,13 @@ impl<const N: usize> ContactFollower<'_, N> {
         }
         self.follow_contact(accepted);
         self.follow_forces(accepted);
-        while self.model.task.options.estimate && self.seen.record.due() <= accepted.end[0] {
-            let y = accepted.at(self.seen.record.due());
+        while self.model.task.options.estimate && self.journal.due() <= accepted.end[0] {
+            let y = accepted.at(self.journal.due());
             let journal = self.model.mechanism.journal(&self.model.state(&y));
-            self.seen.record.sample(journal);
+            self.journal.sample(journal);
         }
         let [work, lost] = self.model.work(&accepted.end);
-        self.seen.energy = self.seen.energy.max((work - lost).abs());
+        self.energy = self.energy.max((work - lost).abs());
         let mut part = InAccepted {
             until: self.until(accepted),
             accepted,
@@ -72,12 +54,12 @@ impl<const N: usize> ContactFollower<'_, N> {
         };
         let recorder = self.recorder.as_mut();
         let fails = recorder.is_some_and(|recorder| recorder.rows(&mut part));
-        fails || self.seen.ends_at.is_some()
+        fails || self.ends_at.is_some()
     }
 
     /// Returns the last time (s) of a step that belongs to the run.
     pub(super) fn until(&self, accepted: &AcceptedStep<'_, N>) -> f64 {
-        self.seen.ends_at.map_or(accepted.end[0], |s| s.t)
+        self.ends_at.map_or(accepted.end[0], |s| s.t)
     }
 
     fn event(&mut self, kind: &'static str, t: f64, theta: f64, speed: f64) {
@@ -89,19 +71,19 @@ impl<const N: usize> ContactFollower<'_, N> {
 
     fn follow_phase(&mut self, accepted: &AcceptedStep<'_, N>) {
         let s = self.model.state(&accepted.start);
-        let before = std::mem::replace(&mut self.seen.phase, accepted.phase);
+        let before = std::mem::replace(&mut self.phase, accepted.phase);
         let kind = match (before, accepted.phase) {
             (Phase::Flight, Phase::Contact { .. }) => {
                 let one = Tally {
                     impacts: 1,
                     ..Tally::default()
                 };
-                self.seen.total.add(&one);
-                self.seen.record.tally(s.t, &one);
+                self.total.add(&one);
+                self.journal.tally(s.t, &one);
                 "impact"
             }
             (Phase::Contact { .. } | Phase::Release { .. }, Phase::Flight) => {
-                self.seen.separations += 1;
+                self.separations += 1;
                 "separation"
             }
             _ => return,
@@ -113,11 +95,11 @@ impl<const N: usize> ContactFollower<'_, N> {
     fn follow_guide(&mut self, accepted: &AcceptedStep<'_, N>) {
         let [from, to] = [accepted.start, accepted.end].map(|y| self.model.state(&y));
         let sticking = self.model.mechanism.rubs() && from.v == 0.0 && to.v == 0.0;
-        if sticking != self.seen.sticking {
+        if sticking != self.sticking {
             let kind = if sticking { "stick" } else { "slip" };
             self.event(kind, from.t, from.theta, from.omega);
         }
-        self.seen.sticking = sticking;
+        self.sticking = sticking;
     }
 
     /// Records dead centres, turning points, extreme speeds and the turn limit of a free crank.
@@ -147,7 +129,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         {
             let target = start + limit.copysign(turned(to.theta));
             let t = step.time_of_angle(target, from.t, to.t).unwrap_or(to.t);
-            self.seen.ends_at = Some(self.model.state(&accepted.at(t)));
+            self.ends_at = Some(self.model.state(&accepted.at(t)));
         }
         let last = self.until(accepted);
         let mut found = Vec::new();
@@ -155,7 +137,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         for (t, what) in found.into_iter().filter(|(t, _)| *t <= last) {
             let (theta, omega) = step.at(t);
             match what {
-                Crossing::Angle(_) => self.event("dead-centre", t, theta, omega),
+                Crossing::Angle => self.event("dead-centre", t, theta, omega),
                 Crossing::Turning => self.event("turning-point", t, theta, 0.0),
             }
         }

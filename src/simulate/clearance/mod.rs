@@ -21,13 +21,13 @@ use super::schedule::Schedule;
 use super::second_run::other_method_tolerance;
 use super::simulation::Simulation;
 use super::stop::Why;
-use crate::engine::contact::{self, ContactEnd, ContactSettings};
+use crate::engine::contact::{self, ContactEnd, ContactSettings, Phase};
 use crate::engine::time::{Finish, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{LooseMechanism, LooseState};
 use crate::scene::{Extent, Load, MotionKind};
-use contact_follower::{ContactFollower, ContactHistory};
-use journal_record::JournalRecord;
+use contact_follower::ContactFollower;
+use journal_record::{JournalRecord, Tally};
 use motion::{DRIVEN, FREE, Loose};
 
 pub(super) fn run(task: &RunSetup<'_>, rows: &mut dyn RowSink) -> Result<Simulation, Error> {
@@ -82,10 +82,9 @@ impl<'a, const N: usize> Loose<'a, N> {
         };
         let recorder = Recorder::new(task, rows, schedule);
         let tolerance = task.scene.run.tolerance;
-        let (ended, follower) = self.integrate(Some(recorder), tolerance, 1.0, self.t_end);
-        let ContactFollower { recorder, seen, .. } = follower;
+        let (ended, mut seen) = self.integrate(Some(recorder), tolerance, 1.0, self.t_end);
         let last = seen.ends_at.unwrap_or(self.state(&ended.last));
-        let record = recorder.map(|mut recorder| {
+        let record = seen.recorder.take().map(|mut recorder| {
             recorder.end_piece(last.t);
             recorder.finish(|| Some(self.row(&last, ended.phase)))
         });
@@ -111,7 +110,14 @@ impl<'a, const N: usize> Loose<'a, N> {
             model: self,
             dead_centres: task.dead_centres(),
             recorder,
-            seen: ContactHistory::new(width, self.mechanism.energy(start).abs()),
+            journal: JournalRecord::new(width),
+            total: Tally::default(),
+            separations: 0,
+            energy: self.mechanism.energy(start).abs(),
+            ends_at: None,
+            peaks: None,
+            phase: Phase::Flight,
+            sticking: false,
         };
         let settings = ContactSettings {
             tolerance,
@@ -135,7 +141,7 @@ impl<'a, const N: usize> Loose<'a, N> {
         let (ended, follower) = self.integrate(None, tolerance, share, t_end);
         (ended.finish == Finish::AtEnd).then(|| SecondRun {
             last: self.state(&ended.last),
-            record: follower.seen.record,
+            record: follower.journal,
             cost: Cost {
                 evaluations: ended.evaluations,
                 wall_s: begun.elapsed().as_secs_f64(),

@@ -25,8 +25,8 @@ impl<const N: usize> ContactFollower<'_, N> {
             Phase::Contact { approach } => self.pressed(accepted, approach, h),
             Phase::Link => self.linked(accepted, h),
         };
-        self.seen.total.add(&tally);
-        self.seen.record.spread(begin, end, &tally);
+        self.total.add(&tally);
+        self.journal.spread(begin, end, &tally);
     }
 
     /// Returns the statistics of the first `h` seconds of a step in contact: by Gauss's rule along the quintic of the
@@ -82,7 +82,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         let peak_over_quintic = 1.05;
         if let Some(u) = top(&|u| depth(u)[1]) {
             let mut deepest = at(u).1;
-            if peak_over_quintic * deepest > self.seen.total.deepest {
+            if peak_over_quintic * deepest > self.total.deepest {
                 let s = self.model.state(&accepted.at(begin + u * length));
                 deepest = self.model.mechanism.depth(&s).0;
             }
@@ -90,7 +90,7 @@ impl<const N: usize> ContactFollower<'_, N> {
         }
         if let Some(u) = top(&|u| law.growth(depth(u), approach)) {
             let mut force = at(u).0;
-            if peak_over_quintic * force > self.seen.total.peak {
+            if peak_over_quintic * force > self.total.peak {
                 let s = self.model.state(&accepted.at(begin + u * length));
                 let touch = touch(Phase::Contact { approach }, None);
                 force = self.model.mechanism.rates(&s, touch).normal;
@@ -107,11 +107,15 @@ impl<const N: usize> ContactFollower<'_, N> {
             let rates = self.model.mechanism.rates(&s, touch(Phase::Link, None));
             rates.normal
         });
-        let mut tally = simpson(force.map(f64::abs), h);
-        if force[1] < 0.0 {
-            tally.drawn = h;
+        let [first, middle, last] = force.map(f64::abs);
+        Tally {
+            touching: h,
+            drawn: if force[1] < 0.0 { h } else { 0.0 },
+            impulse: h / 6.0 * (first + 4.0 * middle + last),
+            squared: h / 6.0 * (first * first + 4.0 * middle * middle + last * last),
+            peak: first.max(middle).max(last),
+            ..Tally::default()
         }
-        tally
     }
 
     /// Returns the sizes of the joint forces in a state of a step, N.
@@ -141,7 +145,7 @@ impl<const N: usize> ContactFollower<'_, N> {
             _ => start + (end - start) * i as f64 / PIECES as f64,
         });
         let found = places.map(|t| (t, self.sizes(&accepted.at(t), phase)));
-        let mut peaks = self.seen.peaks.unwrap_or_default();
+        let mut peaks = self.peaks.unwrap_or_default();
         for (k, peak) in peaks.iter_mut().enumerate() {
             let known = found.map(|(t, sizes)| (t, sizes[k]));
             let seen = known
@@ -164,16 +168,6 @@ impl<const N: usize> ContactFollower<'_, N> {
                 };
             }
         }
-        self.seen.peaks = Some(peaks);
-    }
-}
-
-fn simpson([first, middle, last]: [f64; 3], h: f64) -> Tally {
-    Tally {
-        touching: h,
-        impulse: h / 6.0 * (first + 4.0 * middle + last),
-        squared: h / 6.0 * (first * first + 4.0 * middle * middle + last * last),
-        peak: first.max(middle).max(last),
-        ..Tally::default()
+        self.peaks = Some(peaks);
     }
 }

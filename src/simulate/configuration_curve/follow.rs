@@ -94,7 +94,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
 
     /// Whether friction or a dry load may hold the mechanism at rest.
     pub(super) fn may_stick(&self) -> bool {
-        self.equation.friction().is_some() || self.equation.loads().are_dry()
+        self.equation.friction.is_some() || self.equation.loads().are_dry()
     }
 
     pub(super) fn curve_motion(&self, phase: StickSlipPhase) -> CurveMotion<'a> {
@@ -150,7 +150,7 @@ impl<'a, 'o> CurveRun<'a, 'o> {
     /// Integrates one piece of sliding, up to the next change of friction or the end of the run.
     fn slide(&mut self) -> Result<Change, EndReason> {
         let equation = self.equation;
-        let friction = equation.friction();
+        let friction = equation.friction;
         let [on_crank, on_slider] = equation.loads().dry_on();
         let along = self.curve_motion(sliding(equation, &self.signs));
         let motion = Counted::new(&along);

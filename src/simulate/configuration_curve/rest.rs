@@ -18,7 +18,7 @@ use crate::scene::Variable;
 impl CurveRun<'_, '_> {
     /// Leaves rest; none if the motion goes on, otherwise the end of the run. `before`: previous direction of motion.
     pub fn leave_rest(&mut self, before: Option<f64>) -> Option<EndReason> {
-        let friction = self.equation.friction();
+        let friction = self.equation.friction;
         let [mu, mu_static] = friction.map_or([0.0; 2], |f| [f.coefficient, f.static_coefficient]);
         let at = self.state;
         let held = self.equation.at_rest(at.angle).held(at.t);
@@ -33,7 +33,7 @@ impl CurveRun<'_, '_> {
                 Ok(direction) => direction,
                 Err(end) => return Some(end),
             },
-            FromRest::Jam(_) => return Some(self.jam()),
+            FromRest::Jam => return Some(self.jam()),
         };
         self.signs = self.signs_for(direction);
         self.check_jam()
@@ -51,7 +51,7 @@ impl CurveRun<'_, '_> {
             true => t + search_span * t.max(1.0),
             false => self.settings.t_end,
         };
-        let changes = equation.loads().reads().has(Variable::T);
+        let changes = equation.loads().reads.has(Variable::T);
         let (release, looked) = if changes {
             let allowed = self.settings.limit.after(self.spent());
             release::time(&equation.at_rest(angle), mu_static, t, end, allowed)
@@ -89,7 +89,7 @@ impl CurveRun<'_, '_> {
 
     /// Returns the end of the run if rigid bodies jam at the current state.
     pub fn check_jam(&mut self) -> Option<EndReason> {
-        let friction = self.equation.friction()?;
+        let friction = self.equation.friction?;
         (self.free().clear_of_jam(friction.coefficient) <= 0.0).then(|| self.jam())
     }
 
@@ -102,7 +102,7 @@ impl CurveRun<'_, '_> {
     /// Returns the end where rigid bodies jam, in the current state.
     pub fn jam(&self) -> EndReason {
         let free = self.free();
-        let mu = self.equation.friction().map_or(0.0, |f| f.coefficient);
+        let mu = self.equation.friction.map_or(0.0, |f| f.coefficient);
         EndReason::Named(Box::new(Why::Jam {
             solutions: free.jam(
                 mu,
@@ -118,7 +118,7 @@ impl CurveRun<'_, '_> {
         // Of 1 − μ |κ|: the acceleration grows a thousandfold towards jamming, which the steps do not follow.
         let near_jam = 1e-3;
         let clear = |mu: f64| self.free().clear_of_jam(mu);
-        match self.equation.friction() {
+        match self.equation.friction {
             Some(friction) if clear(friction.coefficient) < near_jam => self.jam(),
             _ => EndReason::Integrator(Finish::StepTooSmall),
         }

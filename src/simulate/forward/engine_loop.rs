@@ -22,8 +22,6 @@ pub(super) struct PassSettings<'a> {
     pub task: &'a RunSetup<'a>,
     pub model: &'a AngleModel<'a>,
     pub first_engine: Engine,
-    /// Whether this is the second pass, with which the first is compared.
-    pub is_second: bool,
     pub extent: Extent,
     pub resolution: Resolution<'a>,
     pub time_settings: Settings<'a>,
@@ -202,7 +200,7 @@ impl<'a> Pass<'a, '_> {
         use NotApplicable::{TooLong, TooManyTurns, TooSlow, WorkLimit};
         let PassSettings { task, model, .. } = *self.settings;
         if !self.has_begun() {
-            if task.options.method != Method::Auto && !self.settings.is_second {
+            if task.options.method != Method::Auto && !self.settings.resolution.is_second {
                 return Err(stop_reason::refusal(task, why));
             }
             // Evaluations of an engine that could not begin do not count for this run.

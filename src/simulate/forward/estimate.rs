@@ -23,8 +23,8 @@ use super::over_angle::second_run_resolution;
 use super::second_run_observer::SecondRunObserver;
 use super::stop_reason;
 use crate::engine::step::Step;
-use crate::engine::time::{Method, MotionState, Settings};
-use crate::engine::{Counted, Motion, WorkLimit};
+use crate::engine::time::{MotionState, Settings};
+use crate::engine::{Counted, WorkLimit};
 use crate::numeric::covariance_factor::CovarianceFactor;
 use crate::plan::Engine;
 use crate::scene::Extent;
@@ -58,7 +58,6 @@ pub(super) fn estimate(
     let second = |time_settings: Settings<'_>| {
         let finer = PassSettings {
             first_engine,
-            is_second: true,
             extent: Extent::Duration(result.state.t),
             resolution: second_run_resolution(pass.resolution, guide),
             time_settings,
@@ -163,7 +162,7 @@ fn second_settings<'a>(
         ..pass.time_settings
     };
     let collocation = Settings {
-        method: Method::Picard,
+        method: None,
         tolerance: collocation_tolerance(pass.time_settings.tolerance),
         guide: &record.checkpoints.first,
         ..again

@@ -193,11 +193,13 @@ impl<'a> ForwardRecorder<'a> {
             return;
         }
         match what {
-            Crossing::Angle(_) => self.event("dead-centre", at),
-            Crossing::Turning => self.event("turning-point", MotionState { speed: 0.0, ..at }),
-        }
-        if what == Crossing::Turning && self.is_bounded() {
-            self.ends_at = Some(t);
+            Crossing::Angle => self.event("dead-centre", at),
+            Crossing::Turning => {
+                self.event("turning-point", MotionState { speed: 0.0, ..at });
+                if self.is_bounded() {
+                    self.ends_at = Some(t);
+                }
+            }
         }
     }
 }

@@ -43,7 +43,6 @@ pub(super) fn run(
         task,
         model,
         first_engine: task.plan.engine,
-        is_second: false,
         extent: task.extent,
         resolution: over_angle::run_resolution(task),
         time_settings: task.settings(),

@@ -3,7 +3,7 @@
 use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
-use super::super::stop::{Why, why_not_applicable};
+use super::super::stop::Why;
 use super::engine_loop::PassResult;
 use crate::engine::energy::NotApplicable;
 use crate::engine::time::{Finish, MotionState};
@@ -85,12 +85,12 @@ pub(super) fn no_start(task: &RunSetup<'_>) -> Error {
 }
 
 /// Returns the reason why an engine over the angle is not applicable, as a clause of a message.
-pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> &'static str {
+pub(super) fn not_applicable(task: &RunSetup<'_>, why: NotApplicable) -> String {
     match why {
         NotApplicable::NotFinite if !task.turns_fully() => {
-            "the mechanism reaches the limit of its motion"
+            "the mechanism reaches the limit of its motion".to_owned()
         }
-        _ => why_not_applicable(why),
+        _ => why.to_string(),
     }
 }
 

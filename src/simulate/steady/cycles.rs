@@ -9,7 +9,6 @@ use super::super::row::NoRows;
 use super::super::run_setup::RunSetup;
 use super::super::simulation::Simulation;
 use super::super::stop::{Stopped, Why};
-use crate::engine::angle::CycleMap;
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::Angle;
@@ -49,14 +48,16 @@ impl CycleRun {
     }
 }
 
-/// Cycle map of a scene: runs from any energy with one set-up, which share their panels.
-pub(super) struct SceneCycleMap<'a> {
+/// Poincaré map of a scene, the gain of kinetic energy over a cycle: runs from any energy with one set-up, which share their panels.
+pub(super) struct CycleMap<'a> {
     pub task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
     /// Inertia at the start, kg m².
     inertia: f64,
-    largest_kinetic: f64,
-    noise: f64,
+    /// Largest kinetic energy in the last cycle, J.
+    pub largest_kinetic: f64,
+    /// Error of a gain, relative to the largest energy.
+    pub noise: f64,
     /// Evaluations that are left to the search.
     left: u64,
     /// Failure of a run, for another reason than a crank that does not complete the cycle.
@@ -65,10 +66,10 @@ pub(super) struct SceneCycleMap<'a> {
     pub stopped: Option<Stopped>,
 }
 
-impl<'a> SceneCycleMap<'a> {
+impl<'a> CycleMap<'a> {
     /// Makes the map for a set-up and the model of its mechanism over the angle.
-    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> SceneCycleMap<'a> {
-        SceneCycleMap {
+    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> CycleMap<'a> {
+        CycleMap {
             task,
             model,
             inertia: task.equation().terms(task.start().rest).m,
@@ -137,7 +138,7 @@ impl<'a> SceneCycleMap<'a> {
     /// Returns the energy gained by a cycle, J: the work of its loads, exact also where it is small beside the energy.
     fn gained(&self, run: &Simulation) -> f64 {
         let rotation = self.task.extent.angle().unwrap_or_default();
-        let torque = self.task.equation().loads().constant_torque();
+        let torque = self.task.equation().loads().constant.torque;
         let by_torque = torque * rotation.copysign(self.task.speed);
         run.work.unwrap_or(f64::NAN) + by_torque
     }
@@ -162,23 +163,15 @@ impl<'a> SceneCycleMap<'a> {
             trajectory: run.trajectory.ok_or(NotApplicable::NotFinite)?,
         })
     }
-}
 
-impl CycleMap for SceneCycleMap<'_> {
-    fn first(&self) -> f64 {
+    /// Returns the energy at the start of the scene, J.
+    pub fn first(&self) -> f64 {
         self.energy(self.task.speed)
     }
 
-    fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {
+    /// Returns the energy gained by the cycle that begins with a kinetic energy, J.
+    pub fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {
         let run = self.run(kinetic, false)?;
         Ok(self.gained(&run))
-    }
-
-    fn largest_kinetic(&self) -> f64 {
-        self.largest_kinetic
-    }
-
-    fn noise(&self) -> f64 {
-        self.noise
     }
 }

@@ -1,6 +1,7 @@
 //! Periodic steady state: fixed point of the cycle map (Poincare), speeds, work of the loads, and a flywheel.
 
 mod cycles;
+mod fixed_point;
 mod flywheel;
 mod loads;
 mod periodic_orbit;

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use super::super::angle_model::AngleModel;
 use super::super::options::Options;
 use super::super::run_setup::RunSetup;
-use super::super::stop::{Stopped, why_not_applicable};
-use super::cycles::{CycleRun, SceneCycleMap};
-use crate::engine::angle::{CycleMap, FixedPoint, NoCycle, fixed_point};
+use super::super::stop::Stopped;
+use super::cycles::{CycleMap, CycleRun};
+use super::fixed_point::{FixedPoint, NoCycle, fixed_point};
 use crate::engine::energy::NotApplicable;
 use crate::error::Error;
 use crate::numeric::angle::{self, Angle};
@@ -100,7 +100,7 @@ fn search(
         return Err(unbounded());
     }
     let model = AngleModel::of(&task).with_shared_panels();
-    let mut cycles = SceneCycleMap::new(&task, &model);
+    let mut cycles = CycleMap::new(&task, &model);
     match (solve(&mut cycles, turns, step), cycles.refused) {
         (Err(_), Some(why)) => Err(why),
         (found, _) => found,
@@ -108,15 +108,15 @@ fn search(
 }
 
 /// Solves for the periodic motion over a number of turns, after which the loads repeat.
-fn solve(cycles: &mut SceneCycleMap<'_>, turns: u32, step: f64) -> Result<PeriodicOrbit, Error> {
+fn solve(cycles: &mut CycleMap<'_>, turns: u32, step: f64) -> Result<PeriodicOrbit, Error> {
     let task = cycles.task;
-    let reads = task.equation().loads().reads();
+    let reads = task.equation().loads().reads;
     let by_speed = reads.has(Variable::Omega) || reads.has(Variable::V);
     if !by_speed && task.maker.guide.is_none() {
         let cycle = cycles.cycle(cycles.first()).map_err(not_turned)?;
         // Largest gain that counts as none, as part of the largest energy: far above the rounding of loads.
         let no_gain = 1e-12;
-        if cycle.gain.abs() > cycles.noise().max(no_gain) * cycle.largest_kinetic {
+        if cycle.gain.abs() > cycles.noise.max(no_gain) * cycle.largest_kinetic {
             let (what, load) = match cycle.gain > 0.0 {
                 true => ("gains", "brakes"),
                 false => ("loses", "drives the crank"),
@@ -140,7 +140,7 @@ fn solve(cycles: &mut SceneCycleMap<'_>, turns: u32, step: f64) -> Result<Period
     let fixed = fixed_point(cycles, step);
     let fixed = fixed.map_err(|why| no_cycle(why, cycles.stopped.take()))?;
     let mut cycle = cycles.cycle(fixed.kinetic).map_err(not_computed)?;
-    cycle.relative_error /= fixed.slope.abs().max(cycles.noise());
+    cycle.relative_error /= fixed.slope.abs().max(cycles.noise);
     found(task, turns, cycle, fixed, false)
 }
 
@@ -215,10 +215,7 @@ fn unbounded() -> Error {
 
 fn not_computed(why: NotApplicable) -> Error {
     Error::refused(
-        format!(
-            "the steady state cannot be computed: {}",
-            why_not_applicable(why)
-        ),
+        format!("the steady state cannot be computed: {why}"),
         "look at the loads; or simulate until the motion repeats",
     )
 }

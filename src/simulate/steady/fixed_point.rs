@@ -3,12 +3,13 @@
 //! The map of the kinetic energy over a cycle is monotone, for two motions cannot cross. A motion therefore approaches
 //! the nearest energy at which a cycle gains nothing: upwards where it gains, downwards where it loses.
 
-use super::super::energy::NotApplicable;
+use super::cycles::CycleMap;
+use crate::engine::energy::NotApplicable;
 use crate::numeric::root;
 
 /// Reason why there is no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoCycle {
+pub(super) enum NoCycle {
     /// Cycle that cannot be computed over the angle.
     NotApplicable(NotApplicable),
     /// Gain of energy in every cycle, up to the largest energy searched.
@@ -25,27 +26,9 @@ impl From<NotApplicable> for NoCycle {
     }
 }
 
-/// Poincaré map: gain of kinetic energy over a cycle as a function of the energy at its start.
-pub trait CycleMap {
-    /// Returns the energy at which the search starts, J.
-    fn first(&self) -> f64;
-
-    /// Returns the energy gained by a cycle from this one on, J.
-    ///
-    /// # Errors
-    /// [`NotApplicable`] where the crank does not complete the cycle.
-    fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable>;
-
-    /// Returns the largest kinetic energy in the last cycle, J.
-    fn largest_kinetic(&self) -> f64;
-
-    /// Returns the error of a gain, relative to [`Self::largest_kinetic`].
-    fn noise(&self) -> f64;
-}
-
 /// Fixed point of the map: an energy whose cycle gains nothing.
 #[derive(Clone, Copy, Debug)]
-pub struct FixedPoint {
+pub(super) struct FixedPoint {
     /// Kinetic energy at the start of the cycle, J.
     pub kinetic: f64,
     /// Derivative of the gain with respect to the energy.
@@ -58,16 +41,13 @@ pub struct FixedPoint {
 
 /// Finds the periodic motion that a motion from the first energy approaches, or the next faster one if it stops; `step`
 /// is the first search step in ln of the energy.
-///
-/// # Errors
-/// [`NoCycle`] with the reason.
-pub fn fixed_point(map: &mut dyn CycleMap, step: f64) -> Result<FixedPoint, NoCycle> {
+pub(super) fn fixed_point(map: &mut CycleMap<'_>, step: f64) -> Result<FixedPoint, NoCycle> {
     let first = map.first();
     let (low, high, approached) = bracket(map, first, step)?;
     // Close to the root rounding may change a sign: the values that made the bracket are kept.
     let ends = [low, high].map(|end| (end.kinetic, end.gain));
     // An error of the gain moves the fixed point by no less.
-    let width = map.noise() * low.kinetic;
+    let width = map.noise * low.kinetic;
     let kinetic = root::between(|kinetic| map.gain(kinetic), ends, width)?;
     let kinetic = kinetic.ok_or(NotApplicable::NotSmooth)?;
     let (slope, slope_error) = slope(map, kinetic)?;
@@ -90,7 +70,7 @@ struct CycleGain {
 
 /// Computes d gain/d energy and its error bound by central differences over three distances, extrapolated; over shorter
 /// ones where the crank does not complete a cycle.
-fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
+fn slope(map: &mut CycleMap<'_>, kinetic: f64) -> Result<(f64, f64), NotApplicable> {
     slope_over(map, kinetic, 2.5e-3)
         .or_else(|_| slope_over(map, kinetic, 1e-5))
         .or_else(|_| slope_over(map, kinetic, 1e-7))
@@ -98,7 +78,7 @@ fn slope(map: &mut dyn CycleMap, kinetic: f64) -> Result<(f64, f64), NotApplicab
 
 /// Computes the slope over distances of `part` of the energy, twice and four times as much.
 fn slope_over(
-    map: &mut dyn CycleMap,
+    map: &mut CycleMap<'_>,
     kinetic: f64,
     part: f64,
 ) -> Result<(f64, f64), NotApplicable> {
@@ -108,17 +88,17 @@ fn slope_over(
         let way = times * part * kinetic;
         let ahead = map.gain(kinetic + way)?;
         *slope = (ahead - map.gain(kinetic - way)?) / (2.0 * way);
-        largest = largest.max(map.largest_kinetic());
+        largest = largest.max(map.largest_kinetic);
     }
     // Richardson: the errors are of second and fourth order in the distance.
     let better = [0, 1].map(|i| (4.0 * slopes[i] - slopes[i + 1]) / 3.0);
     let best = (16.0 * better[0] - better[1]) / 15.0;
-    let noise = map.noise() * largest / (part * kinetic);
+    let noise = map.noise * largest / (part * kinetic);
     Ok((best, (best - better[0]).abs() + noise))
 }
 
 /// Evaluates a cycle; none if the crank does not complete it.
-fn evaluate(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<CycleGain>, NoCycle> {
+fn evaluate(map: &mut CycleMap<'_>, kinetic: f64) -> Result<Option<CycleGain>, NoCycle> {
     match map.gain(kinetic) {
         Ok(gain) => Ok(Some(CycleGain { kinetic, gain })),
         Err(NotApplicable::TooSlow | NotApplicable::NotSmooth) => Ok(None),
@@ -128,7 +108,7 @@ fn evaluate(map: &mut dyn CycleMap, kinetic: f64) -> Result<Option<CycleGain>, N
 
 /// Returns a cycle that gains, one above it that loses, and whether the motion from the first energy leads there.
 fn bracket(
-    map: &mut dyn CycleMap,
+    map: &mut CycleMap<'_>,
     first: f64,
     step: f64,
 ) -> Result<(CycleGain, CycleGain, bool), NoCycle> {
@@ -151,7 +131,7 @@ fn bracket(
 /// Walks from the first energy by steps in its logarithm, of either sign, to a cycle that gains and the next one above,
 /// which loses.
 fn search(
-    map: &mut dyn CycleMap,
+    map: &mut CycleMap<'_>,
     first: f64,
     at_first: Option<CycleGain>,
     mut step: f64,
@@ -191,7 +171,7 @@ fn search(
 
 /// Returns a bracket between an energy at which the cycle is not completed and a cycle that loses.
 fn near_stop(
-    map: &mut dyn CycleMap,
+    map: &mut CycleMap<'_>,
     mut stops: f64,
     mut loses: CycleGain,
 ) -> Result<Option<(CycleGain, CycleGain)>, NoCycle> {
