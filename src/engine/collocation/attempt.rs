@@ -118,8 +118,8 @@ impl Collocation<'_> {
         let factor = next_factor(error);
         let may_be_rounding =
             || last_term <= self.possible_rounding_of_times(state, h, coefficients);
-        let shrinks = error > 1.0 || factor < 1.0 && may_be_rounding();
-        if !shrinks || !self.motion.depends_on_time() {
+        let shrinks = || error > 1.0 || factor < 1.0 && may_be_rounding();
+        if !self.motion.depends_on_time() || !shrinks() {
             return (error, factor);
         }
         self.by_time = self.rounding_of_times(h);
