@@ -31,6 +31,13 @@ pub struct CycleMean {
     pub scatter: Option<f64>,
 }
 
+/// Value of one cycle, its standard error, and the part of the error that all cycles share.
+struct Passage {
+    value: f64,
+    error: f64,
+    shared: f64,
+}
+
 /// Sums over the passages of an angle; the mean and the squares about it by Welford's recurrence.
 #[derive(Clone, Copy, Default)]
 struct Sums {
@@ -42,14 +49,13 @@ struct Sums {
 }
 
 impl Sums {
-    /// Takes the value of one cycle, its standard error, and the part of the error that all cycles share.
-    fn take(&mut self, [value, error, shared]: [f64; 3]) {
+    fn take(&mut self, passage: Passage) {
         self.cycles += 1;
-        let off = value - self.mean;
+        let off = passage.value - self.mean;
         self.mean += off / self.cycles as f64;
-        self.about += off * (value - self.mean);
-        self.errors += error.powi(2) - shared.powi(2);
-        self.shared += shared.powi(2);
+        self.about += off * (passage.value - self.mean);
+        self.errors += passage.error.powi(2) - passage.shared.powi(2);
+        self.shared += passage.shared.powi(2);
     }
 
     /// Returns the mean. The unshared variance, the larger of scatter and own errors, falls with the number of cycles.
@@ -98,8 +104,8 @@ impl Inverse {
         rows.filter(|row| row.crank_torque.is_some()).collect()
     }
 
-    /// Interpolates force (`which` = 0) or torque (1) with its errors at a fraction of the way from a row to the next.
-    fn passage(&self, row: usize, part: f64, which: usize) -> Option<[f64; 3]> {
+    /// Interpolates force (`which` = 0) or torque (1) at a fraction of the way from a row to the next.
+    fn passage(&self, row: usize, part: f64, which: usize) -> Option<Passage> {
         let of = |row: usize| {
             let found = &self.rows[row];
             let (value, error) = match which {
@@ -113,6 +119,11 @@ impl Inverse {
             Some([value, error, shared])
         };
         let (a, b) = (of(row)?, of(row + 1)?);
-        Some([0, 1, 2].map(|k| a[k] + part * (b[k] - a[k])))
+        let [value, error, shared] = std::array::from_fn(|k| a[k] + part * (b[k] - a[k]));
+        Some(Passage {
+            value,
+            error,
+            shared,
+        })
     }
 }

@@ -25,14 +25,21 @@ pub(super) struct Judgement {
     pub few: bool,
 }
 
-/// Returns the errors of the predictions of samples, each by all others, over their standard deviations, and the standard deviation of
-/// these by their median; none if none is judged. What is `allowed` of a sample and its motion, rad or m, is taken off; 0 is what is
-/// not judged.
+/// Errors of the predictions of samples, each by all others.
+struct Errors {
+    /// Over their standard deviations; 0 for what is not judged, or within a step of its code.
+    standardised: Vec<f64>,
+    /// Their standard deviation, by the median.
+    scale: f64,
+}
+
+/// Returns the errors of samples from a smoothed motion, less what is `allowed` of a sample and its motion, rad or m; none if
+/// none is judged.
 fn errors(
     problem: &Problem<'_>,
     smoothed: &Smoothed,
     allowed: impl Fn(usize, &Estimate) -> f64,
-) -> Option<(Vec<f64>, f64)> {
+) -> Option<Errors> {
     let record = problem.single();
     let sigma = smoothed.noise.sigma;
     let full = record.full_weights();
@@ -62,14 +69,18 @@ fn errors(
     for (r, within) in standardised.iter_mut().zip(within) {
         *r -= r.clamp(-within, within);
     }
-    Some((standardised, scale))
+    Some(Errors {
+        standardised,
+        scale,
+    })
 }
 
 /// Judges the samples by a smoothed motion; none if all weights are and stay 1.
 pub(super) fn judge(problem: &Problem<'_>, smoothed: &Smoothed) -> Option<Judgement> {
     let record = problem.single();
     // A value within a step of its code is not off.
-    let (standardised, scale) = errors(problem, smoothed, |_, _| record.step)?;
+    let found = errors(problem, smoothed, |_, _| record.step)?;
+    let (standardised, scale) = (found.standardised, found.scale);
     let full = record.full_weights();
     let told = standardised
         .iter()
@@ -145,8 +156,9 @@ impl Problem<'_> {
             let slope = record.sensor.shown(estimate.turning()).slope;
             2.0 * record.step + 0.5 * (slope * estimate.alpha).abs() * beside * beside
         };
-        let holds = errors(self, &through, from_rest).is_some_and(|(standardised, scale)| {
-            let sizes = judged.iter().map(|i| standardised[*i] / scale);
+        let holds = errors(self, &through, from_rest).is_some_and(|errors| {
+            let size = |i: &usize| errors.standardised[*i] / errors.scale;
+            let sizes = judged.iter().map(size);
             let squares: f64 = sizes.map(|size| size * size).sum();
             through.converged && deviate(squares, judged.len()) > FAR
         });

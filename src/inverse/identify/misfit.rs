@@ -17,9 +17,18 @@ pub(super) struct Misfit {
     runs: Runs,
     /// Whether the samples are significantly likelier with a torque beside the equation.
     pub misses_torque: bool,
-    /// Fixed keys whose release is expected to raise the likelihood most, each with the `ratio` and the rise of ln of the likelihood
-    /// expected then.
-    helpers: Vec<(String, f64, f64)>,
+    /// Fixed keys whose release is expected to raise the likelihood most, by a score test.
+    to_free: Vec<FixedKey>,
+}
+
+/// Fixed key, with what a score test expects of its release.
+#[derive(Clone, Debug)]
+struct FixedKey {
+    key: String,
+    /// Ratio of the residuals to the noise then.
+    ratio: f64,
+    /// Rise of ln of the likelihood.
+    rise: f64,
 }
 
 /// Relative norm below which the part of a derivative orthogonal to those of other keys is rounding.
@@ -60,20 +69,25 @@ impl Misfit {
             let explained = direction.dot(rest.as_ref()?).powi(2);
             let gain = -0.5 * errors.len() as f64 * (1.0 - explained).ln();
             let left = (ratio * (1.0 - explained).sqrt()).max(1.0);
-            Some((trials.all[k].key.clone(), left, gain))
+            Some(FixedKey {
+                key: trials.all[k].key.clone(),
+                ratio: left,
+                rise: gain,
+            })
         };
-        let mut helpers: Vec<_> = (trials.count..trials.all.len()).filter_map(score).collect();
-        helpers.sort_by(|a, b| b.2.total_cmp(&a.2));
+        let mut to_free: Vec<FixedKey> =
+            (trials.count..trials.all.len()).filter_map(score).collect();
+        to_free.sort_by(|a, b| b.rise.total_cmp(&a.rise));
         // Keys nearly as good as the best, and significantly better than none.
-        let least = helpers
+        let least = to_free
             .first()
-            .map_or(0.0, |best| best.2 - SIGNIFICANT_RISE);
-        helpers.retain(|one| one.2 > SIGNIFICANT_RISE.max(least));
+            .map_or(0.0, |best| best.rise - SIGNIFICANT_RISE);
+        to_free.retain(|one| one.rise > SIGNIFICANT_RISE.max(least));
         Ok(Some(Misfit {
             ratio,
             runs: Runs::of(&errors),
             misses_torque: !is_likely,
-            helpers,
+            to_free,
         }))
     }
 
@@ -92,11 +106,11 @@ impl Misfit {
     pub fn help(&self) -> String {
         let load =
             "check that the scene has all loads of the rig, and that its other values are right";
-        if self.helpers.is_empty() {
+        if self.to_free.is_empty() {
             return load.to_owned();
         }
-        let named = self.helpers.iter();
-        let named = named.map(|(key, left, _)| format!("`{key}` ({left:.2} times)"));
+        let named = self.to_free.iter();
+        let named = named.map(|one| format!("`{}` ({:.2} times)", one.key, one.ratio));
         format!(
             "residuals nearer to the noise are expected with one more key free: {}; or {load}",
             named.collect::<Vec<_>>().join(", ")

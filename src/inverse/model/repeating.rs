@@ -19,8 +19,15 @@ pub(in crate::inverse) struct Repeating {
     pub covariance: Matrix<3>,
     /// Turns of a cycle.
     turns: f64,
-    /// The parts of equal length of a cycle: torque alone, and torque per unit of the speed, at the begin and its change.
-    parts: Vec<[(f64, Quintic); 2]>,
+    /// The parts of equal length of a cycle: torque alone, and torque per unit of the speed.
+    parts: Vec<[Part; 2]>,
+}
+
+/// Torque over a part of a cycle.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    begin: f64,
+    change: Quintic,
 }
 
 /// The torque of the harmonics, with its first two derivatives by the angle of the cycle.
@@ -42,13 +49,16 @@ impl Repeating {
             .collect();
         let part = |from: Series, to: Series| {
             let end = |[_, rate, second]: Series| [length * rate, 0.5 * length * length * second];
-            let change = Quintic::new(end(from), end(to), to[0] - from[0]);
-            (from[0], change)
+            Part {
+                begin: from[0],
+                change: Quintic::new(end(from), end(to), to[0] - from[0]),
+            }
         };
         let parts = ends.windows(2);
-        let parts = parts.map(|w| [0, 1].map(|k| part(w[0][k], w[1][k])));
         Repeating {
-            parts: parts.collect(),
+            parts: parts
+                .map(|w| [0, 1].map(|k| part(w[0][k], w[1][k])))
+                .collect(),
             turns: f64::from(prior.cycle),
             coefficients,
             told,
@@ -63,7 +73,7 @@ impl Repeating {
         let per_radian = count / (TAU * self.turns);
         let place = (theta * per_radian).rem_euclid(count);
         let index = (place as usize).min(self.parts.len() - 1);
-        let [alone, with_speed] = self.parts[index].map(|(begin, change)| {
+        let [alone, with_speed] = self.parts[index].map(|Part { begin, change }| {
             let [change, rate, _] = change.at(place - index as f64);
             [begin + change, rate * per_radian]
         });

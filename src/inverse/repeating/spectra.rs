@@ -29,6 +29,12 @@ pub(in crate::inverse) struct OverSpectra {
     pub all: Vec<f64>,
 }
 
+/// A spectrum with the standard deviations by it and by what stands out of it.
+struct Tried {
+    spectrum: Spectrum,
+    deviations: OverSpectra,
+}
+
 impl Regression {
     /// Returns the standard deviations of the coefficients: roots of the means of their variances over all spectra, of which one is
     /// the likeliest.
@@ -41,7 +47,7 @@ impl Regression {
             let mut sums = vec![0.0; self.prior.coefficients()];
             for one in &list {
                 let share = one.log.exp() / total;
-                let pairs = sums.iter_mut().zip(of(&one.value.1));
+                let pairs = sums.iter_mut().zip(of(&one.value.deviations));
                 pairs.for_each(|(sum, deviation)| *sum += share * deviation * deviation);
             }
             sums.into_iter().map(f64::sqrt).collect()
@@ -70,25 +76,17 @@ impl<'a> Grid<'a> {
     }
 
     /// Returns the spectra that count.
-    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<(Spectrum, OverSpectra)>> {
+    fn spectra(&self, likeliest: Spectrum) -> Vec<Weighed<Tried>> {
         let mut list = self.line(likeliest);
         for step in [self.steps[1], -self.steps[1]] {
             let mut last = likeliest;
-            loop {
-                let order = last.order + step;
-                if !(ORDERS[0]..=ORDERS[1]).contains(&order) {
-                    break;
-                }
-                // On the ridge of the likelihood.
-                let line = self.line(Spectrum {
-                    log_size: last.log_size + self.slope * (order - last.order),
-                    order,
-                });
+            while (ORDERS[0]..=ORDERS[1]).contains(&(last.order + step)) {
+                let line = self.line(self.with_order(last, last.order + step));
                 let Some(best) = line.iter().max_by(|a, b| a.log.total_cmp(&b.log)) else {
                     break;
                 };
                 let counts = best.log > most(&list) + self.least;
-                last = best.value.0;
+                last = best.value.spectrum;
                 list.extend(line);
                 if !counts {
                     break;
@@ -98,8 +96,16 @@ impl<'a> Grid<'a> {
         counting(list, self.least)
     }
 
+    /// The spectrum of another order on the ridge of the likelihood through one.
+    fn with_order(&self, from: Spectrum, order: f64) -> Spectrum {
+        Spectrum {
+            log_size: from.log_size + self.slope * (order - from.order),
+            order,
+        }
+    }
+
     /// Returns the spectra of the order of one that count among them.
-    fn line(&self, first: Spectrum) -> Vec<Weighed<(Spectrum, OverSpectra)>> {
+    fn line(&self, first: Spectrum) -> Vec<Weighed<Tried>> {
         let at = |way: f64| {
             self.at(Spectrum {
                 log_size: first.log_size + way,
@@ -110,16 +116,18 @@ impl<'a> Grid<'a> {
         first.unwrap_or_default()
     }
 
-    /// Returns a spectrum with its probability, and the standard deviations by it and by what stands out of it.
-    fn at(&self, spectrum: Spectrum) -> Option<Weighed<(Spectrum, OverSpectra)>> {
+    /// Returns a spectrum with its probability.
+    fn at(&self, spectrum: Spectrum) -> Option<Weighed<Tried>> {
         let found = self.of.solved(spectrum, self.rest)?;
         let log = self.rest.likelihood_of(&found) + spectrum.log_size;
         let all = self.of.with_hidden(&found, spectrum, self.rest);
         let told = found.deviations;
-        log.is_finite().then_some(Weighed {
-            value: (spectrum, OverSpectra { told, all }),
-            log,
-        })
+        let deviations = OverSpectra { told, all };
+        let value = Tried {
+            spectrum,
+            deviations,
+        };
+        log.is_finite().then_some(Weighed { value, log })
     }
 }
 

@@ -103,9 +103,18 @@ impl Source {
     }
 }
 
-/// Standard errors of force, N, and torque, N m, of each row by each source.
+/// Standard errors by each source that all rows share.
 #[derive(Debug)]
-pub(in crate::inverse) struct SharedErrors(Vec<(String, Vec<[f64; 2]>)>);
+pub(in crate::inverse) struct SharedErrors(Vec<SharedError>);
+
+/// Standard errors by one source.
+#[derive(Debug)]
+struct SharedError {
+    /// Name of the source.
+    name: String,
+    /// Errors of force, N, and torque, N m, of each row.
+    of: Vec<[f64; 2]>,
+}
 
 impl SharedErrors {
     /// Computes the errors from the motion of the samples and the motions under each source.
@@ -122,23 +131,23 @@ impl SharedErrors {
                 guide: source.guide.as_ref(),
                 ..*backwards
             };
-            let errors = parallel::list(times.len(), |i| {
+            let of = parallel::list(times.len(), |i| {
                 let here = motion[i].value;
                 let a = backwards.needed(times[i], here, here[1]);
                 let b = there.needed(times[i], moved[i], here[1]);
                 [0, 1].map(|k| b[k] - a[k])
             });
-            (source.name.clone(), errors)
+            let name = source.name.clone();
+            SharedError { name, of }
         };
         SharedErrors(sources.iter().zip(moved).map(of).collect())
     }
 
     /// Returns the standard errors of the force, N, and of the torque, N m, of a row, with those of its noise.
     pub fn with(&self, row: usize, noise: [f64; 2]) -> [f64; 2] {
-        let with = |sum: [f64; 2], (_, of): &(String, Vec<[f64; 2]>)| {
-            [0, 1].map(|k| sum[k].hypot(of[row][k]))
-        };
-        self.0.iter().fold(noise, with)
+        self.0.iter().fold(noise, |sum, one| {
+            [0, 1].map(|k| sum[k].hypot(one.of[row][k]))
+        })
     }
 
     /// Returns the shares of the sources in the variance of the force, the largest first; empty if there is only noise.
@@ -150,9 +159,9 @@ impl SharedErrors {
             return Vec::new();
         }
         let whole = known.clone().map(|(_, se)| se * se).sum::<f64>() / count;
-        let part = |(name, of): &(String, Vec<[f64; 2]>)| {
-            let squares = known.clone().map(|(row, _)| of[row][0].powi(2));
-            (name.clone(), squares.sum::<f64>() / count)
+        let part = |one: &SharedError| {
+            let squares = known.clone().map(|(row, _)| one.of[row][0].powi(2));
+            (one.name.clone(), squares.sum::<f64>() / count)
         };
         let mut parts: Vec<_> = self.0.iter().map(part).collect();
         let rest = whole - parts.iter().map(|(_, part)| part).sum::<f64>();
