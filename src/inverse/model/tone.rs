@@ -13,6 +13,16 @@ pub enum Carrier {
     Torque,
 }
 
+impl Carrier {
+    /// Returns the other one.
+    pub(in crate::inverse) fn other(self) -> Carrier {
+        match self {
+            Carrier::Sensor => Carrier::Torque,
+            Carrier::Torque => Carrier::Sensor,
+        }
+    }
+}
+
 /// A sinusoid a cos ωt + b sin ωt.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::inverse) struct Tone {
@@ -55,11 +65,11 @@ impl Tone {
         self.amplitudes[0].hypot(self.amplitudes[1])
     }
 
-    /// Returns ln of the density of ln of its amplitude, of which the mean alone is known: the distribution of the most entropy is
-    /// exponential (Jaynes, Probability Theory, 2003, chapter 11).
-    pub fn log_prior(&self, mean: f64) -> f64 {
-        let ratio = self.amplitude() / mean;
-        ratio.ln() - ratio
+    /// Returns ln of the density of ln of its amplitude, up to a constant: half a Cauchy distribution, of which the scale alone is
+    /// known (Gelman, Bayesian Analysis 1 (2006) 515).
+    pub fn log_prior(&self, scale: f64) -> f64 {
+        let ratio = self.amplitude() / scale;
+        ratio.ln() - (ratio * ratio).ln_1p()
     }
 }
 

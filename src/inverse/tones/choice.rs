@@ -1,6 +1,7 @@
 //! The likeliest motion beside the tones that the samples show. A tone has three parameters, and is accepted where the likelihood
-//! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it the likelihood decides;
-//! the motion of the other is in the band if the likelier one alone has less than 95 % of the probability.
+//! gains more than they cost (Schwarz, Ann. Statist. 6 (1978) 461). Whether the sensor or the torque has it is compared about one motion,
+//! as the likelihoods of two differ by what else was found for each: about that without the tone, and about that beside it. The motion of
+//! the other carrier is in the band if the likelier one alone has less than 95 % of the probability.
 
 use super::super::mean_length::by_means;
 use super::super::model::prior::Prior;
@@ -10,8 +11,7 @@ use super::super::problem::Problem;
 use super::super::samples::Given;
 use super::super::selection;
 use super::super::smoother::Smoothed;
-use super::search::Corrected;
-use crate::numeric::parallel;
+use super::search::{Corrected, Rival};
 use crate::numeric::student;
 
 /// A record beside its tones, with its motion without mechanics and the likeliest one.
@@ -35,18 +35,6 @@ impl BesideTones<'_> {
         self.smoothed.noise.likelihood
     }
 
-    /// Returns ln of its probability up to a constant: a tone of the sensor has the scale of the noise, one of the torque that of
-    /// the torque of the motion.
-    pub fn log_probability(&self) -> f64 {
-        let prior = |tone: &Tone| match tone.carrier {
-            Carrier::Sensor => tone.log_prior(self.smoothed.noise.sigma),
-            Carrier::Torque => tone.log_prior(self.problem.accelerating_torque(&self.smoothed)),
-        };
-        let last = self.problem.record.tones.last();
-        // A motion that is not finite has none.
-        f64::NEG_INFINITY.max(self.likelihood() + last.map_or(0.0, prior))
-    }
-
     /// Takes the motion of the rival at times, s, if this one alone has less than 95 % of the probability, with ln of the odds to it,
     /// at most those of a motion at the end of a 95 % band: a band of both reaches it.
     pub fn take_rival(&mut self, times: &[f64]) -> Option<(Vec<MotionEstimate>, f64)> {
@@ -67,32 +55,52 @@ impl<'a> Given<'a> {
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
         let of = |most| self.beside(&[], most, None, suspected);
         let (mut best, most) = by_means(self.measurement.len(), of, finer);
+        // An encoder errs by no more than a count.
+        let carriers = match self.measurement.is_counted() {
+            true => &[Carrier::Torque][..],
+            false => &[Carrier::Sensor, Carrier::Torque],
+        };
         // A bound of the work, for a record of many lines.
         while best.problem.record.tones.len() < 4 {
             let known = &best.problem.record.tones;
-            let mut more = best.problem.another_tone(&best.smoothed);
-            // An encoder errs by no more than a count.
-            more.retain(|tone| tone.carrier == Carrier::Torque || !self.measurement.is_counted());
+            let Some(mut found) = best.problem.another_tone(&best.smoothed) else {
+                break;
+            };
+            found.retain(|one| carriers.contains(&one.tone.carrier));
+            found.sort_by(|a, b| b.log_probability.total_cmp(&a.log_probability));
+            let Some(first) = found.first() else { break };
+            let other = found.get(1);
+            let mut log_odds = other.map_or(f64::INFINITY, |other| first.log_odds_to(other));
             let near = &best.smoothed;
             let with = |tone| {
                 let tones = known.iter().copied().chain([tone]).collect();
-                self.refined(tones, most, near, suspected)
+                let found = self.refined(tones, most, near, suspected);
+                let rival = found.problem.rival(&found.smoothed);
+                let rival = rival.filter(|rival| carriers.contains(&rival.tone.carrier));
+                (found, rival)
             };
-            let mut tried = parallel::map(more.into_iter(), with);
-            tried.sort_by(|a, b| b.log_probability().total_cmp(&a.log_probability()));
-            let mut tried = tried.into_iter();
-            let least = best.likelihood() + best.problem.cost_of_tone();
-            let Some(mut next) = tried.next().filter(|next| next.likelihood() > least) else {
+            let (mut next, mut rival) = with(first.tone);
+            if let Some(likelier) = rival.take_if(|rival| rival.log_odds < 0.0) {
+                log_odds = -likelier.log_odds;
+                (next, rival) = with(likelier.tone);
+            }
+            if next.likelihood() <= best.likelihood() + best.problem.cost_of_tone() {
                 break;
-            };
-            let other = tried.next().map(|other| Less {
-                log_odds: next.log_probability() - other.log_probability(),
-                motion: Box::new(other),
+            }
+            // The odds are no larger than each of two comparisons finds.
+            let rival = rival.map(|rival| Rival {
+                log_odds: rival.log_odds.min(log_odds).max(0.0),
+                ..rival
             });
             if let Some(tone) = next.problem.record.tones.last_mut() {
-                let log_odds = other.as_ref().map(|other| other.log_odds);
-                tone.log_odds = log_odds.filter(|odds| odds.is_finite());
+                tone.log_odds = rival.as_ref().map(|rival| rival.log_odds);
             }
+            let counting = rival.filter(|rival| selection::counts(rival.log_odds));
+            let other = counting.map(|Rival { tone, log_odds }| Less {
+                motion: Box::new(with(tone).0),
+                log_odds,
+            });
+            let other = other.filter(|other| other.motion.likelihood().is_finite());
             let rivals = best.rival.take().into_iter().chain(other);
             next.rival = rivals.min_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
             best = next;

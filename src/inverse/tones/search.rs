@@ -8,7 +8,7 @@ use super::super::model::prior::{TORQUE, Unknown};
 use super::super::model::state_space::Stretch;
 use super::super::model::tone::{Carrier, Tone};
 use super::super::problem::{MOST_NODES, Problem};
-use super::super::repeating::periodogram::{Line, lines};
+use super::super::repeating::periodogram::lines;
 use super::super::scales::Noise;
 use super::super::smoother::Smoothed;
 use super::sinusoid::Beside;
@@ -22,34 +22,100 @@ pub(in crate::inverse) struct Corrected {
     pub log_unit: f64,
 }
 
+/// A tone with ln of its probability, up to a constant.
+pub(in crate::inverse) struct Probable {
+    pub tone: Tone,
+    pub log_probability: f64,
+}
+
+impl Probable {
+    /// Returns a tone with its likeliest noise beside a motion, whose noise is the scale of one of the sensor, and whose torque that of
+    /// one of the torque.
+    fn new(tone: Tone, noise: &Noise, problem: &Problem<'_>, motion: &Smoothed) -> Probable {
+        let scale = match tone.carrier {
+            Carrier::Sensor => noise.sigma,
+            Carrier::Torque => problem.accelerating_torque(motion),
+        };
+        Probable {
+            tone,
+            log_probability: noise.likelihood + tone.log_prior(scale),
+        }
+    }
+
+    /// Returns ln of its odds to another tone.
+    pub fn log_odds_to(&self, other: &Probable) -> f64 {
+        self.log_probability - other.log_probability
+    }
+}
+
+/// A tone of the other carrier.
+pub(in crate::inverse) struct Rival {
+    pub tone: Tone,
+    /// ln of the odds of the accepted tone to it.
+    pub log_odds: f64,
+}
+
 impl Problem<'_> {
     /// Returns the likeliest tone in what a smoothed motion leaves, once of the sensor and once of the torque; none if no line stands
     /// out there, or if no tone gains what it costs. A very long record and one of codes or of several sensors have none.
-    pub fn another_tone(&self, smoothed: &Smoothed) -> Vec<Tone> {
+    pub fn another_tone(&self, smoothed: &Smoothed) -> Option<Vec<Probable>> {
         let record = &self.record;
         let may_have = record.codes.is_none() && record.beside.is_empty() && !self.is_computed();
         // The likelihoods of stretches of means do not tell a tone.
         let is_long = self.condensed.is_some() && self.sampled() != self.all();
         if !may_have || is_long || self.grid.len() > LONG || self.is_stopped() {
-            return Vec::new();
+            return None;
         }
-        let nodes = self.grid.times.iter().zip(&smoothed.estimates);
-        let errors = nodes.map(|(t, estimate)| [*t, estimate.innovation]);
-        let errors: Vec<[f64; 2]> = errors.filter(|[_, error]| error.is_finite()).collect();
-        let lines = lines(&errors, MOST_NODES);
-        if lines.is_empty() {
-            return Vec::new();
-        }
+        // A wave of the angle shows with the sensor's slope.
+        let errors_of = |carrier: Carrier| {
+            let nodes = self.grid.times.iter().zip(&smoothed.estimates);
+            let errors = nodes.map(|(t, estimate)| {
+                let slope = match carrier {
+                    Carrier::Sensor => 1.0,
+                    Carrier::Torque => record.sensor.shown(estimate.turning()).slope,
+                };
+                [*t, slope * estimate.innovation]
+            });
+            Vec::from_iter(errors.filter(|[_, error]| error.is_finite()))
+        };
+        let carriers = [Carrier::Sensor, Carrier::Torque].map(|carrier| {
+            let errors = errors_of(carrier);
+            (carrier, lines(&errors, MOST_NODES), errors)
+        });
+        let most = carriers.iter().map(|(_, lines, _)| lines.len()).max();
+        let most = most.filter(|most| *most > 0)?;
         let known = self.beside_known(smoothed);
         let least = known.noise.likelihood + self.cost_of_tone();
-        let at = |line: &Line| {
-            let near = line.highest(&errors);
-            let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
-            let found = Vec::from_iter(carriers.filter_map(|one| known.likeliest(one, near)));
+        let at = |k: usize| {
+            let found = carriers.iter().filter_map(|(carrier, lines, errors)| {
+                known.likeliest(*carrier, lines.get(k)?.highest(errors))
+            });
+            let found = Vec::from_iter(found);
             let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
-            gains.then(|| found.into_iter().map(|(tone, _)| tone).collect())
+            let with = |(tone, noise)| Probable::new(tone, &noise, self, smoothed);
+            gains.then(|| found.into_iter().map(with).collect())
         };
-        lines.iter().find_map(at).unwrap_or_default()
+        (0..most).find_map(at)
+    }
+
+    /// Returns the last tone of the record as one of the other carrier, by the same linear model about the motion beside it. None without
+    /// a tone, or where the samples do not tell the other.
+    pub fn rival(&self, smoothed: &Smoothed) -> Option<Rival> {
+        let own = *self.record.tones.last()?;
+        let mut known = self.beside_known(smoothed);
+        known.stretch = known.stretch.beside_known_tones();
+        let linear = Linear {
+            stretches: [known.stretch.clone()].into(),
+            ..known.linear.clone()
+        };
+        let noise = linear.renewed(known.noise);
+        known.stretch = known.with(own.carrier, 1.0, |t| own.at(t));
+        let (tone, noise_beside) = known.likeliest(own.carrier.other(), own.frequency)?;
+        let other = Probable::new(tone, &noise_beside, self, smoothed);
+        Some(Rival {
+            tone,
+            log_odds: Probable::new(own, &noise, self, smoothed).log_odds_to(&other),
+        })
     }
 
     /// The cost of a frequency and two amplitudes in ln of the likelihood.
