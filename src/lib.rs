@@ -94,6 +94,9 @@ pub mod cli;
 pub mod engine;
 pub mod error;
 pub mod explain;
+#[cfg(feature = "cli")]
+#[doc(hidden)]
+pub mod figure;
 pub mod inverse;
 pub mod kinematics;
 pub mod mechanism;

@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use super::streams::{Streams, check_extension, create, draw, fill, page};
 use crate::error::Error;
-use crate::report::{EXTENSIONS, Origin, Output, Report, Shape, View};
+use crate::figure::Shape;
+use crate::report::{EXTENSIONS, Origin, Output, Report, View};
 
 /// Where a picture goes, and how large it is.
 #[derive(Debug, Args)]

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use super::default_view::DefaultView;
-use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::rounded;
 use super::quantity::{Quantity, base, curves, split};
 use super::table::Table;
 use crate::error::Error;
+use crate::figure::{Axis, Figure, Shape, sheet};
 
 /// User's choice of the content of a picture of rows; the command supplies defaults.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::figure::Figure;
+use crate::figure::Figure;
 use crate::scene::Scene;
 use crate::simulate::Summary;
 

@@ -2,9 +2,9 @@
 //! bearings, orders, first-order balance.
 
 use super::curves::CURVE_STEP;
-use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::{Facts, degrees, fact, six};
 use crate::error::Error;
+use crate::figure::{Axis, Figure, Shape, sheet};
 use crate::kinematics::{Diagrams, OneTurn, Order, TurnRow};
 use crate::scene::{Load, Scene};
 use crate::simulate::Reactions;

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use super::curves::View;
 use super::decimate::Decimated;
-use super::figure::{Axis, Figure};
 use super::key_values::Facts;
 use super::rows::{MOST_PLOT_ROWS, cells, header};
 use super::run::{self, speed_figure};
 use super::table::Table;
 use super::{DefaultView, Report};
 use crate::error::Error;
+use crate::figure::{Axis, Figure};
 use crate::scene::Scene;
 use crate::simulate::{Energies, Row, Summary};
 

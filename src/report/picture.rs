@@ -6,8 +6,8 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, WriteOptions, fontdb::Database};
 
 use super::Output;
-use super::figure::PIXELS_PER_INCH;
 use crate::error::Error;
+use crate::figure::PIXELS_PER_INCH;
 
 /// Extensions of picture files.
 pub const EXTENSIONS: [&str; 3] = ["svg", "png", "pdf"];

@@ -2,11 +2,11 @@
 
 use super::csv::{self, CsvCell};
 use super::default_view::{DefaultView, Scatter};
-use super::figure::{Axis, Figure, Shape, sheet};
 use super::key_values::{Facts, fact, six, text_table};
 use super::page::{self, Origin};
 use super::table::Table;
 use crate::error::Error;
+use crate::figure::{Axis, Figure, Shape, sheet};
 use crate::precision::{Precision, PrecisionRow};
 use crate::scene::printable;
 

@@ -4,9 +4,9 @@ use serde::Serialize;
 
 use super::csv::{self, CsvCell};
 use super::key_values::{aligned, rounded};
-use super::{Axis, Figure, sheet};
 use crate::error::Error;
-use crate::reproduce::{Drawing, Entry, Plot, Reproduction, Style, Verdict};
+use crate::figure::sheet;
+use crate::reproduce::{Drawing, Entry, Reproduction, Verdict};
 
 /// Counts of the verdicts, entries and file names of figures, for JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -104,8 +104,8 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
     let series = drawing.plots.iter();
     let series = series.flat_map(|plot| plot.series.iter().map(move |series| (plot, series)));
     let rows = series.flat_map(|(plot, series)| {
-        let names = [&*plot.x, &*plot.y, &*series.label];
-        series.points.iter().map(move |(x, y)| {
+        let names = [&*plot.x.label, &*plot.y.label, &*series.label];
+        series.points.iter().map(move |(x, y, _)| {
             let cells = names.map(CsvCell::from).into_iter();
             cells.chain([*x, *y].map(CsvCell::from)).collect()
         })
@@ -115,18 +115,5 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
 
 /// Returns a figure as SVG.
 pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
-    let figures: Vec<Figure> = drawing.plots.iter().map(figure).collect();
-    sheet(&drawing.title, 2, None, &figures)
-}
-
-fn figure(plot: &Plot) -> Figure {
-    let start = Figure::new("", Axis::linear(&plot.x), Axis::linear(&plot.y));
-    plot.series.iter().fold(start, |figure, series| {
-        let (label, points) = (series.label.as_str(), series.points.clone());
-        match series.style {
-            Style::Line => figure.line(label, points),
-            Style::Dashed => figure.dashed(label, points),
-            Style::Points => figure.points(label, points),
-        }
-    })
+    sheet(&drawing.title, 2, None, &drawing.plots)
 }

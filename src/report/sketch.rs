@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use super::Output;
 use super::dimensions::Dimensions;
-use super::figure::escaped;
 use super::picture::{failed, pixels};
 use crate::error::Error;
+use crate::figure::escaped;
 use crate::kinematics::of_checked;
 use crate::scene::Scene;
 use ::gif::{Encoder, Frame, Repeat};

@@ -4,10 +4,11 @@
 
 use std::collections::BTreeMap;
 
-use super::drawing::{Drawing, Plot, Series, Style};
+use super::Drawing;
 use super::entry::{Entry, Printed, Verdict};
 use super::paper::Paper;
 use crate::error::Error;
+use crate::figure::{Axis, Figure};
 use crate::numeric::{angle, difference, maximum};
 use crate::scene::{Expression, Instant};
 
@@ -212,12 +213,9 @@ impl PaperFormulas {
     fn drawing(&self, curves: &[[String; 11]]) -> Result<Drawing, Error> {
         let plots = curves.chunk_by(|one, next| one[2..4] == next[2..4]);
         let plots = plots.map(|curves| {
-            let series = curves.iter().map(|curve| self.series(curve));
-            Ok(Plot {
-                x: curves[0][2].clone(),
-                y: curves[0][3].clone(),
-                series: series.collect::<Result<_, Error>>()?,
-            })
+            let [x, y] = [2, 3].map(|axis| Axis::linear(&curves[0][axis]));
+            let mut curves = curves.iter();
+            curves.try_fold(Figure::new("", x, y), |plot, curve| self.drawn(plot, curve))
         });
         let plots = plots.collect::<Result<_, Error>>()?;
         let [name, title, ..] = &curves[0];
@@ -230,17 +228,18 @@ impl PaperFormulas {
         })
     }
 
-    fn series(&self, curve: &[String; 11]) -> Result<Series, Error> {
+    fn drawn(&self, plot: Figure, curve: &[String; 11]) -> Result<Figure, Error> {
         let [.., from, to, steps, theta, style, label, formula] = curve;
         let points = match formula.split_once(": ") {
             Some((place, what)) => self.column(place, what)?,
             None => self.points(formula, [from, to, steps], theta)?,
         };
-        Ok(Series {
-            label: label.clone(),
-            style: Style::named(style).ok_or_else(|| wrong(style, "a style"))?,
-            points,
-        })
+        match style.as_str() {
+            "line" => Ok(plot.line(label, points)),
+            "dashed" => Ok(plot.dashed(label, points)),
+            "points" => Ok(plot.points(label, points)),
+            _ => Err(wrong(style, "a style")),
+        }
     }
 
     /// Returns the values of a formula at `steps` + 1 abscissas.

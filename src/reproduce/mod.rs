@@ -1,6 +1,5 @@
 //! Reproduction of four papers: recomputes every printed number and figure, and returns verdicts and data of figures.
 
-mod drawing;
 mod duarte;
 mod entry;
 mod formulas;
@@ -12,9 +11,22 @@ mod paper;
 mod quantities;
 
 use crate::error::Error;
-pub use drawing::{Drawing, Plot, Series, Style};
+use crate::figure::Figure;
 pub use entry::{Entry, Verdict};
 pub use paper::Paper;
+
+/// Recomputed figure of a paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// Name of the paper.
+    pub paper: &'static str,
+    /// Name of the figure in file names.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// Plots of the figure, in order.
+    pub plots: Vec<Figure>,
+}
 
 /// Numbers and figures of papers.
 #[derive(Clone, Debug)]

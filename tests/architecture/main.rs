@@ -59,6 +59,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
             "error",
         ],
     ),
+    ("figure", &["error"]),
     ("optimise", &["scene", "sweep", "numeric", "error"]),
     (
         "precision",
@@ -67,6 +68,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     (
         "reproduce",
         &[
+            "figure",
             "scene",
             "mechanism",
             "simulate",
@@ -83,6 +85,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     (
         "report",
         &[
+            "figure",
             "scene",
             "simulate",
             "kinematics",
@@ -99,6 +102,7 @@ const MAY_NAME: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "figure",
             "simulate",
             "kinematics",
             "statics",

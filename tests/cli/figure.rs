@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use slider_crank::report::{Axis, Figure, Shape, sheet};
+use slider_crank::figure::{Axis, Figure, Shape, sheet};
 
 fn svg(figure: &Figure) -> String {
     let text = figure.to_svg().expect("a figure");

@@ -405,13 +405,14 @@ fn every_figure_has_data_and_names() {
     }
     for drawing in &result.drawings {
         for plot in &drawing.plots {
-            assert!(plot.x.contains('[') && plot.y.contains('['), "{plot:?}");
+            let [x, y] = [&plot.x.label, &plot.y.label];
+            assert!(x.contains('[') && y.contains('['), "{plot:?}");
             for series in &plot.series {
                 assert!(!series.label.is_empty());
                 let drawn = series
                     .points
                     .iter()
-                    .filter(|(x, y)| x.is_finite() && y.is_finite());
+                    .filter(|(x, y, _)| x.is_finite() && y.is_finite());
                 assert!(drawn.count() >= 2, "{} {}", drawing.name, series.label);
             }
         }

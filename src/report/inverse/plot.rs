@@ -2,10 +2,11 @@
 
 use super::InverseReport;
 use crate::error::Error;
+use crate::figure::{Axis, Figure, sheet};
 use crate::inverse::{Inverse, Residual};
 use crate::report::curves::{CURVE_POINTS, axis};
 use crate::report::quantity::Quantity;
-use crate::report::{Axis, Figure, Report, View, sheet};
+use crate::report::{Report, View};
 
 /// Returns data and fit, residuals, force and torque as SVG, with the forces printed by Duarte et al. if given.
 pub(super) fn figure(report: &InverseReport, view: &View) -> Result<String, Error> {

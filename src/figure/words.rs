@@ -8,7 +8,7 @@ pub(super) fn line_height(size: f64) -> f64 {
 }
 
 /// Escapes a text for XML, without control characters, which XML forbids.
-pub(in crate::report) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let plain: String = text.chars().filter(|c| !c.is_control()).collect();
     let text = plain.replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")

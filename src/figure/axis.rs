@@ -34,12 +34,13 @@ impl Kind {
 /// Axis of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    pub(in crate::report) label: String,
+    /// Quantity and unit.
+    pub label: String,
     /// Label used where the full one does not fit; empty for none.
     short: String,
     kind: Kind,
     /// Exact range; none if the axis fits the values.
-    pub(in crate::report) range: Option<(f64, f64)>,
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 impl Axis {

@@ -11,10 +11,10 @@ mod words;
 use crate::error::Error;
 pub use axis::Axis;
 pub use sheet::sheet;
-pub(super) use words::escaped;
+pub(crate) use words::escaped;
 
 /// Resolution of a figure, pixels per inch: that of CSS.
-pub(super) const PIXELS_PER_INCH: f64 = 96.0;
+pub(crate) const PIXELS_PER_INCH: f64 = 96.0;
 
 /// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,12 +27,14 @@ enum SeriesStyle {
     VerticalMark,
 }
 
-/// Labelled points (x, low, high); low equals high except for bands.
+/// Labelled points.
 #[derive(Clone, Debug, PartialEq)]
-struct Series {
-    label: String,
+pub struct Series {
+    /// Name in the legend; empty for no entry.
+    pub label: String,
     style: SeriesStyle,
-    points: Vec<(f64, f64, f64)>,
+    /// Points (x, low, high); low equals high except for bands. What cannot be drawn is NaN.
+    pub points: Vec<(f64, f64, f64)>,
     /// Index of colour and marker, one per label.
     colour: usize,
     /// Index of the stroke, among series of this style.
@@ -45,7 +47,7 @@ struct Series {
 /// drawn (NaN, infinite, not positive on a logarithmic axis) is left out, and breaks a line.
 ///
 /// ```
-/// use slider_crank::report::{Axis, Figure};
+/// use slider_crank::figure::{Axis, Figure};
 ///
 /// let figure = Figure::new(
 ///     "Error of a run",
@@ -60,12 +62,15 @@ struct Series {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    pub(super) title: String,
-    pub(super) x: Axis,
-    pub(super) y: Axis,
+    pub(crate) title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
     /// Whether both axes have equal pixels per unit.
     is_equal: bool,
-    series: Vec<Series>,
+    /// Series, in the order of the legend.
+    pub series: Vec<Series>,
 }
 
 impl Figure {
