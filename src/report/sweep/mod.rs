@@ -71,53 +71,53 @@ impl<'a> SweepWriter<'a> {
         [part, parts]: [usize; 2],
         asked: &SweepSummaryOptions,
     ) -> Result<SweepWriter<'a>, Error> {
-        let mut shown = asked.kept.map(Decimated::new);
-        let header = header(sweep);
+        let names = header(sweep);
         let percentiles = asked.percentiles || sweep.options.sample.is_some();
-        let mut tally = Tally::new(&header, percentiles, &asked.goals)?;
-        let names: Vec<CsvCell> = header.iter().map(|name| CsvCell::from(&**name)).collect();
-        let header = if part == 1 { line(&names) } else { Vec::new() };
-        let range = sweep.part(part, parts)?;
-        let mut kept = 0;
-        let target = match path {
-            None => Target::Nothing,
-            Some(path) if is_standard_output(path) || is_stream(path) => {
-                let mut output = Output::create(path)?;
-                output.write(&header)?;
-                Target::Stream(output)
-            }
-            Some(path) => {
-                let (identity, Range { start, end }) = (sweep.identity(), &range);
-                let mark = format!("sweep {identity:016x} {start}..{end}");
-                let mut last = String::new();
-                let file = ResumableFile::open(path, &mark, &header, |row| {
-                    let found = csv::read(row)?;
-                    tally.take(&found);
-                    if let Some(shown) = &mut shown {
-                        shown.take(found);
-                    }
-                    kept += 1;
-                    row.clone_into(&mut last);
-                    Ok(())
-                })?;
-                // Tables named by the scene may have changed: the last row is computed again and compared.
-                if kept > 0 {
-                    let design = sweep.design(range.start + kept - 1);
-                    if line(&cells_of(sweep, &design)) != last.as_bytes() {
-                        return Err(file.of_another());
-                    }
-                }
-                Target::File(file)
-            }
-        };
-        Ok(SweepWriter {
+        let mut writer = SweepWriter {
             sweep,
-            range,
-            target,
-            tally,
-            kept,
-            shown,
-        })
+            tally: Tally::new(&names, percentiles, &asked.goals)?,
+            range: sweep.part(part, parts)?,
+            target: Target::Nothing,
+            kept: 0,
+            shown: asked.kept.map(Decimated::new),
+        };
+        let names: Vec<CsvCell> = names.iter().map(|name| CsvCell::from(&**name)).collect();
+        let header = if part == 1 { line(&names) } else { Vec::new() };
+        let Some(path) = path else {
+            return Ok(writer);
+        };
+        if is_standard_output(path) || is_stream(path) {
+            let mut output = Output::create(path)?;
+            output.write(&header)?;
+            writer.target = Target::Stream(output);
+            return Ok(writer);
+        }
+        let Range { start, end } = writer.range;
+        let mark = format!("sweep {:016x} {start}..{end}", sweep.identity());
+        let mut last = String::new();
+        let file = ResumableFile::open(path, &mark, &header, |row| {
+            writer.take(csv::read(row)?);
+            writer.kept += 1;
+            row.clone_into(&mut last);
+            Ok(())
+        })?;
+        // Tables named by the scene may have changed: the last row is computed again and compared.
+        if writer.kept > 0 {
+            let design = sweep.design(start + writer.kept - 1);
+            if line(&cells_of(sweep, &design)) != last.as_bytes() {
+                return Err(file.of_another());
+            }
+        }
+        writer.target = Target::File(file);
+        Ok(writer)
+    }
+
+    /// Counts a row, and keeps it for the table.
+    fn take(&mut self, cells: Vec<CsvCell>) {
+        self.tally.take(&cells);
+        if let Some(shown) = &mut self.shown {
+            shown.take(cells);
+        }
     }
 
     /// Returns the designs still to be computed.
@@ -141,10 +141,7 @@ impl<'a> SweepWriter<'a> {
             let mut text = Vec::new();
             for (cells, line) in rows {
                 text.extend(line);
-                self.tally.take(&cells);
-                if let Some(shown) = &mut self.shown {
-                    shown.take(cells);
-                }
+                self.take(cells);
             }
             match &mut self.target {
                 Target::Nothing => {}
