@@ -8,7 +8,7 @@ use super::streams::{Streams, check_extension};
 use super::values::angle;
 use super::watch::{print, say};
 use crate::error::Error;
-use crate::report::{Output, Pose, Sketch, animation};
+use crate::report::{Output, Pose, Sketch, animation, extension};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, simulate_rows};
 
@@ -41,10 +41,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     check_extension(Some(&arguments.out), &["gif", "dxf", "svg", "png", "pdf"])?;
     let read = arguments.scene.as_ref();
     let scene = Streams::new(&[read], Some(&arguments.out), &[], false)?.scene(read)?;
-    let ending = arguments.out.extension().unwrap_or_default();
-    match ending.to_ascii_lowercase().to_str() {
-        Some("gif") => animate(arguments, &scene),
-        ending => draw(arguments, &scene, ending == Some("dxf")),
+    match &*extension(&arguments.out) {
+        "gif" => animate(arguments, &scene),
+        ending => draw(arguments, &scene, ending == "dxf"),
     }
 }
 

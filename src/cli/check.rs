@@ -9,6 +9,7 @@ use super::streams::scene;
 use super::watch::{print, say};
 use crate::error::Error;
 use crate::plan;
+use crate::report::extension;
 use crate::scene::{Measurement, Reading, load_table};
 
 #[derive(Debug, Args)]
@@ -22,11 +23,8 @@ pub(super) struct Arguments {
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let reading = arguments.reading.reading();
-    let is_csv = |file: &&PathBuf| {
-        file.extension()
-            .is_some_and(|end| end.eq_ignore_ascii_case("csv"))
-    };
-    if let Some(file) = arguments.scene.as_ref().filter(is_csv) {
+    let file = arguments.scene.as_ref();
+    if let Some(file) = file.filter(|file| extension(file) == "csv") {
         let shown = file.display();
         if reading == Reading::default()
             && let Some(table) = load_table(file)?
@@ -52,9 +50,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
             "give a file ending in .csv, or leave them out",
         ));
     }
-    let scene = scene(arguments.scene.as_ref())?;
+    let scene = scene(file)?;
     plan::refuse(&scene)?;
-    let name = match &arguments.scene {
+    let name = match file {
         Some(file) if file.as_os_str() == "-" => "standard input".to_owned(),
         Some(file) => file.display().to_string(),
         None => "the built-in scene".to_owned(),

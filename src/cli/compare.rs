@@ -1,13 +1,13 @@
 //! Command `compare`: reports the differences of several motions from the first.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use super::outputs::Outputs;
 use super::streams::command_line;
 use crate::error::Error;
-use crate::report::{Comparison, Motion, Origin};
+use crate::report::{Comparison, Motion, Origin, extension};
 use crate::scene::Scene;
 use crate::simulate::{Options, Row, Simulation, Summary, simulate, simulate_rows};
 
@@ -36,7 +36,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
     let (mut warnings, mut stopped) = (Vec::new(), Vec::new());
     for file in &arguments.motions {
         let times = motions.first().map(Motion::times);
-        motions.push(match is_data(file) {
+        let is_data = file.extension().is_some() && extension(file) != "toml";
+        motions.push(match is_data {
             true => Motion::of_file(file)?,
             false => {
                 let (rows, summary) = rows(&Scene::load(file)?, &options, times)?;
@@ -65,12 +66,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Error> {
         true => Ok(()),
         false => Err(Error::Incomplete(stopped.join("\n"))),
     }
-}
-
-/// Whether a file is data rather than a scene, by its extension.
-fn is_data(file: &Path) -> bool {
-    let ending = file.extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|ending| !ending.eq_ignore_ascii_case("toml"))
 }
 
 /// Simulates a scene; returns its summary and rows at `times` if the motion can be evaluated there, else at its output

@@ -1,6 +1,5 @@
 //! Input and output files of a command: checks for conflicts, opening, and writing.
 
-use std::ffi::OsStr;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +7,7 @@ use serde::Serialize;
 
 use super::watch::{self, print, say};
 use crate::error::Error;
-use crate::report::{self, Origin, Output, place};
+use crate::report::{self, Origin, Output, extension, place};
 use crate::scene::{DUARTE, Draft, Scene};
 
 /// Files and streams of a command, checked before any computation.
@@ -122,13 +121,8 @@ pub(super) fn check_files(read: &[&Path], written: &[PathBuf]) -> Result<(), Err
 
 /// Refuses a path whose extension is not among the formats `written`.
 pub(super) fn check_extension(path: Option<&PathBuf>, written: &[&str]) -> Result<(), Error> {
-    let is_known = |ending: &OsStr| {
-        written
-            .iter()
-            .any(|known| ending.eq_ignore_ascii_case(known))
-    };
-    let Some(path) = path.filter(|path| path.extension().is_some_and(|ending| !is_known(ending)))
-    else {
+    let is_known = |path: &Path| written.contains(&&*extension(path));
+    let Some(path) = path.filter(|path| path.extension().is_some() && !is_known(path)) else {
         return Ok(());
     };
     let (shown, format) = (path.display(), written[0].to_uppercase());

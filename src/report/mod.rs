@@ -42,7 +42,7 @@ pub use key_values::Facts;
 pub use motion::{PlotRows, RunReport};
 pub use one_turn::{TurnReport, sized};
 pub use optimise::{optimum, starts_csv};
-pub use output::{Output, is_standard_output, place};
+pub use output::{Output, extension, is_standard_output, place};
 pub use page::Origin;
 pub use picture::EXTENSIONS;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};

@@ -55,6 +55,12 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
+/// Returns the extension of a path, in lower case; empty for none.
+pub fn extension(path: &Path) -> String {
+    let extension = path.extension().unwrap_or_default();
+    extension.to_string_lossy().to_ascii_lowercase()
+}
+
 /// Buffered output stream. [`Output::finish`] gives a file its name.
 #[derive(Debug)]
 pub struct Output {
@@ -118,11 +124,7 @@ impl Output {
 
     /// Returns the extension of the target, in lower case; empty for none.
     pub(super) fn extension(&self) -> String {
-        let extension = Path::new(&self.target).extension().unwrap_or_default();
-        extension
-            .to_ascii_lowercase()
-            .to_string_lossy()
-            .into_owned()
+        extension(Path::new(&self.target))
     }
 
     /// Writes bytes to the buffer.
