@@ -74,35 +74,30 @@ fn number(value: f64, text: &mut Vec<u8>) {
     }
 }
 
-/// Appends cells separated by commas, and a line feed.
-fn joined<T>(
-    cells: impl IntoIterator<Item = T>,
-    text: &mut Vec<u8>,
-    put: impl Fn(T, &mut Vec<u8>),
-) {
-    for (i, cell) in cells.into_iter().enumerate() {
-        if i > 0 {
-            text.push(b',');
-        }
-        put(cell, text);
+/// Appends a line of numbers, at least one.
+pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
+    for value in values {
+        number(value, text);
+        text.push(b',');
     }
+    text.pop();
     text.push(b'\n');
 }
 
-/// Appends a line of numbers.
-pub(super) fn line(values: impl IntoIterator<Item = f64>, text: &mut Vec<u8>) {
-    joined(values, text, number);
-}
-
-/// Appends a line of cells, texts quoted where needed.
+/// Appends a line of cells, at least one, texts quoted where needed.
 pub(super) fn cells<'a>(cells: impl IntoIterator<Item = &'a CsvCell>, text: &mut Vec<u8>) {
-    joined(cells, text, |cell, text| match cell {
-        CsvCell::Number(value) => number(*value, text),
-        CsvCell::Text(value) if value.contains([',', '"', '\n', '\r']) => {
-            text.extend(format!("\"{}\"", value.replace('"', "\"\"")).as_bytes());
+    for cell in cells {
+        match cell {
+            CsvCell::Number(value) => number(*value, text),
+            CsvCell::Text(value) if value.contains([',', '"', '\n', '\r']) => {
+                text.extend(format!("\"{}\"", value.replace('"', "\"\"")).as_bytes());
+            }
+            CsvCell::Text(value) => text.extend(value.as_bytes()),
         }
-        CsvCell::Text(value) => text.extend(value.as_bytes()),
-    });
+        text.push(b',');
+    }
+    text.pop();
+    text.push(b'\n');
 }
 
 /// Returns a CSV text of header and rows.
