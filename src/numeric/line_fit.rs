@@ -64,24 +64,15 @@ impl LineFit {
         })
     }
 
-    /// Fits the line through the origin: its slope, and R² with the sums of squares about zero and about the mean. The
-    /// two differ, and only the second can be compared with that of another line.
-    pub fn through_origin(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
+    /// Returns R² of the line through the origin, with the sum of squares about zero: it cannot be compared with that of
+    /// another line.
+    pub fn r_squared_about_zero(points: &[(f64, f64)]) -> Option<f64> {
         let sxx = sum(points.iter().map(|(x, _)| x * x));
         let sxy = sum(points.iter().map(|(x, y)| x * y));
         let syy = sum(points.iter().map(|(_, y)| y * y));
         let slope = sxy / sxx;
-        let mean = sum(points.iter().map(|p| p.1)) / points.len() as f64;
-        let about_mean = sum(points.iter().map(|(_, y)| (y - mean).powi(2)));
         let rest = sum(points.iter().map(|(x, y)| (y - slope * x).powi(2)));
-        slope
-            .is_finite()
-            .then_some((slope, 1.0 - rest / syy, 1.0 - rest / about_mean))
-    }
-
-    /// Returns y at x.
-    pub fn value(&self, x: f64) -> f64 {
-        self.mean[1] + self.slope * (x - self.mean[0])
+        slope.is_finite().then(|| 1.0 - rest / syy)
     }
 
     /// Returns the x of a single reading y, and its standard uncertainty from the scatter of the points and of the

@@ -31,11 +31,11 @@ pub(super) fn formulas() -> Result<PaperFormulas, Error> {
     ];
     let calibration = symbols.column("table 1", "strain")?;
     let line = LineFit::new(&calibration);
-    let about_zero = LineFit::through_origin(&calibration);
+    let about_zero = LineFit::r_squared_about_zero(&calibration);
     let of_tables = move |name: &str, _: f64| match name {
         "friction" => Some(friction),
         "r_squared" => line.and_then(|line| line.r_squared),
-        "r_squared_about_zero" => about_zero.map(|fit| fit.1),
+        "r_squared_about_zero" => about_zero,
         "strain_at_zero" => line.map(|line| line.intercept),
         "strain_per_newton" => line.map(|line| line.slope),
         _ => None,
