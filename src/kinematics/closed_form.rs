@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 use crate::mechanism::{Class, Extremes, Limits, Linkage, Pose};
-pub use crate::mechanism::{Located, NamedPosition};
+pub use crate::mechanism::{DeadCentre, Located, NamedPosition};
 use crate::scene::Scene;
 
 /// Kinematics of a scene, from its lengths and speed.
@@ -44,17 +44,6 @@ pub struct Kinematics {
     pub warnings: Vec<String>,
     #[serde(skip)]
     pub(super) linkage: Linkage,
-}
-
-/// Dead centre.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct DeadCentre {
-    /// Crank angle, rad.
-    pub theta_rad: f64,
-    /// Slider position, m.
-    pub x_m: f64,
-    /// `outer`: crank and rod stretched out in one line; `inner`: folded.
-    pub kind: &'static str,
 }
 
 /// Position at one crank angle; values that do not exist there are not finite.
@@ -101,19 +90,14 @@ pub(crate) fn of_checked(scene: &Scene) -> Kinematics {
         if rate < 0.0 { [pair[1], pair[0]] } else { pair }
     });
     let acceleration = |extreme| scaled(extreme, rate * rate);
-    let dead_centres = limits.dead_centres.iter().map(|centre| DeadCentre {
-        theta_rad: centre.theta,
-        x_m: centre.x,
-        kind: if centre.outer { "outer" } else { "inner" },
-    });
     Kinematics {
         scene: scene.title.clone().unwrap_or_default(),
         class: limits.class.name(),
         stroke_m: limits.stroke,
-        dead_centres: dead_centres.collect(),
         advance_rad: limits.advance,
         return_rad: limits.retreat,
         time_ratio: limits.time_ratio(),
+        dead_centres: limits.dead_centres,
         transmission_min_rad: limits.transmission_min,
         velocity_max: velocities.map(|v| v[1]),
         velocity_min: velocities.map(|v| v[0]),

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use serde::Serialize;
+
 use super::Linkage;
 use super::linkage::SAME_LENGTHS;
 use crate::numeric::angle::in_turn;
@@ -42,14 +44,16 @@ impl Class {
 }
 
 /// Dead centre: a position with x' = 0, O, A and P in line.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DeadCentre {
     /// Crank angle in [0, 2 pi), rad.
+    #[serde(rename = "theta_rad")]
     pub theta: f64,
     /// Slider position, m.
+    #[serde(rename = "x_m")]
     pub x: f64,
-    /// True if crank and rod are stretched out (outer), false if they are folded over each other (inner).
-    pub outer: bool,
+    /// `outer`: crank and rod stretched out in one line; `inner`: folded over each other.
+    pub kind: &'static str,
 }
 
 /// Limits of a linkage, from its lengths.
@@ -191,7 +195,7 @@ fn dead_centre(linkage: &Linkage, outer: bool) -> Option<DeadCentre> {
         // Plus zero: an angle of −0 is 0.
         theta: in_turn(theta) + 0.0,
         x,
-        outer,
+        kind: if outer { "outer" } else { "inner" },
     })
 }
 

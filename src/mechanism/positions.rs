@@ -47,7 +47,7 @@ impl Linkage {
         let limits = Limits::new(self, 0.0);
         let mut found = Vec::new();
         for centre in &limits.dead_centres {
-            let reason = if centre.outer {
+            let reason = if centre.kind == "outer" {
                 "crank and rod in one line: no slider force turns the crank, no crank torque moves the slider"
             } else {
                 "crank and rod folded into one line: no slider force turns the crank, no crank torque moves the slider"

@@ -74,7 +74,7 @@ impl Sketch {
         Sketch {
             dimensions: Dimensions::of(scene),
             title: scene.title.clone().unwrap_or_default(),
-            dead_centres: centres.map(|centre| centre.x_m).collect(),
+            dead_centres: centres.map(|centre| centre.x).collect(),
         }
     }
 

@@ -26,7 +26,7 @@ pub(super) fn kinematics(result: &Kinematics) -> Facts {
     facts.add("class", result.class);
     fact!(facts, "stroke" => "{} m", six(result.stroke_m));
     for dead_centre in &result.dead_centres {
-        let (angle, x) = (degrees(dead_centre.theta_rad), six(dead_centre.x_m));
+        let (angle, x) = (degrees(dead_centre.theta), six(dead_centre.x));
         let name = format!("{} dead centre", dead_centre.kind);
         fact!(facts, name => "{angle} deg, x = {x} m");
     }

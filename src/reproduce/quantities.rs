@@ -34,9 +34,9 @@ impl MechanismQuantities {
         let pose = self.linkage.pose(theta);
         let first = || self.linkage.first_order(theta);
         let extremes = || Extremes::new(&self.linkage);
-        let centre = |outer: bool| {
+        let centre = |kind: &str| {
             let centres = &self.limits.dead_centres;
-            centres.iter().find(|c| c.outer == outer).map(|c| c.theta)
+            centres.iter().find(|c| c.kind == kind).map(|c| c.theta)
         };
         let terms = || Equation::new(&self.scene).terms(theta);
         let masses = || EquivalentMasses::new(&self.scene);
@@ -64,8 +64,7 @@ impl MechanismQuantities {
             "advance" => self.limits.advance?,
             "retreat" => self.limits.retreat?,
             "time_ratio" => self.limits.time_ratio()?,
-            "outer" => centre(true)?,
-            "inner" => centre(false)?,
+            "outer" | "inner" => centre(name)?,
             "d2x_max" => extremes()?.acceleration_max.value,
             "d2x_min" => extremes()?.acceleration_min.value,
             "m" => terms().m,

@@ -19,7 +19,7 @@ proptest! {
         let (r, l, e) = (g.crank, g.rod, g.offset);
         let number = if (l - r).abs() > e.abs() { 2 } else { 1 };
         prop_assert_eq!(limits.dead_centres.len(), number);
-        prop_assert_eq!(limits.dead_centres.iter().filter(|d| d.outer).count(), 1);
+        prop_assert_eq!(limits.dead_centres.iter().filter(|d| d.kind == "outer").count(), 1);
         // Without an inner dead centre the slider moves from one outer dead centre to its mirror image.
         let dd = Dd::from;
         let farthest = ((dd(l) + dd(r)) * (dd(l) + dd(r)) - dd(e) * dd(e)).sqrt();
@@ -33,10 +33,10 @@ proptest! {
         for dead in &limits.dead_centres {
             prop_assert!((0.0..TAU).contains(&dead.theta));
             let (sin, cos) = dead.theta.sin_cos();
-            let distance = if dead.outer { l + r } else { (l - r).abs() };
+            let distance = if dead.kind == "outer" { l + r } else { (l - r).abs() };
             close("|OP|", dead.x.hypot(e), distance, l + r, 1e-15);
             close("O, A, P in line", cos * e + sin * dead.x, 0.0, distance, 2e-15);
-            let same_side = dead.outer || r > l;
+            let same_side = dead.kind == "outer" || r > l;
             prop_assert_eq!(cos * dead.x - sin * e > 0.0, same_side, "{:?}", dead);
             prop_assert_eq!((dead.x - r * cos) * g.branch.sign() > 0.0, true, "{:?}", dead);
             let (pose, exact) = (Linkage::new(&g).pose(dead.theta), Exact::new(&g, dead.theta));
@@ -112,7 +112,7 @@ proptest! {
     ) {
         let linkage = Linkage::new(&g);
         let limits = Limits::new(&linkage, 1.0);
-        let inner = limits.dead_centres.iter().find(|d| !d.outer).unwrap().theta;
+        let inner = limits.dead_centres.iter().find(|d| d.kind == "inner").unwrap().theta;
         let (advance, retreat) = (limits.advance.unwrap(), limits.retreat.unwrap());
         close("whole turn", advance + retreat, TAU, 1.0, 1e-15);
         prop_assume!((1e-6..1.0 - 1e-6).contains(&part));
@@ -231,7 +231,7 @@ fn limits_of_the_engine_of_obaseki_and_alfred() {
                 1e-9,
             );
             for dead in &limits.dead_centres {
-                let mut angle = if dead.outer { outer } else { inner };
+                let mut angle = if dead.kind == "outer" { outer } else { inner };
                 if offset < 0.0 {
                     angle = -angle;
                 }
@@ -255,7 +255,7 @@ fn dead_centres_of_the_mechanism_of_gupta() {
     let found: Vec<_> = limits
         .dead_centres
         .iter()
-        .map(|d| (d.theta.to_degrees(), d.outer))
+        .map(|d| (d.theta.to_degrees(), d.kind == "outer"))
         .collect();
     assert!(
         (found[0].0 - 159.3326835).abs() < 1e-7 && !found[0].1,
