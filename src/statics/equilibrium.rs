@@ -48,8 +48,6 @@ pub struct StaticAnalysis {
     pub warnings: Vec<String>,
     #[serde(skip)]
     pub(super) statics: Statics,
-    #[serde(skip)]
-    seek_torque: bool,
 }
 
 /// Equilibrium at one crank angle.
@@ -149,7 +147,6 @@ pub fn statics(scene: &Scene, options: &StaticsOptions) -> Result<StaticAnalysis
         positions,
         warnings,
         statics,
-        seek_torque: options.force.is_some(),
     };
     [result.least, result.least_with_friction] = result.least();
     Ok(result)
@@ -184,10 +181,9 @@ impl StaticAnalysis {
     }
 
     pub(super) fn balance(&self, theta: f64) -> Equilibrium {
-        if self.seek_torque {
-            self.statics.crank_torque(theta)
-        } else {
-            self.statics.slider_force(theta)
+        match self.sought {
+            "crank-torque" => self.statics.crank_torque(theta),
+            _ => self.statics.slider_force(theta),
         }
     }
 }
