@@ -7,6 +7,7 @@ use clap::Args;
 use super::streams::Streams;
 use super::watch::say;
 use crate::error::Error;
+use crate::figure::sheet;
 use crate::report::{self, Output, ReproductionSummary};
 use crate::reproduce::{Paper, Reproduction, reproduce};
 
@@ -53,7 +54,8 @@ fn write_files(folder: &Path, result: &Reproduction) -> Result<usize, Error> {
     for drawing in &result.drawings {
         let name = report::file_name(drawing);
         write(format!("{name}.csv"), report::drawing_csv(drawing))?;
-        write(format!("{name}.svg"), report::drawing_svg(drawing)?)?;
+        let svg = sheet(&drawing.title, 2, None, &drawing.plots)?;
+        write(format!("{name}.svg"), svg)?;
     }
     Ok(1 + 2 * result.drawings.len())
 }

@@ -47,9 +47,7 @@ pub use page::Origin;
 pub use picture::EXTENSIONS;
 pub use precision::{precision, precision_csv, precision_figure, precision_notes, precision_page};
 pub use presentation::{Report, json};
-pub use reproduce::{
-    ReproductionSummary, drawing_csv, drawing_svg, file_name, reproduction, reproduction_csv,
-};
+pub use reproduce::{ReproductionSummary, drawing_csv, file_name, reproduction, reproduction_csv};
 pub use rows::{Preview, RowWriter};
 pub use sketch::{Pose, Sketch, animation};
 pub use statics::{StaticsReport, calibration};

@@ -4,8 +4,6 @@ use serde::Serialize;
 
 use super::csv::{self, CsvCell};
 use super::key_values::{aligned, rounded};
-use crate::error::Error;
-use crate::figure::sheet;
 use crate::reproduce::{Drawing, Entry, Reproduction, Verdict};
 
 /// Counts of the verdicts, entries and file names of figures, for JSON.
@@ -111,9 +109,4 @@ pub fn drawing_csv(drawing: &Drawing) -> String {
         })
     });
     csv::text("x_axis,y_axis,series,x,y", rows)
-}
-
-/// Returns a figure as SVG.
-pub fn drawing_svg(drawing: &Drawing) -> Result<String, Error> {
-    sheet(&drawing.title, 2, None, &drawing.plots)
 }

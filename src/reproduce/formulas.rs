@@ -4,13 +4,25 @@
 
 use std::collections::BTreeMap;
 
-use super::Drawing;
 use super::entry::{Entry, Printed, Verdict};
 use super::paper::Paper;
 use crate::error::Error;
 use crate::figure::{Axis, Figure};
 use crate::numeric::{angle, difference, maximum};
 use crate::scene::{Expression, Instant};
+
+/// Recomputed figure of a paper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// Name of the paper.
+    pub paper: &'static str,
+    /// Name of the figure in file names.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// Plots of the figure, in order.
+    pub plots: Vec<Figure>,
+}
 
 /// Function from the name of a quantity and the crank angle (rad) to its value; none for unknown names.
 pub(super) type Quantities = Box<dyn Fn(&str, f64) -> Option<f64>>;

@@ -11,22 +11,9 @@ mod paper;
 mod quantities;
 
 use crate::error::Error;
-use crate::figure::Figure;
 pub use entry::{Entry, Verdict};
+pub use formulas::Drawing;
 pub use paper::Paper;
-
-/// Recomputed figure of a paper.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Drawing {
-    /// Name of the paper.
-    pub paper: &'static str,
-    /// Name of the figure in file names.
-    pub name: String,
-    /// Title.
-    pub title: String,
-    /// Plots of the figure, in order.
-    pub plots: Vec<Figure>,
-}
 
 /// Numbers and figures of papers.
 #[derive(Clone, Debug)]
