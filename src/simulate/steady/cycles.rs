@@ -17,7 +17,11 @@ use crate::trajectory::Trajectory;
 
 /// Run of one cycle of the loads.
 pub(super) struct CycleRun {
-    pub trajectory: Trajectory,
+    trajectory: Trajectory,
+    /// Crank angle at the start.
+    pub start: Angle,
+    /// Number of turns after which the loads repeat.
+    pub turns: u32,
     /// Duration, s.
     pub period: f64,
     /// Crank speed at the start, rad/s.
@@ -31,14 +35,24 @@ pub(super) struct CycleRun {
 }
 
 impl CycleRun {
+    /// Returns the rotation of the crank, rad.
+    pub fn rotation(&self) -> f64 {
+        f64::from(self.turns) * TAU
+    }
+
+    /// Returns the crank angle where the crank has turned by `turned` (rad) since the start.
+    pub fn angle(&self, turned: f64) -> Angle {
+        self.start.plus(self.speed.signum() * turned)
+    }
+
     /// Returns the speed (rad/s) where the crank has turned by `turned` (rad) since the start.
-    pub fn omega(&self, start: Angle, turned: f64) -> f64 {
+    pub fn omega(&self, turned: f64) -> f64 {
         if let Some(orbit) = self.trajectory.as_orbit() {
             return orbit.passage(turned).map_or(f64::NAN, |(_, speed)| speed);
         }
         let state = |t: f64| self.trajectory.state(t);
         let ahead = |t: f64| {
-            let way = |(angle, _): (Angle, f64)| angle.minus(start).abs();
+            let way = |(angle, _): (Angle, f64)| angle.minus(self.start).abs();
             state(t).map_or(f64::NAN, way) - turned
         };
         let end = self.trajectory.end();
@@ -52,6 +66,8 @@ impl CycleRun {
 pub(super) struct CycleMap<'a> {
     pub task: &'a RunSetup<'a>,
     model: &'a AngleModel<'a>,
+    /// Number of turns after which the loads repeat.
+    turns: u32,
     /// Inertia at the start, kg m².
     inertia: f64,
     /// Largest kinetic energy in the last cycle, J.
@@ -60,23 +76,24 @@ pub(super) struct CycleMap<'a> {
     pub noise: f64,
     /// Evaluations that are left to the search.
     left: u64,
-    /// Failure of a run, for another reason than a crank that does not complete the cycle.
-    pub refused: Option<Error>,
+    /// Whether a run ended as it would have reached the work limit; a cycle from another energy may take less.
+    pub is_limited: bool,
     /// Reason for which the first of the runs that ended early did not complete its cycle.
     pub stopped: Option<Stopped>,
 }
 
 impl<'a> CycleMap<'a> {
     /// Makes the map for a set-up and the model of its mechanism over the angle.
-    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>) -> CycleMap<'a> {
+    pub fn new(task: &'a RunSetup<'a>, model: &'a AngleModel<'a>, turns: u32) -> CycleMap<'a> {
         CycleMap {
             task,
             model,
+            turns,
             inertia: task.equation().terms(task.start().rest).m,
             largest_kinetic: 0.0,
             noise: task.scene.run.tolerance,
             left: task.options.max_evaluations,
-            refused: None,
+            is_limited: false,
             stopped: None,
         }
     }
@@ -92,7 +109,8 @@ impl<'a> CycleMap<'a> {
             .copysign(self.task.speed)
     }
 
-    fn run(&mut self, kinetic: f64, keep: bool) -> Result<Simulation, NotApplicable> {
+    /// Runs the cycle that begins with a kinetic energy, J; none if the crank does not complete it.
+    fn run(&mut self, kinetic: f64, keep: bool) -> Result<Option<Simulation>, Error> {
         let options = Options {
             estimate: keep,
             max_evaluations: self.left,
@@ -105,23 +123,14 @@ impl<'a> CycleMap<'a> {
             options: &options,
             ..self.task.clone()
         };
-        let run = forward::run(&task, self.model, &mut NoRows).map_err(|error| {
-            self.refused = Some(error);
-            NotApplicable::NotFinite
-        })?;
+        let run = forward::run(&task, self.model, &mut NoRows)?;
         let summary = &run.summary;
         let estimate = summary.estimate_cost.map_or(0, |cost| cost.evaluations);
         self.left = self.left.saturating_sub(summary.evaluations + estimate);
-        let why = summary.stopped.as_ref().map(|stopped| &stopped.why);
-        if let Some(why @ (Why::WorkLimit | Why::WorkLimitAhead | Why::TooManyTurns)) = why {
-            self.refused = Some(Error::Incomplete(format!(
-                "no steady state was found within the work limit of {} evaluations: raise --max-evaluations, or give loads that are less steep",
-                self.task.options.max_evaluations
-            )));
-            // Short of the limit, a cycle from another energy may take less.
-            if let Why::WorkLimit = why {
-                return Err(NotApplicable::WorkLimit);
-            }
+        match summary.stopped.as_ref().map(|stopped| &stopped.why) {
+            Some(Why::WorkLimit) => return Err(self.incomplete()),
+            Some(Why::WorkLimitAhead | Why::TooManyTurns) => self.is_limited = true,
+            _ => {}
         }
         let fastest = summary.omega_max.abs().max(summary.omega_min.abs());
         self.largest_kinetic = self.energy(fastest);
@@ -130,9 +139,17 @@ impl<'a> CycleMap<'a> {
         let complete = summary.stopped.is_none() && turned > whole - PI;
         if !complete {
             self.stopped = self.stopped.take().or(run.summary.stopped);
-            return Err(NotApplicable::TooSlow);
+            return Ok(None);
         }
-        Ok(run)
+        Ok(Some(run))
+    }
+
+    /// Returns the error of a search that ends at the work limit.
+    pub fn incomplete(&self) -> Error {
+        Error::Incomplete(format!(
+            "no steady state was found within the work limit of {} evaluations: raise --max-evaluations, or give loads that are less steep",
+            self.task.options.max_evaluations
+        ))
     }
 
     /// Returns the energy gained by a cycle, J: the work of its loads, exact also where it is small beside the energy.
@@ -143,9 +160,11 @@ impl<'a> CycleMap<'a> {
         run.work.unwrap_or(f64::NAN) + by_torque
     }
 
-    /// Runs the cycle that begins with a kinetic energy, J.
-    pub fn cycle(&mut self, kinetic: f64) -> Result<CycleRun, NotApplicable> {
-        let run = self.run(kinetic, true)?;
+    /// Computes the cycle that begins with a kinetic energy, J; none if the crank does not complete it.
+    pub fn cycle(&mut self, kinetic: f64) -> Result<Option<CycleRun>, Error> {
+        let Some(run) = self.run(kinetic, true)? else {
+            return Ok(None);
+        };
         let summary = &run.summary;
         let last = summary.last.omega_rad_per_s;
         let error = summary.error_estimate.map(|error| error.omega_rad_per_s);
@@ -154,14 +173,17 @@ impl<'a> CycleMap<'a> {
             .noise
             .max(2.0 * error.unwrap_or(f64::INFINITY) / last.abs());
         let slowest = summary.omega_max.abs().min(summary.omega_min.abs());
-        Ok(CycleRun {
-            period: summary.last.t_s,
+        let (period, gain) = (summary.last.t_s, self.gained(&run));
+        Ok(run.trajectory.map(|trajectory| CycleRun {
+            trajectory,
+            start: self.task.start(),
+            turns: self.turns,
+            period,
             speed: self.speed(kinetic),
-            gain: self.gained(&run),
+            gain,
             largest_kinetic: self.largest_kinetic,
             relative_error: self.noise * self.largest_kinetic / self.energy(slowest),
-            trajectory: run.trajectory.ok_or(NotApplicable::NotFinite)?,
-        })
+        }))
     }
 
     /// Returns the energy at the start of the scene, J.
@@ -169,9 +191,23 @@ impl<'a> CycleMap<'a> {
         self.energy(self.task.speed)
     }
 
-    /// Returns the energy gained by the cycle that begins with a kinetic energy, J.
-    pub fn gain(&mut self, kinetic: f64) -> Result<f64, NotApplicable> {
+    /// Returns the energy gained by the cycle that begins with a kinetic energy, J; none if the crank does not complete it.
+    pub fn gain(&mut self, kinetic: f64) -> Result<Option<f64>, Error> {
         let run = self.run(kinetic, false)?;
-        Ok(self.gained(&run))
+        Ok(run.map(|run| self.gained(&run)))
     }
+
+    /// Returns the gain of a cycle that the crank has to complete, J.
+    pub fn gain_of_complete(&mut self, kinetic: f64) -> Result<f64, Error> {
+        let gain = self.gain(kinetic)?;
+        gain.ok_or_else(|| not_computed(NotApplicable::TooSlow))
+    }
+}
+
+/// Returns the error of a steady state that cannot be computed.
+pub(super) fn not_computed(why: NotApplicable) -> Error {
+    Error::refused(
+        format!("the steady state cannot be computed: {why}"),
+        "look at the loads; or simulate until the motion repeats",
+    )
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::guide_friction::GuideFriction;
-use super::periodic_orbit::PeriodicOrbit;
+use super::cycles::CycleRun;
 use super::result::{Estimated, LoadWork};
 use super::{MARGIN, Verified};
 use crate::mechanism::{Equation, Limits, Linkage, single};
@@ -13,8 +13,8 @@ use crate::scene::{Load, Scene};
 
 /// Computes the work of each load of a scene and of friction at the guide.
 pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
-    let (found, check, relative_error) =
-        (&verified.found, &verified.check, verified.relative_error);
+    let [found, check] = [&verified.found.cycle, &verified.check.cycle];
+    let relative_error = verified.relative_error;
     let linkage = &Linkage::new(&scene.geometry);
     let mut works = Vec::new();
     let mut add = |name: String, load: Option<&Load>, torque: &Torque<'_>| {
@@ -28,8 +28,8 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
         };
         works.push(LoadWork {
             name,
-            power_w: over(found.cycle.period),
-            torque_nm: over(found.cycle.speed.signum() * found.rotation()),
+            power_w: over(found.period),
+            torque_nm: over(found.speed.signum() * found.rotation()),
         });
     };
     for of in scene.loads() {
@@ -57,15 +57,15 @@ pub(super) fn works(scene: &Scene, verified: &Verified) -> Vec<LoadWork> {
 type Torque<'a> = dyn Fn(Angle, f64) -> f64 + 'a;
 
 /// Lists the rotations (rad) at the corners of a load, at the dead centres of a period and at equal parts of each turn.
-fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f64> {
-    let sense = found.cycle.speed.signum();
+fn cuts(load: Option<&Load>, linkage: &Linkage, found: &CycleRun) -> Vec<f64> {
+    let sense = found.speed.signum();
     let begin = found.start.radians();
     let end = begin + sense * found.rotation();
     let turned = |theta: f64| sense * (theta - begin);
     let corners = load.map(|load| load.corners_between(begin.min(end), begin.max(end)));
     let corners = corners.into_iter().flatten();
     let mut cuts: Vec<f64> = corners.map(turned).collect();
-    let dead_centres = Limits::new(linkage, found.cycle.speed).dead_centres;
+    let dead_centres = Limits::new(linkage, found.speed).dead_centres;
     let dead_centres = dead_centres
         .iter()
         .map(|dc| turned(dc.theta).rem_euclid(TAU));
@@ -80,8 +80,8 @@ fn cuts(load: Option<&Load>, linkage: &Linkage, found: &PeriodicOrbit) -> Vec<f6
 }
 
 /// Computes the work over a period, J, resolved as far as the uncertainty of the speeds, a part `relative`, allows.
-fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit) -> f64 {
-    let sense = found.cycle.speed.signum();
+fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &CycleRun) -> f64 {
+    let sense = found.speed.signum();
     let force = |turned: f64| sense * torque(found.angle(turned), found.omega(turned));
     let piece = |ends: &[f64]| {
         let [from, to] = [ends[0], ends[1]];
@@ -91,14 +91,14 @@ fn work(cuts: &[f64], torque: &Torque<'_>, relative: f64, found: &PeriodicOrbit)
         };
         // A load may be steep on a part of the piece only.
         let open = open(from).min(open(0.5 * (from + to))).min(open(to));
-        let tolerance = (1e-15 * found.cycle.largest_kinetic).max(open * (to - from));
+        let tolerance = (1e-15 * found.largest_kinetic).max(open * (to - from));
         gauss::adaptive(&force, ends, tolerance)
     };
     cuts.windows(2).map(piece).sum()
 }
 
 /// Computes the integral of the absolute torque, J, the scale of the rounding of the work.
-fn size(cuts: &[f64], torque: &Torque<'_>, found: &PeriodicOrbit) -> f64 {
+fn size(cuts: &[f64], torque: &Torque<'_>, found: &CycleRun) -> f64 {
     let size = |turned: f64| torque(found.angle(turned), found.omega(turned)).abs();
     let pieces = cuts.windows(2);
     pieces

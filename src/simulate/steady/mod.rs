@@ -182,7 +182,7 @@ impl Verified {
     }
 
     fn mean_speed(&self) -> Estimated {
-        self.relative(|f| f.cycle.speed.signum() * f.rotation() / f.cycle.period)
+        self.relative(|f| f.cycle.speed.signum() * f.cycle.rotation() / f.cycle.period)
     }
 
     fn fluctuation(&self) -> Estimated {
@@ -214,7 +214,7 @@ impl Verified {
             scene: scene.title.clone().unwrap_or_default(),
             theta_rad: scene.motion.angle,
             omega_rad_per_s: self.relative(|f| f.cycle.speed),
-            cycle_turns: found.turns,
+            cycle_turns: found.cycle.turns,
             period_s: self.relative(|f| f.cycle.period),
             omega_mean_rad_per_s: self.mean_speed(),
             slowest: extreme(0),
@@ -238,10 +238,10 @@ impl Verified {
         let Verified { found, check, .. } = self;
         let [here, there] = [found, check].map(|f| f.extremes[which].turned);
         let apart = (here - there).abs();
-        let apart = apart.min((found.rotation() - apart).abs());
-        let angle = found.start.plus(found.cycle.speed.signum() * here);
+        let apart = apart.min((found.cycle.rotation() - apart).abs());
+        let angle = found.cycle.angle(here);
         Estimated {
-            value: angle.radians().rem_euclid(found.rotation()),
+            value: angle.radians().rem_euclid(found.cycle.rotation()),
             error: MARGIN * apart
                 + self.relative_error * TAU / found.fluctuation().clamp(1e-12, 1.0),
         }
@@ -249,7 +249,7 @@ impl Verified {
 
     /// Returns the amplitudes of the Fourier series of the speed over the crank angle of a cycle.
     fn orders(&self) -> Vec<SpeedOrder> {
-        let turns = self.found.turns;
+        let turns = self.found.cycle.turns;
         // The rectangle rule is exact for signals of orders below this number per turn less the highest order.
         let count = 1024 * turns;
         let speed = |k: u32| {
@@ -257,7 +257,7 @@ impl Verified {
             fourier::Sample {
                 at,
                 weight: 1.0 / f64::from(count),
-                values: [&self.found, &self.check].map(|f| f.omega(at * f.rotation())),
+                values: [&self.found, &self.check].map(|f| f.cycle.omega(at * f.cycle.rotation())),
             }
         };
         let speeds: Vec<_> = (0..count).map(speed).collect();
