@@ -26,7 +26,6 @@ mod row_writer;
 mod run;
 mod run_end;
 mod run_setup;
-mod saltation;
 mod schedule;
 mod second_run;
 mod simulation;

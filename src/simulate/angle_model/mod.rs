@@ -2,7 +2,6 @@
 
 mod panel_ends;
 mod profile;
-mod work;
 
 use std::cell::{Cell, RefCell};
 use std::f64::consts::TAU;

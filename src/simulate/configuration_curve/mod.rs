@@ -1,7 +1,6 @@
 //! Motion in time on the configuration curve, past the limits of a rocker and with Coulomb friction or dry loads.
 
 mod follow;
-mod release;
 mod rest;
 
 pub(super) use follow::CurveRun;
@@ -88,10 +87,9 @@ pub(super) trait StepObserver {
 }
 
 /// End of a piece in time.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug)]
 pub(super) enum EndReason {
     /// The piece reached its time or its turns, or another piece follows.
-    #[default]
     Done,
     /// The mechanism is at rest for good before its turns are complete.
     AtRest,

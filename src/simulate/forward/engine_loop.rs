@@ -4,13 +4,14 @@ use std::borrow::Cow;
 use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
-use super::super::configuration_curve::{CurveProblem, EndReason, StepObserver};
+use super::super::configuration_curve::{CurveProblem, StepObserver};
 use super::super::run_setup::RunSetup;
+use super::super::stop::Why;
 use super::stop_reason;
 use crate::engine::angle::{AngleRun, Dynamics, Resolution};
 use crate::engine::energy::NotApplicable;
 use crate::engine::step::Step;
-use crate::engine::time::{Finish, MotionState, Settings};
+use crate::engine::time::{MotionState, Settings};
 use crate::engine::{Counted, WorkLimit};
 use crate::error::Error;
 use crate::plan::{Engine, Method};
@@ -93,9 +94,8 @@ pub(super) struct PassResult {
     pub steps: u64,
     pub pieces_over_angle: u64,
     pub pieces_in_time: u64,
-    pub end: EndReason,
-    /// Time, crank angle and speed of the last evaluation without a finite result.
-    pub singular_state: Option<MotionState>,
+    /// Reason for an end before the goal, but for one of the observer.
+    pub stopped: Option<Why>,
 }
 
 impl PassResult {
@@ -212,9 +212,9 @@ impl<'a> Pass<'a, '_> {
             }
             (Engine::Angle, TooLong) if self.has_begun() => Some(Engine::Angle),
             (Engine::Angle, WorkLimit | TooManyTurns) if self.has_begun() => {
-                self.result.end = EndReason::Integrator(match why {
-                    WorkLimit => Finish::WorkLimit,
-                    _ => Finish::TooManyTurns,
+                self.result.stopped = Some(match why {
+                    WorkLimit => task.limited(),
+                    _ => Why::TooManyTurns,
                 });
                 None
             }

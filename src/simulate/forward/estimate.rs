@@ -7,13 +7,13 @@
 use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
-use super::super::configuration_curve::EndReason;
 use super::super::recorder::Record;
 use super::super::result::{Cost, ErrorEstimate};
 use super::super::roundoff_propagation::RoundoffPropagation;
 use super::super::run_end::Estimate;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::{Comparison, MARGIN, collocation_tolerance, same_method_tolerance};
+use super::super::stop::Why;
 use super::super::warning::Warning;
 use super::engine_loop::{PassResult, PassSettings};
 use super::errors_over_angle::{
@@ -21,7 +21,6 @@ use super::errors_over_angle::{
 };
 use super::over_angle::second_run_resolution;
 use super::second_run_observer::SecondRunObserver;
-use super::stop_reason;
 use crate::engine::step::Step;
 use crate::engine::time::{MotionState, Settings};
 use crate::engine::{Counted, WorkLimit};
@@ -78,11 +77,11 @@ pub(super) fn estimate(
         };
         let mut best = finer.run(&motion, &mut observer).ok()?;
         evaluations += best.evaluations + observer.rounding.evaluations;
-        let ends = [result, &best].map(|pass_result| stop_reason::reason(pass.task, pass_result));
-        match ends.map(|why| why.is_some_and(|why| why.is_at_a_place())) {
+        let ends = [&result.stopped, &best.stopped];
+        match ends.map(|why| why.as_ref().is_some_and(Why::is_at_a_place)) {
             // The runs end at one angle, not at one time.
             [true, true] => best.state = extrapolated(&best, result.state.t, &motion)?,
-            [_, ended] if ended || !matches!(best.end, EndReason::Done) => return None,
+            _ if best.stopped.is_some() => return None,
             _ => {}
         }
         Some((best, observer.rounding.covariance, observer.comparison))

@@ -7,7 +7,6 @@ use super::super::configuration_curve::{
 };
 use super::super::coordinate::{Coordinate, crank_state};
 use super::super::guide_friction::NEARBY_ANGLE;
-use super::super::stop;
 use super::engine_loop::{Pass, PassObserver, PassSettings, PieceEnd, Reason};
 use super::stop_reason;
 use crate::engine::Counted;
@@ -15,7 +14,6 @@ use crate::engine::step::{Node, Step};
 use crate::engine::time::{self, Finish, MotionState, Settings};
 use crate::error::Error;
 use crate::numeric::angle::{Angle, circular_distance};
-use crate::scene::Extent;
 
 impl Pass<'_, '_> {
     /// Runs a piece in time, to the end or until the crank has turned by `rotation` (rad) in one direction.
@@ -88,22 +86,17 @@ impl Pass<'_, '_> {
         result.pieces_in_time += 1;
         result.work += piece.work;
         result.largest_kinetic = result.largest_kinetic.max(largest_kinetic);
-        result.singular_state = piece.singular_state;
         result.curve = curve.cloned();
         result.last_step = Some(piece.last);
         if is_met && matches!(piece.end, EndReason::Stopped) {
-            result.end = EndReason::Done;
             result.state.angle = result.state.angle.reduced();
             return Ok(PieceEnd::ClearOfRest);
         }
-        result.end = match (piece.end, pass.extent) {
-            (EndReason::Done, Extent::Revolutions(turns))
-                if result.state.t >= time::UNLIMITED_TIME =>
-            {
-                EndReason::Named(stop::Why::TurnsNeverComplete(turns).into())
-            }
-            (end, _) => end,
-        };
+        let is_start = result.pieces_over_angle == 0;
+        if is_start && matches!(piece.end, EndReason::Integrator(Finish::NoStart)) {
+            return Err(stop_reason::no_start(pass.task));
+        }
+        result.stopped = stop_reason::reason(pass, &piece, result.state, curve);
         Ok(PieceEnd::Ended)
     }
 }

@@ -17,7 +17,7 @@ use engine_loop::{PassResult, PassSettings};
 use forward_recorder::ForwardRecorder;
 
 use super::angle_model::AngleModel;
-use super::configuration_curve::{self, CurveProblem, EndReason};
+use super::configuration_curve::{self, CurveProblem};
 use super::energy_balance::EnergyBalance;
 use super::recorder::Record;
 use super::row::RowSink;
@@ -26,7 +26,6 @@ use super::run_setup::RunSetup;
 use super::simulation::Simulation;
 use super::stop::Why;
 use crate::engine::Counted;
-use crate::engine::time::Finish;
 use crate::error::Error;
 use crate::plan::Engine;
 use crate::trajectory::Trajectory;
@@ -52,14 +51,10 @@ pub(super) fn run(
     // Evaluations for rows and events are not counted: they do not change how far a run goes.
     let mut recorder = ForwardRecorder::new(task, rows);
     let result = pass.run(&Counted::new(task.equation()), &mut recorder)?;
-    if matches!(result.end, EndReason::Integrator(Finish::NoStart)) && result.pieces_over_angle == 0
-    {
-        return Err(stop_reason::no_start(task));
-    }
     let caught = recorder.caught();
     let record = recorder.finish(&result)?;
     let wall_s = record.wall_s(begun);
-    let stopped = caught.or_else(|| stop_reason::reason(task, &result));
+    let stopped = caught.or_else(|| result.stopped.clone());
     let of_curve = result.curve.as_ref();
     let mut warnings = Vec::from_iter(of_curve.and_then(|_| configuration_curve::warning(task)));
     let mut estimate = None;

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::super::angle_model::AngleModel;
-use super::super::configuration_curve::EndReason;
 use super::super::run_setup::RunSetup;
 use super::super::second_run::LEAST_TAIL;
 use super::super::stop;
@@ -28,9 +27,7 @@ impl Pass<'_, '_> {
             Ok(ended) => ended,
             Err(why) => return Ok(PieceEnd::NotApplicable(why)),
         };
-        if let Some(why) = stopped {
-            self.result.end = EndReason::Named(why.into());
-        }
+        self.result.stopped = stopped;
         let (angle, speed) = orbit.state(t);
         let work = model.work(task.start(), angle);
         let run = AngleRun::whole(orbit, t, work);

@@ -1,66 +1,73 @@
 //! Reasons for a free motion that ends before its goal, cannot begin, or is not applicable to an engine.
 
-use super::super::configuration_curve::EndReason;
+use super::super::configuration_curve::{CurveProblem, EndReason, TimePiece};
 use super::super::run_setup::RunSetup;
 use super::super::stalled::torques;
 use super::super::stop::Why;
-use super::engine_loop::PassResult;
+use super::engine_loop::PassSettings;
 use crate::engine::energy::NotApplicable;
-use crate::engine::time::{Finish, MotionState};
+use crate::engine::time::{Finish, MotionState, UNLIMITED_TIME};
 use crate::error::Error;
 use crate::mechanism::{CurveEquation, Singularity};
 use crate::scene::Extent;
 
-/// Returns the reason for an end before the goal, if any.
-pub(super) fn reason(task: &RunSetup<'_>, result: &PassResult) -> Option<Why> {
-    let finish = match (&result.end, task.extent) {
-        (EndReason::Named(why), _) => return Some((**why).clone()),
-        (EndReason::Integrator(finish), _) => *finish,
+/// Returns the reason for an end before the goal of a piece in time that ends at a state of the crank, if any.
+pub(super) fn reason(
+    pass: &PassSettings<'_>,
+    piece: &TimePiece,
+    at: MotionState,
+    curve: Option<&CurveProblem>,
+) -> Option<Why> {
+    let task = pass.task;
+    let finish = match (&piece.end, pass.extent) {
+        (EndReason::Done, Extent::Revolutions(turns)) if at.t >= UNLIMITED_TIME => {
+            return Some(Why::TurnsNeverComplete(turns));
+        }
         (EndReason::AtRest, Extent::Revolutions(turns)) => {
-            let theta = result.state.angle.radians();
+            let theta = at.angle.radians();
             let held_by = task.turns_fully().then(|| torques(task, theta));
             return Some(Why::AtRest { turns, held_by });
         }
+        (EndReason::Named(why), _) => return Some((**why).clone()),
+        (EndReason::Integrator(finish), _) => *finish,
         _ => return None,
     };
     Some(match finish {
         Finish::WorkLimit => task.limited(),
         Finish::WorkLimitAhead => Why::WorkLimitAhead,
         Finish::TooManyTurns => Why::TooManyTurns,
-        Finish::NoValue => no_value(task, result.singular_state.unwrap_or(result.state)),
-        _ => match &result.curve {
-            Some(curve) => singular_on_curve(task, &curve.equation, result),
-            None => singular(task, result),
+        Finish::NoValue => no_value(task, piece.singular_state.unwrap_or(at)),
+        _ => match curve {
+            Some(curve) => singular_on_curve(task, &curve.equation, piece),
+            None => singular(task, piece.singular_state.unwrap_or(at), at),
         },
     })
 }
 
-/// Returns the reason for steps in the crank angle that became too small.
-fn singular(task: &RunSetup<'_>, result: &PassResult) -> Why {
-    let at = result.singular_state.unwrap_or(result.state);
+/// Returns the reason for steps in the crank angle that became too small, with the last evaluation and the last state.
+fn singular(task: &RunSetup<'_>, at: MotionState, last: MotionState) -> Why {
     match task.equation().singularity(at.t, at.angle, at.speed) {
         Some(Singularity::Blocked) => Why::AtLimit,
         Some(Singularity::Load) => no_value(task, at),
         Some(Singularity::NoInertia) => Why::NoInertia,
         Some(Singularity::TooLarge) => Why::TooLarge,
-        None if task.inertia_is_below(1e-9, result.state.angle.rest) => Why::NearlyNoInertia,
+        None if task.inertia_is_below(1e-9, last.angle.rest) => Why::NearlyNoInertia,
         None => Why::Singular,
     }
 }
 
 /// Returns the reason for steps along the configuration curve that became too small.
-fn singular_on_curve(task: &RunSetup<'_>, curve: &CurveEquation, result: &PassResult) -> Why {
-    let singular_state = result.singular_state.filter(|at| {
+fn singular_on_curve(task: &RunSetup<'_>, curve: &CurveEquation, piece: &TimePiece) -> Why {
+    let singular_state = piece.singular_state.filter(|at| {
         !task
             .equation()
             .load(at.t, at.angle.radians(), at.speed)
             .is_finite()
     });
-    let stands = result.last_step.map(|last| last.end.theta);
-    match (singular_state, stands) {
-        (Some(at), _) => no_value(task, at),
-        (None, Some(q)) if curve.vanishes_at(q) => Why::NoInertiaOnCurve,
-        _ => Why::Singular,
+    match singular_state {
+        Some(at) => no_value(task, at),
+        None if curve.vanishes_at(piece.last.end.theta) => Why::NoInertiaOnCurve,
+        None => Why::Singular,
     }
 }
 
