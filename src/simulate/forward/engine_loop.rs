@@ -1,7 +1,6 @@
 //! Loop of a free motion: the engines of the plan take turns until the goal is met, and an observer takes their pieces.
 
 use std::borrow::Cow;
-use std::cell::OnceCell;
 
 use super::super::angle_model::AngleModel;
 use super::super::configuration_curve::{CurveProblem, StepObserver};
@@ -28,8 +27,6 @@ pub(super) struct PassSettings<'a> {
     pub time_settings: Settings<'a>,
     /// Crank rotation in one direction, rad, after which the angle engine resumes.
     pub resume_rotation: f64,
-    /// Configuration curve through the start, once a piece follows it, if there is one.
-    pub curve: OnceCell<Option<CurveProblem>>,
 }
 
 /// Reason for an engine, in words.

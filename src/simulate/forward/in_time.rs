@@ -21,16 +21,11 @@ impl Pass<'_, '_> {
         self.keep();
         let pass = self.settings;
         let from = self.result.state;
-        let is_followed = configuration_curve::is_followed(pass.task);
-        let curve = is_followed.then(|| {
-            let curve = pass
-                .curve
-                .get_or_init(|| CurveProblem::through_start(pass.task));
-            curve
-                .as_ref()
-                .ok_or_else(|| stop_reason::no_start(pass.task))
-        });
+        let no_start = || stop_reason::no_start(pass.task);
+        let curve = configuration_curve::is_followed(pass.task)
+            .then(|| CurveProblem::through_start(pass.task).ok_or_else(no_start));
         let curve = curve.transpose()?;
+        let curve = curve.as_ref();
         // Only a crank that turns fully changes engines, and the coordinate of its curve is the crank angle.
         let start = match curve {
             Some(curve) if !self.has_begun() => curve.start,
@@ -94,7 +89,7 @@ impl Pass<'_, '_> {
         }
         let is_start = result.pieces_over_angle == 0;
         if is_start && matches!(piece.end, EndReason::Integrator(Finish::NoStart)) {
-            return Err(stop_reason::no_start(pass.task));
+            return Err(no_start());
         }
         result.stopped = stop_reason::reason(pass, &piece, result.state, curve);
         Ok(PieceEnd::Ended)

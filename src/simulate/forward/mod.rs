@@ -9,7 +9,6 @@ mod over_angle;
 mod second_run_observer;
 mod stop_reason;
 
-use std::cell::OnceCell;
 use std::f64::consts::TAU;
 use std::time::Instant;
 
@@ -46,7 +45,6 @@ pub(super) fn run(
         resolution: over_angle::run_resolution(task),
         time_settings: task.settings(),
         resume_rotation: TAU,
-        curve: OnceCell::new(),
     };
     // Evaluations for rows and events are not counted: they do not change how far a run goes.
     let mut recorder = ForwardRecorder::new(task, rows);
