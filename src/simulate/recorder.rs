@@ -32,7 +32,7 @@ pub(super) struct Record {
     pub speed_range: (f64, f64),
     /// Dense motion; none without room for all of it.
     pub trajectory: Option<Trajectory>,
-    /// Configuration curve whose coordinate the whole motion has; none for the crank angle.
+    /// Configuration curve that the last piece in time followed, if it followed one.
     pub curve: Option<Arc<CurveEquation>>,
     /// Phases of the slider in its guide, where the motion was computed along a configuration curve.
     pub phases: Vec<PhaseInterval>,

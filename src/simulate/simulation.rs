@@ -19,7 +19,7 @@ pub struct Simulation {
     pub(super) work: Option<f64>,
     /// Maker of rows; none with a loose joint.
     pub(super) maker: Option<RowMaker>,
-    /// Configuration curve, if the whole run follows its coordinate.
+    /// Configuration curve of the phases; its coordinate is the crank angle if engines took turns.
     pub(super) curve: Option<Arc<CurveEquation>>,
     /// Intervals of motion along a configuration curve, in order.
     pub(super) phases: Vec<PhaseInterval>,
@@ -53,9 +53,7 @@ impl Simulation {
         let interval = interval.filter(|interval| interval.from <= t);
         let row = match interval {
             Some(interval) => {
-                let guide = maker.guide.as_deref().map(|guide| &guide.equation);
-                let equation = self.curve.as_deref().or(guide)?;
-                let phase = interval.phase;
+                let (equation, phase) = (self.curve.as_deref()?, interval.phase);
                 CurveMotion { equation, phase }.row(maker, t, angle, speed)
             }
             None => {

@@ -80,6 +80,29 @@ fn a_wheel_comes_to_rest_when_the_brake_has_taken_its_speed() {
     }
 }
 
+/// The crank turns over its angle first and comes to rest in time: there are rows and largest forces of both.
+#[test]
+fn a_braked_crank_has_forces_up_to_its_rest() {
+    let scene = wheel(0.01)
+        .slider(Slider { mass: 0.5 })
+        .torque(Load::dry(0.4))
+        .torque(Load::Viscous(1e-3))
+        .start(0.35, 20.0)
+        .duration(2.0);
+    let options = Options {
+        reactions: true,
+        ..Options::default()
+    };
+    let run = simulate(&scene, &options).expect("a run");
+    assert_eq!(run.summary.pieces.len(), 2, "{:?}", run.summary.pieces);
+    let peaks = run.summary.peaks.expect("the largest forces");
+    for t in [0.1, 0.5, 1.0, 2.0] {
+        let row = run.row(t).expect("a row");
+        let [x, y] = row.reactions.expect("forces").shaking;
+        assert!(x.hypot(y) <= peaks.shaking.value_n * (1.0 + 1e-9), "{t}");
+    }
+}
+
 /// Under 2 sin 3t the band of 1 N m holds until sin 3t = 1/2; the motion after that is elementary.
 #[test]
 fn a_torque_in_time_tears_it_loose_at_the_edge_of_the_band() {

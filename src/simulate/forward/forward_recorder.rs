@@ -68,7 +68,7 @@ impl<'a> ForwardRecorder<'a> {
     pub fn finish(self, result: &PassResult) -> Result<Record, Error> {
         let MotionState { t, angle, speed } = result.state;
         let ForwardRecorder { task, phase, .. } = self;
-        self.recorder.finish(|| {
+        let mut record = self.recorder.finish(|| {
             Some(match (result.last_step, &result.curve) {
                 (Some(last), Some(curve)) => {
                     let equation = &*curve.equation;
@@ -78,7 +78,9 @@ impl<'a> ForwardRecorder<'a> {
                 }
                 _ => task.maker.row(t, angle, speed, None),
             })
-        })
+        })?;
+        record.curve = self.curve;
+        Ok(record)
     }
 
     /// Records a step of the crank; true ends the run.

@@ -116,8 +116,7 @@ fn with_motion(mut record: Record, result: PassResult) -> Record {
     }
     if let Some(CurveProblem { equation, .. }) = result.curve {
         let motion = record.trajectory;
-        record.trajectory = motion.map(|motion| motion.mapped_to_crank(equation.clone()));
-        record.curve = Some(equation);
+        record.trajectory = motion.map(|motion| motion.mapped_to_crank(equation));
     }
     record
 }
