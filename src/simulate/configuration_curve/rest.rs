@@ -1,4 +1,5 @@
-//! Transitions between motion and rest, release by loads in time, and jamming, where rigid bodies leave the motion undetermined.
+//! Transitions between motion and rest, release by loads in time, and jamming, where rigid bodies leave the motion
+//! undetermined.
 
 use super::super::coordinate::Coordinate;
 use super::super::guide_friction::NEARBY_ANGLE;

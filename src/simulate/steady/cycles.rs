@@ -191,7 +191,7 @@ impl<'a> CycleMap<'a> {
         self.energy(self.task.speed)
     }
 
-    /// Returns the energy gained by the cycle that begins with a kinetic energy, J; none if the crank does not complete it.
+    /// Returns the energy gained by the cycle that begins with a kinetic energy, J; none if it is not completed.
     pub fn gain(&mut self, kinetic: f64) -> Result<Option<f64>, Error> {
         let run = self.run(kinetic, false)?;
         Ok(run.map(|run| self.gained(&run)))
