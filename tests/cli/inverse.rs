@@ -503,6 +503,25 @@ fn figures_show_the_bulk_of_the_forces_and_those_of_the_paper() {
     assert!(duarte.contains("(9) as printed") && !duarte.contains("cut off"));
 }
 
+#[test]
+fn figures_of_a_measured_speed_have_its_name_and_unit() {
+    let row = |i: u32| {
+        format!(
+            "{},{}",
+            f64::from(i) / 100.0,
+            20.0 + (f64::from(i) / 9.0).sin()
+        )
+    };
+    let rows: Vec<String> = (0..100).map(row).collect();
+    let folder = folder(&data("t [s],omega [rad/s]", &rows));
+    let arguments = ["inverse", "scene.toml", "data.csv", "--plot", "speed.svg"];
+    folder.run(&arguments).done();
+    let figure = folder.read("speed.svg");
+    for words in ["crank speed ω [rad/s]", "measured minus fitted [rad/s]"] {
+        assert!(figure.contains(words), "{words}");
+    }
+}
+
 /// All figures share one time axis, even if the last samples, at a dead centre, have no force.
 #[test]
 fn figures_of_a_motion_that_ends_at_a_dead_centre_have_the_same_time() {

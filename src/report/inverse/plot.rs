@@ -1,6 +1,7 @@
 //! Figures of `inverse`: data and fit, residuals, slider force and crank torque with their bands.
 
 use super::InverseReport;
+use super::rows::unit_in_names;
 use crate::error::Error;
 use crate::figure::{Axis, Figure, sheet};
 use crate::inverse::{Inverse, Residual};
@@ -37,7 +38,7 @@ fn samples(result: &Inverse) -> [Figure; 2] {
         unit,
         factor,
         ..
-    } = Quantity::of(&format!("{}_{}", data.column, data.unit));
+    } = Quantity::of(&format!("{}_{}", data.column, unit_in_names(data)));
     let points = |stride, value: fn(&Residual) -> f64| {
         let samples = result.residuals.iter().step_by(stride);
         samples.map(|s| (s.t, value(s) * factor)).collect()

@@ -2,7 +2,7 @@
 
 use super::{plot, text};
 use crate::error::Error;
-use crate::inverse::{AsPrinted, CycleMean, Inverse, InverseRow};
+use crate::inverse::{AsPrinted, CycleMean, DataSummary, Inverse, InverseRow};
 use crate::report::curves::View;
 use crate::report::rows::{MOST_PLOT_ROWS, REACTIONS, reactions};
 use crate::report::{DefaultView, Facts, Output, Report, Table};
@@ -71,11 +71,8 @@ impl Report for InverseReport<'_> {
 /// Returns every `stride`-th row, with measured values and residuals for pictures and pages.
 fn rows(result: &Inverse, printed: Option<&AsPrinted>, stride: usize) -> Table {
     let data = &result.summary.data;
-    let measured = format!(
-        "{}_measured_{unit},residual_{unit}",
-        data.column,
-        unit = data.unit.replace('/', "_per_")
-    );
+    let unit = unit_in_names(data);
+    let measured = format!("{}_measured_{unit},residual_{unit}", data.column);
     let mut columns = vec![COLUMNS];
     columns.extend(result.with_reactions().then_some(REACTIONS));
     columns.extend(printed.map(|_| PRINTED));
@@ -122,10 +119,15 @@ pub fn mean_cycle_table(result: &Inverse) -> Table {
     Table::filled(MEANS, rows)
 }
 
+/// Returns the unit of the measured values as the names of columns have it.
+pub(super) fn unit_in_names(data: &DataSummary) -> String {
+    data.unit.replace('/', "_per_")
+}
+
 /// Returns measured values, fitted values and residuals as a table.
 pub fn residual_table(result: &Inverse) -> Table {
     let data = &result.summary.data;
-    let (name, unit) = (data.column, data.unit.replace('/', "_per_"));
+    let (name, unit) = (data.column, unit_in_names(data));
     let rows = result.residuals.iter().map(|row| {
         let fitted = row.measured - row.residual;
         [row.t, row.measured, fitted, row.residual]
