@@ -55,57 +55,72 @@ impl<'a> Given<'a> {
             |found: &BesideTones<'_>| found.problem.finer(&found.smoothed, &found.kinematic);
         let of = |most| self.beside(&[], most, None, suspected);
         let (mut best, most) = by_means(self.measurement.len(), of, finer);
+        // A bound of the work, for a record of many lines.
+        while best.problem.record.tones.len() < 4 {
+            let Some(next) = self.with_another_tone(&mut best, most, suspected) else {
+                break;
+            };
+            best = next;
+        }
+        best
+    }
+
+    /// The likeliest motion beside another tone; none if the samples do not tell one that gains what it costs.
+    fn with_another_tone(
+        &self,
+        best: &mut BesideTones<'a>,
+        most: usize,
+        suspected: bool,
+    ) -> Option<BesideTones<'a>> {
         // An encoder errs by no more than a count.
         let carriers = match self.measurement.is_counted() {
             true => &[Carrier::Torque][..],
             false => &[Carrier::Sensor, Carrier::Torque],
         };
-        // A bound of the work, for a record of many lines.
-        while best.problem.record.tones.len() < 4 {
-            let known = &best.problem.record.tones;
-            let Some(mut found) = best.problem.another_tone(&best.smoothed) else {
-                break;
-            };
-            found.retain(|one| carriers.contains(&one.tone.carrier));
-            found.sort_by(|a, b| b.log_probability.total_cmp(&a.log_probability));
-            let Some(first) = found.first() else { break };
-            let other = found.get(1);
-            let mut log_odds = other.map_or(f64::INFINITY, |other| first.log_odds_to(other));
-            let near = &best.smoothed;
-            let with = |tone| {
-                let tones = known.iter().copied().chain([tone]).collect();
-                let found = self.refined(tones, most, near, suspected);
-                let rival = found.problem.rival(&found.smoothed);
-                let rival = rival.filter(|rival| carriers.contains(&rival.tone.carrier));
-                (found, rival)
-            };
-            let (mut next, mut rival) = with(first.tone);
-            if let Some(likelier) = rival.take_if(|rival| rival.log_odds < 0.0) {
-                log_odds = -likelier.log_odds;
-                (next, rival) = with(likelier.tone);
+        let mut found = best.problem.another_tone(&best.smoothed)?;
+        found.retain(|one| carriers.contains(&one.tone.carrier));
+        found.sort_by(|a, b| b.log_probability.total_cmp(&a.log_probability));
+        let first = found.first()?;
+        let other = found.get(1);
+        let mut log_odds = other.map_or(f64::INFINITY, |other| first.log_odds_to(other));
+        let known = &best.problem.record.tones;
+        let near = &best.smoothed;
+        let with = |tone| {
+            let tones = known.iter().copied().chain([tone]).collect();
+            let found = self.refined(tones, most, near, suspected);
+            let rival = found.problem.rival(&found.smoothed);
+            let rival = rival.filter(|rival| carriers.contains(&rival.tone.carrier));
+            (found, rival)
+        };
+        let (mut next, mut rival) = with(first.tone);
+        if let Some(other) = rival.as_ref().filter(|rival| rival.log_odds < 0.0) {
+            let swapped = with(other.tone);
+            // About its own motion the other has to be likelier, too.
+            if swapped.1.as_ref().is_none_or(|back| back.log_odds > 0.0) {
+                log_odds = -other.log_odds;
+                (next, rival) = swapped;
             }
-            if next.likelihood() <= best.likelihood() + best.problem.cost_of_tone() {
-                break;
-            }
-            // The odds are no larger than each of two comparisons finds.
-            let rival = rival.map(|rival| Rival {
-                log_odds: rival.log_odds.min(log_odds).max(0.0),
-                ..rival
-            });
-            if let Some(tone) = next.problem.record.tones.last_mut() {
-                tone.log_odds = rival.as_ref().map(|rival| rival.log_odds);
-            }
-            let counting = rival.filter(|rival| selection::counts(rival.log_odds));
-            let other = counting.map(|Rival { tone, log_odds }| Less {
-                motion: Box::new(with(tone).0),
-                log_odds,
-            });
-            let other = other.filter(|other| other.motion.likelihood().is_finite());
-            let rivals = best.rival.take().into_iter().chain(other);
-            next.rival = rivals.min_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
-            best = next;
         }
-        best
+        if next.likelihood() <= best.likelihood() + best.problem.cost_of_tone() {
+            return None;
+        }
+        // The odds are no larger than each of two comparisons finds.
+        let rival = rival.map(|rival| Rival {
+            log_odds: rival.log_odds.min(log_odds).max(0.0),
+            ..rival
+        });
+        if let Some(tone) = next.problem.record.tones.last_mut() {
+            tone.log_odds = rival.as_ref().map(|rival| rival.log_odds);
+        }
+        let counting = rival.filter(|rival| selection::counts(rival.log_odds));
+        let other = counting.map(|Rival { tone, log_odds }| Less {
+            motion: Box::new(with(tone).0),
+            log_odds,
+        });
+        let other = other.filter(|other| other.motion.likelihood().is_finite());
+        let rivals = best.rival.take().into_iter().chain(other);
+        next.rival = rivals.min_by(|a, b| a.log_odds.total_cmp(&b.log_odds));
+        Some(next)
     }
 
     /// The likeliest motion beside tones that are corrected about it until they come to rest.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::super::grid::LONG;
 use super::super::likelihood::Linear;
+use super::super::measurement_model::Shown;
 use super::super::model::prior::{TORQUE, Unknown};
 use super::super::model::state_space::Stretch;
 use super::super::model::tone::{Carrier, Tone};
@@ -67,30 +68,33 @@ impl Problem<'_> {
             return None;
         }
         // A wave of the angle shows with the sensor's slope.
-        let errors_of = |carrier: Carrier| {
+        let slopes: [fn(&Shown) -> f64; 2] = [|_| 1.0, |shown| shown.slope];
+        let lists = slopes.map(|slope| {
             let nodes = self.grid.times.iter().zip(&smoothed.estimates);
             let errors = nodes.map(|(t, estimate)| {
-                let slope = match carrier {
-                    Carrier::Sensor => 1.0,
-                    Carrier::Torque => record.sensor.shown(estimate.turning()).slope,
-                };
-                [*t, slope * estimate.innovation]
+                let shown = record.sensor.shown(estimate.turning());
+                [*t, slope(&shown) * estimate.innovation]
             });
-            Vec::from_iter(errors.filter(|[_, error]| error.is_finite()))
-        };
-        let carriers = [Carrier::Sensor, Carrier::Torque].map(|carrier| {
-            let errors = errors_of(carrier);
-            (carrier, lines(&errors, MOST_NODES), errors)
+            let errors = Vec::from_iter(errors.filter(|[_, error]| error.is_finite()));
+            (lines(&errors, MOST_NODES), errors)
         });
-        let most = carriers.iter().map(|(_, lines, _)| lines.len()).max();
+        let most = lists.iter().map(|(lines, _)| lines.len()).max();
         let most = most.filter(|most| *most > 0)?;
         let known = self.beside_known(smoothed);
         let least = known.noise.likelihood + self.cost_of_tone();
         let at = |k: usize| {
-            let found = carriers.iter().filter_map(|(carrier, lines, errors)| {
-                known.likeliest(*carrier, lines.get(k)?.highest(errors))
-            });
-            let found = Vec::from_iter(found);
+            let places = lists.iter();
+            let places = places.filter_map(|(lines, errors)| Some(lines.get(k)?.highest(errors)));
+            let mut places = Vec::from_iter(places);
+            places.dedup();
+            let likeliest = |carrier| {
+                let found = places
+                    .iter()
+                    .filter_map(|near| known.likeliest(carrier, *near));
+                found.max_by(|(_, a), (_, b)| a.likelihood.total_cmp(&b.likelihood))
+            };
+            let carriers = [Carrier::Sensor, Carrier::Torque].into_iter();
+            let found = Vec::from_iter(carriers.filter_map(likeliest));
             let gains = found.iter().any(|(_, noise)| noise.likelihood > least);
             let with = |(tone, noise)| Probable::new(tone, &noise, self, smoothed);
             gains.then(|| found.into_iter().map(with).collect())
