@@ -138,7 +138,8 @@ impl Fitted {
             ..Fitted::of_smoother(given, &problem, &smoothed)
         };
         Ok(match rival {
-            Some((motion, log_odds)) => fitted.beside(motion, log_odds),
+            // A band in which both count alike reaches beyond the less probable one.
+            Some(motion) => fitted.beside(motion, 0.0),
             None => fitted,
         })
     }

@@ -12,7 +12,6 @@ use super::super::samples::Given;
 use super::super::selection;
 use super::super::smoother::Smoothed;
 use super::search::{Corrected, Rival};
-use crate::numeric::student;
 
 /// A record beside its tones, with its motion without mechanics and the likeliest one.
 pub(in crate::inverse) struct BesideTones<'a> {
@@ -35,16 +34,11 @@ impl BesideTones<'_> {
         self.smoothed.noise.likelihood
     }
 
-    /// Takes the motion of the rival at times, s, if this one alone has less than 95 % of the probability, with ln of the odds to it,
-    /// at most those of a motion at the end of a 95 % band: a band of both reaches it.
-    pub fn take_rival(&mut self, times: &[f64]) -> Option<(Vec<MotionEstimate>, f64)> {
-        let Less { motion, log_odds } = self.rival.take()?;
-        selection::counts(log_odds).then(|| {
-            let smoothed = motion.problem.averaged(motion.smoothed);
-            let reach = student::half_band(f64::INFINITY);
-            let log_odds = log_odds.min((reach * reach - 1.0).ln());
-            (motion.problem.motion_at(&smoothed, times), log_odds)
-        })
+    /// Takes the motion of the rival at times, s.
+    pub fn take_rival(&mut self, times: &[f64]) -> Option<Vec<MotionEstimate>> {
+        let Less { motion, .. } = self.rival.take()?;
+        let smoothed = motion.problem.averaged(motion.smoothed);
+        Some(motion.problem.motion_at(&smoothed, times))
     }
 }
 
